@@ -1,0 +1,36 @@
+# Flags that every target of Plumb is built with: plumb::options (private, never exported).
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/bin")
+set(CMAKE_LIBRARY_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+set(CMAKE_ARCHIVE_OUTPUT_DIRECTORY "${CMAKE_BINARY_DIR}/lib")
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+add_library(plumb_options INTERFACE)
+# Same bits everywhere: a multiply and an add are never fused, whatever the instruction set.
+target_compile_options(plumb_options INTERFACE -ffp-contract=off -Wall -Wextra -Wpedantic -Wshadow
+  $<$<BOOL:${PLUMB_WARNINGS_AS_ERRORS}>:-Werror>)
+target_compile_definitions(plumb_options INTERFACE EIGEN_MPL2_ONLY)
+
+set(PLUMB_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined or thread")
+if(PLUMB_SANITIZE)
+  target_compile_options(plumb_options INTERFACE -fsanitize=${PLUMB_SANITIZE} -fno-omit-frame-pointer)
+  target_link_options(plumb_options INTERFACE -fsanitize=${PLUMB_SANITIZE})
+endif()
+option(PLUMB_COVERAGE "Instrument for gcov" OFF)
+if(PLUMB_COVERAGE)
+  target_compile_options(plumb_options INTERFACE --coverage)
+  target_link_options(plumb_options INTERFACE --coverage)
+endif()

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+/// Shapes as the user wrote them: values that own their memory.
+#pragma once
+
+#include <plumb/shape.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+/// Rotation and translation, local frame → outer frame.
+struct Placement {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
+    Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
+};
+
+struct GeometryPart;
+
+/// One shape; the members mean what they mean in plumb::Shape. Shared by all bodies that name it.
+struct Geometry {
+    std::string name;
+    ShapeKind kind = ShapeKind::sphere;
+    Eigen::Vector3d half_extents = Eigen::Vector3d::Zero();  ///< [m]
+    double radius = 0;                                       ///< [m]
+    double half_height = 0;                                  ///< [m]
+
+    std::vector<Eigen::Vector3d> vertices;              ///< hull, mesh [m]
+    std::vector<std::vector<std::uint32_t>> faces;      ///< hull: convex polygons, counter-clockwise from outside
+    std::vector<std::array<std::uint32_t, 3>> triangles;  ///< mesh
+
+    std::vector<double> heights;  ///< height field, [rows × columns] [m]
+    std::uint32_t rows = 0, columns = 0;
+    double spacing_x = 0, spacing_z = 0;  ///< [m]
+
+    std::vector<GeometryPart> parts;  ///< compound
+};
+
+struct GeometryPart {
+    Geometry geometry;
+    Placement local;
+};
+
+}  // namespace plumb
