@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/// What a run hands to whoever watches it: the bodies at one moment, and a few numbers about the step.
+#pragma once
+
+#include "scene/geometry.h"
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+/// One body at one moment, world frame.
+struct BodyState {
+    Placement placement;              ///< of the geometry's frame, not of the centre of mass
+    Eigen::Vector3d velocity;         ///< of the centre of mass [m/s]
+    Eigen::Vector3d angular_velocity;  ///< [rad/s]
+};
+
+struct Frame {
+    std::uint64_t step = 0;
+    double time = 0;                 ///< [s]
+    std::vector<BodyState> bodies;   ///< [body], in the order of Scene::bodies
+    std::uint32_t contacts = 0;      ///< contact points
+    double kinetic_energy = 0;       ///< [J]
+    double potential_energy = 0;     ///< of gravity, against the origin [J]
+    double deepest_penetration = 0;  ///< [m], ≥ 0
+};
+
+}  // namespace plumb
