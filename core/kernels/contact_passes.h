@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+/// The loops behind the contact kernels. Included by the units of each instruction set and by nothing else.
+///
+/// A block's bodies are gathered once, its points are solved one after another, and the bodies are written back.
+#pragma once
+
+#include "constraints/contact.h"
+#include "constraints/friction.h"
+#include "constraints/rolling.h"
+#include "kernels/contact_kernels.h"
+#include "kernels/gather.h"
+
+namespace plumb::kernels {
+
+template <class T>
+struct PairVelocity {
+    Velocity<T> a, b;
+};
+template <class T>
+struct PairMass {
+    InverseMass<T> a, b;
+};
+
+template <class Real, int W, class T = Number<Real, W>>
+inline Symmetric3<T> load_symmetric(const Real (&m)[6][W]) {
+    return {load(m[0]), load(m[1]), load(m[2]), load(m[3]), load(m[4]), load(m[5])};
+}
+
+template <class Real, int W, class T = Number<Real, W>>
+inline PairMass<T> load_masses(const PairBlock<Real, W>& block) {
+    return {{load(block.inverse_mass_a), load_symmetric(block.inverse_inertia_a)},
+            {load(block.inverse_mass_b), load_symmetric(block.inverse_inertia_b)}};
+}
+
+template <class Real, int W, class T = Number<Real, W>>
+inline PairVelocity<T> read_pair(const Real* rows, const PairBlock<Real, W>& block) {
+    return {read_velocities<Real, W>(rows, block.row_a), read_velocities<Real, W>(rows, block.row_b)};
+}
+
+template <class Real, int W, class T = Number<Real, W>>
+inline void write_pair(const BodyRows<Real>& bodies, const PairBlock<Real, W>& block, const PairVelocity<T>& pair) {
+    write_velocities<Real, W>(bodies.change, block.row_a, bodies.dynamic_count, pair.a);
+    write_velocities<Real, W>(bodies.change, block.row_b, bodies.dynamic_count, pair.b);
+}
+
+/// Opposite impulses at one common point.
+template <class T>
+inline void apply(PairVelocity<T>& pair, const PairMass<T>& mass, const Vector3<T>& r_a, const Vector3<T>& r_b,
+                  const Vector3<T>& impulse) {
+    apply_impulse<T>(pair.a, mass.a, r_a, impulse);
+    apply_impulse<T>(pair.b, mass.b, r_b, -impulse);
+}
+
+/// 1/x, and 0 where x is 0 (both bodies immovable, or an empty lane).
+template <class T>
+inline T inverse_or_zero(const T& x) {
+    return select_greater(x, T(1e-30), T(1) / max(x, T(1e-30)), T(0));
+}
+
+template <class T>
+struct Tangents {
+    Vector3<T> x, y;
+};
+
+template <class Real, int W, class T = Number<Real, W>>
+inline Tangents<T> load_tangents(const FrictionRow<Real, W>& row, const Vector3<T>& n) {
+    const Vector3<T> t = load_vector(row.tangent);
+    return {t, cross<T>(n, t)};
+}
+
+// ---- once a step
+
+template <class Real, int W, ContactVariant V>
+void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const PassSettings<Real>&,
+             std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const PairBlock<Real, W>& block = arrays.blocks[i];
+        const PairMass<T> mass = load_masses(block);
+        for (std::uint32_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
+            NormalRow<Real, W>& row = arrays.normals[k];
+            const Vector3<T> n = load_vector(row.normal), r_a = load_vector(row.arm_a), r_b = load_vector(row.arm_b);
+            auto k_of = [&](const Vector3<T>& d, const Vector3<T>& e) {
+                return response<T>(mass.a, r_a, d, e) + response<T>(mass.b, r_b, d, e);
+            };
+            store(row.effective_mass, inverse_or_zero<T>(k_of(n, n)));
+            if constexpr (V != ContactVariant::frictionless) {
+                FrictionRow<Real, W>& across = arrays.frictions[k];
+                const Vector3<T> x = tangent_of<T>(n), y = cross<T>(n, x);
+                const T xx = k_of(x, x), xy = k_of(x, y), yy = k_of(y, y);
+                const T inverse = inverse_or_zero<T>(xx * yy - xy * xy);
+                store_vector(across.tangent, x);
+                store(across.block_xx, T(yy * inverse));
+                store(across.block_xy, T(-xy * inverse));
+                store(across.block_yy, T(xx * inverse));
+                store(across.coupling_x, k_of(x, n));
+                store(across.coupling_y, k_of(y, n));
+                if constexpr (V == ContactVariant::turning) {
+                    TurningRow<Real, W>& turning = arrays.turnings[k];
+                    store(turning.inertia_x, inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, x)));
+                    store(turning.inertia_y, inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, y)));
+                    store(turning.inertia_n, inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, n)));
+                }
+            }
+        }
+    }
+}
+
+// ---- once a substep
+
+template <class Real, int W, ContactVariant V>
+void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>&,
+           std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const PairBlock<Real, W>& block = arrays.blocks[i];
+        const PairVelocity<T> pair = read_pair(bodies.start, block);
+        for (std::uint32_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
+            NormalRow<Real, W>& row = arrays.normals[k];
+            const Vector3<T> n = load_vector(row.normal);
+            const Vector3<T> u =
+                velocity_at<T>(pair.a, load_vector(row.arm_a)) - velocity_at<T>(pair.b, load_vector(row.arm_b));
+            store(row.velocity, dot<T>(n, u));
+            if constexpr (V != ContactVariant::frictionless) {
+                FrictionRow<Real, W>& across = arrays.frictions[k];
+                const Tangents<T> t = load_tangents(across, n);
+                store(across.velocity_x, T(dot<T>(t.x, u) + load(across.drift_x)));
+                store(across.velocity_y, T(dot<T>(t.y, u) + load(across.drift_y)));
+                if constexpr (V == ContactVariant::turning) {
+                    TurningRow<Real, W>& turning = arrays.turnings[k];
+                    const Vector3<T> w = pair.a.w - pair.b.w;
+                    store(turning.rate_x, dot<T>(t.x, w));
+                    store(turning.rate_y, dot<T>(t.y, w));
+                    store(turning.rate_n, dot<T>(n, w));
+                }
+            }
+        }
+    }
+}
+
+template <class Real, int W, ContactVariant V>
+void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>&,
+                std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const PairBlock<Real, W>& block = arrays.blocks[i];
+        const PairMass<T> mass = load_masses(block);
+        PairVelocity<T> pair = read_pair<Real, W>(bodies.change, block);
+        for (std::uint32_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
+            const NormalRow<Real, W>& row = arrays.normals[k];
+            const Vector3<T> n = load_vector(row.normal);
+            Vector3<T> impulse = n * load(row.lambda_velocity);
+            if constexpr (V != ContactVariant::frictionless) {
+                const FrictionRow<Real, W>& across = arrays.frictions[k];
+                const Tangents<T> t = load_tangents(across, n);
+                impulse += t.x * load(across.held_x) + t.y * load(across.held_y);
+            }
+            apply<T>(pair, mass, load_vector(row.arm_a), load_vector(row.arm_b), impulse);
+        }
+        write_pair(bodies, block, pair);
+    }
+}
+
+// ---- iterations
+
+/// Which unknown a pass solves for, and so which sums it adds to.
+enum class Pass { velocity, position };
+
+/// Velocity along n that this iteration shall reach [m/s], given the velocity u now.
+template <Pass P, class Real, int W, class T = Number<Real, W>>
+inline T wanted_velocity(const NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
+    const T gap = load(row.gap), h(pass.h);
+    if constexpr (P == Pass::velocity) {
+        // a separated contact may close by gap/h, no more; a collision rebounds
+        return max(load(row.rebound), -max(gap, T(0)) / h);
+    } else {
+        const T left = overlap_left<T>(gap, T(pass.recovery));
+        const T c = (gap + h * u) - left;
+        const T d = min(gap, T(0)) - left;
+        return u - gap_to_solve<T>(c, d, load(row.stiffness)) / h;
+    }
+}
+
+/// Friction of one point: returns its impulse and tells in `u_n` what that does along n.
+template <Pass P, class Real, int W, class T = Number<Real, W>>
+inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& normal, const Vector3<T>& n,
+                          const Vector3<T>& u, const PassSettings<Real>& pass, T& u_n) {
+    const Tangents<T> t = load_tangents(row, n);
+    const Planar<T> velocity{load(row.velocity_x) + dot<T>(t.x, u), load(row.velocity_y) + dot<T>(t.y, u)};
+    const PlanarBlock<T> block{load(row.block_xx), load(row.block_xy), load(row.block_yy)};
+    const T push_velocity = load(normal.lambda_velocity), push_position = load(normal.lambda_position);
+
+    Planar<T> change;
+    Planar<T> held{load(row.held_x), load(row.held_y)};
+    if constexpr (P == Pass::velocity) {
+        const T bound = load(row.friction) * push_velocity;
+        change = rub<T>(held, {T(0), T(0)}, velocity, block, bound);
+        store(row.held_x, held.x);
+        store(row.held_y, held.y);
+    } else {
+        Planar<T> rubbed{load(row.rubbed_x), load(row.rubbed_y)};
+        const T push = pass.shared_cone ? push_velocity + push_position : push_position;
+        if (!pass.shared_cone) held = {T(0), T(0)};
+        change = rub<T>(rubbed, held, velocity, block, T(load(row.friction) * push));
+        store(row.rubbed_x, rubbed.x);
+        store(row.rubbed_y, rubbed.y);
+    }
+    u_n = u_n + (load(row.coupling_x) * change.x + load(row.coupling_y) * change.y);
+    return t.x * change.x + t.y * change.y;
+}
+
+/// Rolling and spinning friction of one point: torques, applied at once.
+template <class Real, int W, class T = Number<Real, W>>
+inline void resist_turning(TurningRow<Real, W>& row, const NormalRow<Real, W>& normal, const FrictionRow<Real, W>& across,
+                           const Vector3<T>& n, PairVelocity<T>& pair, const PairMass<T>& mass) {
+    const Tangents<T> t = load_tangents(across, n);
+    const Vector3<T> w = pair.a.w - pair.b.w;
+    const T push = load(normal.lambda_velocity) + load(normal.lambda_position);
+    const T rolling = load(row.rolling) * push, spinning = load(row.spinning) * push;
+    auto resist = [&](Real(&torque)[W], const Real(&rate)[W], const Real(&inertia)[W], const Vector3<T>& axis,
+                      const T& bound) {
+        T sum = load(torque);
+        const T change = resist_spin<T>(sum, load(rate) + dot<T>(axis, w), load(inertia), bound);
+        store(torque, sum);
+        return Vector3<T>(axis * change);
+    };
+    const Vector3<T> torque = resist(row.torque_x, row.rate_x, row.inertia_x, t.x, rolling) +
+                              resist(row.torque_y, row.rate_y, row.inertia_y, t.y, rolling) +
+                              resist(row.torque_n, row.rate_n, row.inertia_n, n, spinning);
+    apply_torque<T>(pair.a, mass.a, torque);
+    apply_torque<T>(pair.b, mass.b, -torque);
+}
+
+template <Pass P, class Real, int W, ContactVariant V, class T = Number<Real, W>>
+inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, PairVelocity<T>& pair,
+                      const PairMass<T>& mass, const PassSettings<Real>& pass) {
+    NormalRow<Real, W>& row = arrays.normals[k];
+    const Vector3<T> n = load_vector(row.normal), r_a = load_vector(row.arm_a), r_b = load_vector(row.arm_b);
+    if constexpr (V == ContactVariant::turning)
+        resist_turning<Real, W>(arrays.turnings[k], row, arrays.frictions[k], n, pair, mass);
+
+    const Vector3<T> u = velocity_at<T>(pair.a, r_a) - velocity_at<T>(pair.b, r_b);
+    T u_n = load(row.velocity) + dot<T>(n, u);
+    Vector3<T> impulse(T(0), T(0), T(0));
+    if constexpr (V != ContactVariant::frictionless)
+        impulse = rub_row<P, Real, W>(arrays.frictions[k], row, n, u, pass, u_n);
+
+    auto& sum = P == Pass::velocity ? row.lambda_velocity : row.lambda_position;
+    T lambda = load(sum);
+    const T wanted = wanted_velocity<P, Real, W>(row, pass, u_n);
+    impulse += n * push<T>(lambda, u_n, wanted, load(row.effective_mass));
+    store(sum, lambda);
+    apply<T>(pair, mass, r_a, r_b, impulse);
+}
+
+template <Pass P, class Real, int W, ContactVariant V>
+void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+           std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const PairBlock<Real, W>& block = arrays.blocks[i];
+        const PairMass<T> mass = load_masses(block);
+        PairVelocity<T> pair = read_pair<Real, W>(bodies.change, block);
+        for (std::uint32_t j = 0; j < block.row_count; ++j) {
+            const std::uint32_t k = pass.forwards ? j : block.row_count - 1 - j;
+            solve_row<P, Real, W, V>(arrays, block.first_row + k, pair, mass, pass);
+        }
+        write_pair(bodies, block, pair);
+    }
+}
+
+template <class Real, int W, ContactVariant V>
+constexpr ContactKernels<Real, W> kernels_of() {
+    return {prepare<Real, W, V>, begin<Real, W, V>, warm_start<Real, W, V>, solve<Pass::velocity, Real, W, V>,
+            solve<Pass::position, Real, W, V>};
+}
+
+/// All variants of one precision and width, indexed by ContactVariant.
+template <class Real, int W>
+inline constexpr ContactKernels<Real, W> kVariants[kContactVariants] = {
+    kernels_of<Real, W, ContactVariant::frictionless>(), kernels_of<Real, W, ContactVariant::friction>(),
+    kernels_of<Real, W, ContactVariant::turning>()};
+
+}  // namespace plumb::kernels

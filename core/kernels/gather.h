@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+/// Rows of bodies into lanes and back.
+///
+/// A body's row has eight numbers; W rows are read whole and transposed in registers.
+#pragma once
+
+#include "constraints/connector.h"
+#include "math/lanes.h"
+#include "schedule/contact_rows.h"
+
+#include <utility>
+
+namespace plumb::kernels {
+
+/// One exchange of a transposition: blocks of D elements cross over between two registers.
+template <int D, bool Upper, class Register, std::size_t... K>
+inline Register exchange(Register a, Register b, std::index_sequence<K...>) {
+    constexpr int n = sizeof...(K);
+    if constexpr (Upper) return __builtin_shufflevector(a, b, (K & D ? n + int(K) : int(K) + D)...);
+    else return __builtin_shufflevector(a, b, (K & D ? n + int(K) - D : int(K))...);
+}
+
+/// Transposes the first Rows × Rows elements (and, in wider registers, each further group of Rows alike).
+template <int Rows, class Register, int D = 1>
+inline void transpose(Register (&m)[Rows]) {
+    if constexpr (D < Rows) {
+        constexpr std::size_t n = sizeof(Register) / sizeof(m[0][0]);
+        for (int i = 0; i < Rows; ++i) {
+            if (i & D) continue;
+            const Register a = m[i], b = m[i + D];
+            m[i] = exchange<D, false>(a, b, std::make_index_sequence<n>());
+            m[i + D] = exchange<D, true>(a, b, std::make_index_sequence<n>());
+        }
+        transpose<Rows, Register, 2 * D>(m);
+    }
+}
+
+template <class Register, class Real>
+inline Register load_register(const Real* from) {
+    Register r;
+    __builtin_memcpy(&r, from, sizeof r);
+    return r;
+}
+template <class Register, class Real>
+inline void store_register(Real* to, const Register& r) {
+    __builtin_memcpy(to, &r, sizeof r);
+}
+
+/// Eight components of W bodies: component c of lane i.
+template <class Real, int W>
+struct RowLanes {
+    Lanes<Real, W> component[kBodyRowSize];
+};
+
+template <class Real, int W>
+inline void read_rows(const Real* rows, const std::int32_t* index, RowLanes<Real, W>& out) {
+    using L = Lanes<Real, W>;
+    using Register = typename L::Register;
+    constexpr int n = L::kPart;
+    for (int part = 0; part < L::kParts; ++part) {
+        const std::int32_t* at = index + part * n;
+        if constexpr (n <= kBodyRowSize) {
+            for (int chunk = 0; chunk < kBodyRowSize / n; ++chunk) {
+                Register m[n];
+                for (int i = 0; i < n; ++i)
+                    m[i] = load_register<Register>(rows + at[i] * kBodyRowSize + chunk * n);
+                transpose<n>(m);
+                for (int i = 0; i < n; ++i) out.component[chunk * n + i].part[part] = m[i];
+            }
+        } else {  // two rows to a register
+            Register m[kBodyRowSize];
+            for (int i = 0; i < kBodyRowSize; ++i) {
+                Real* half = reinterpret_cast<Real*>(&m[i]);
+                __builtin_memcpy(half, rows + at[i] * kBodyRowSize, kBodyRowSize * sizeof(Real));
+                __builtin_memcpy(half + kBodyRowSize, rows + at[i + kBodyRowSize] * kBodyRowSize,
+                                 kBodyRowSize * sizeof(Real));
+            }
+            transpose<kBodyRowSize>(m);
+            for (int c = 0; c < kBodyRowSize; ++c) out.component[c].part[part] = m[c];
+        }
+    }
+}
+
+/// Writes the rows of dynamic bodies only, so that no two threads ever write one row.
+template <class Real, int W>
+inline void write_rows(Real* rows, const std::int32_t* index, std::int32_t dynamic_count,
+                       const RowLanes<Real, W>& in) {
+    using L = Lanes<Real, W>;
+    using Register = typename L::Register;
+    constexpr int n = L::kPart;
+    for (int part = 0; part < L::kParts; ++part) {
+        const std::int32_t* at = index + part * n;
+        if constexpr (n <= kBodyRowSize) {
+            for (int chunk = 0; chunk < kBodyRowSize / n; ++chunk) {
+                Register m[n];
+                for (int i = 0; i < n; ++i) m[i] = in.component[chunk * n + i].part[part];
+                transpose<n>(m);
+                for (int i = 0; i < n; ++i)
+                    if (at[i] < dynamic_count) store_register(rows + at[i] * kBodyRowSize + chunk * n, m[i]);
+            }
+        } else {
+            Register m[kBodyRowSize];
+            for (int c = 0; c < kBodyRowSize; ++c) m[c] = in.component[c].part[part];
+            transpose<kBodyRowSize>(m);
+            for (int i = 0; i < n; ++i) {
+                const Real* half = reinterpret_cast<const Real*>(&m[i % kBodyRowSize]);
+                if (at[i] < dynamic_count)
+                    __builtin_memcpy(rows + at[i] * kBodyRowSize, half + (i / kBodyRowSize) * kBodyRowSize,
+                                     kBodyRowSize * sizeof(Real));
+            }
+        }
+    }
+}
+
+/// Velocities of W bodies.
+template <class Real, int W>
+inline Velocity<Number<Real, W>> read_velocities(const Real* rows, const std::int32_t (&index)[W]) {
+    using T = Number<Real, W>;
+    if constexpr (W == 1) {
+        const Real* r = rows + index[0] * kBodyRowSize;
+        return {Vector3<T>(r[0], r[1], r[2]), Vector3<T>(r[4], r[5], r[6])};
+    } else {
+        RowLanes<Real, W> m;
+        read_rows<Real, W>(rows, index, m);
+        const auto& c = m.component;
+        return {Vector3<T>(c[0], c[1], c[2]), Vector3<T>(c[4], c[5], c[6])};
+    }
+}
+
+template <class Real, int W>
+inline void write_velocities(Real* rows, const std::int32_t (&index)[W], std::int32_t dynamic_count,
+                             const Velocity<Number<Real, W>>& x) {
+    if constexpr (W == 1) {
+        if (index[0] >= dynamic_count) return;
+        Real* r = rows + index[0] * kBodyRowSize;
+        for (int i = 0; i < 3; ++i) r[i] = x.v[i], r[4 + i] = x.w[i];
+    } else {
+        const Lanes<Real, W> zero(Real(0));
+        const RowLanes<Real, W> m{{x.v[0], x.v[1], x.v[2], zero, x.w[0], x.w[1], x.w[2], zero}};
+        write_rows<Real, W>(rows, index, dynamic_count, m);
+    }
+}
+
+}  // namespace plumb::kernels

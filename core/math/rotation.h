@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// Rotations by the exponential map (§4): a vector ϑ turns by |ϑ| about ϑ/|ϑ|.
+#pragma once
+
+#include "math/types.h"
+
+#include <cmath>
+
+namespace plumb {
+
+/// exp(ϑ) as a unit quaternion. ϑ [rad]
+inline Quaterniond exponential_map(const Vector3d& theta) {
+    const double half = 0.5 * theta.norm();
+    // sin(x)/x by its series where the quotient loses digits
+    const double s = half < 1e-4 ? 0.5 * (1 - half * half / 6) : 0.5 * std::sin(half) / half;
+    return {std::cos(half), s * theta.x(), s * theta.y(), s * theta.z()};
+}
+
+/// log(q): the rotation vector of the shorter way round [rad].
+inline Vector3d rotation_vector(const Quaterniond& q) {
+    const double sign = q.w() < 0 ? -1 : 1;
+    const double sine = q.vec().norm();
+    const double scale = sine < 1e-9 ? 2 : 2 * std::atan2(sine, sign * q.w()) / sine;
+    return scale * sign * q.vec();
+}
+
+/// exp(ϑ) q, normalised.
+inline Quaterniond turned(const Quaterniond& q, const Vector3d& theta) {
+    return (exponential_map(theta) * q).normalized();
+}
+
+/// exp(ϑ) r − r over any number type, by Rodrigues' formula with the series of sin(x)/x and (1 − cos x)/x².
+///
+/// Good to 1e-7 of |r| in single and to 1e-13 in double precision while |ϑ| ≤ 1.5 rad, a step's turn.
+template <class T>
+inline Vector3<T> turn_of(const Vector3<T>& theta, const Vector3<T>& r) {
+    const T x = dot(theta, theta);
+    T sine = T(1), cosine = T(0.5);
+    T term_sine = T(1), term_cosine = T(0.5);
+    for (int k = 1; k <= 9; ++k) {
+        term_sine = -term_sine * x * T(1.0 / ((2 * k) * (2 * k + 1)));
+        term_cosine = -term_cosine * x * T(1.0 / ((2 * k + 1) * (2 * k + 2)));
+        sine = sine + term_sine;
+        cosine = cosine + term_cosine;
+    }
+    const Vector3<T> once = cross(theta, r);
+    return once * sine + cross(theta, once) * cosine;
+}
+
+}  // namespace plumb

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+/// Symmetric 3 × 3 matrices over any number type: inverse inertia, and the constraint-space K of Eq. 6.
+#pragma once
+
+#include "math/types.h"
+
+namespace plumb {
+
+template <class T>
+struct Symmetric3 {
+    T xx, yy, zz, xy, xz, yz;
+
+    Vector3<T> operator*(const Vector3<T>& v) const {
+        return Vector3<T>((xx * v[0] + xy * v[1]) + xz * v[2], (xy * v[0] + yy * v[1]) + yz * v[2],
+                          (xz * v[0] + yz * v[1]) + zz * v[2]);
+    }
+    friend Symmetric3 operator+(const Symmetric3& a, const Symmetric3& b) {
+        return {a.xx + b.xx, a.yy + b.yy, a.zz + b.zz, a.xy + b.xy, a.xz + b.xz, a.yz + b.yz};
+    }
+};
+
+/// Solves K x = c by LDLᵀ. K is positive definite unless both bodies are immovable.
+template <class T>
+inline Vector3<T> solve_ldlt(const Symmetric3<T>& k, const Vector3<T>& c) {
+    const T l10 = k.xy / k.xx;
+    const T l20 = k.xz / k.xx;
+    const T d1 = k.yy - l10 * k.xy;
+    const T off = k.yz - l20 * k.xy;
+    const T l21 = off / d1;
+    const T d2 = (k.zz - l20 * k.xz) - l21 * off;
+    const T y1 = c[1] - l10 * c[0];
+    const T y2 = (c[2] - l20 * c[0]) - l21 * y1;
+    const T x2 = y2 / d2;
+    const T x1 = y1 / d1 - l21 * x2;
+    const T x0 = (c[0] / k.xx - l10 * x1) - l20 * x2;
+    return Vector3<T>(x0, x1, x2);
+}
+
+/// R diag(d) Rᵀ.
+inline Symmetric3<double> rotated_diagonal(const Matrix3d& r, const Vector3d& d) {
+    auto entry = [&](int i, int j) {
+        return r(i, 0) * d[0] * r(j, 0) + r(i, 1) * d[1] * r(j, 1) + r(i, 2) * d[2] * r(j, 2);
+    };
+    return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
+}
+
+}  // namespace plumb
