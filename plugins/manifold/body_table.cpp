@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+#include "manifold/body_table.h"
+
+#include "manifold/check_shape.h"
+
+#include <limits>
+
+namespace plumb {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
+    return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
+}
+
+bool all_supported(const Shape& shape, const bool (&supported)[kShapeKindCount]) {
+    if (static_cast<std::uint32_t>(shape.kind) >= kShapeKindCount) return false;
+    if (!supported[static_cast<std::uint32_t>(shape.kind)]) return false;
+    if (shape.kind != ShapeKind::compound) return true;
+    for (std::uint32_t i = 0; i < shape.part_count; ++i)
+        if (!all_supported(shape.parts[i].shape, supported)) return false;
+    return true;
+}
+
+Aabb bounds_of_vertices(const Shape& shape) {
+    Aabb box{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
+    for (std::uint32_t i = 0; i < shape.vertex_count; ++i)
+        for (int k = 0; k < 3; ++k) {
+            at(box.low, k) = std::min(at(box.low, k), at(shape.vertices[i], k));
+            at(box.high, k) = std::max(at(box.high, k), at(shape.vertices[i], k));
+        }
+    return box;
+}
+
+/// Half the extent of a box of half extents `h`, turned, along each world axis.
+Vec3 turned_extents(const Frame& f, Vec3 h) {
+    Vec3 e{};
+    for (int k = 0; k < 3; ++k)
+        at(e, k) = std::abs(at(f.axis[0], k)) * h.x + std::abs(at(f.axis[1], k)) * h.y +
+                   std::abs(at(f.axis[2], k)) * h.z;
+    return e;
+}
+
+/// Half the extent of a disc with the given axis.
+Vec3 disc_extents(Vec3 axis, double radius) {
+    const auto side = [&](double c) { return radius * std::sqrt(std::max(0.0, 1 - c * c)); };
+    return {side(axis.x), side(axis.y), side(axis.z)};
+}
+
+Vec3 absolute(Vec3 v) { return {std::abs(v.x), std::abs(v.y), std::abs(v.z)}; }
+
+/// A half-space is bounded along an axis only where its normal is that axis.
+Aabb bounds_of_plane(const Frame& f) {
+    Aabb box{{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+    for (int k = 0; k < 3; ++k) {
+        if (at(f.axis[1], k) > 1 - 1e-14) at(box.high, k) = at(f.origin, k);
+        if (at(f.axis[1], k) < -1 + 1e-14) at(box.low, k) = at(f.origin, k);
+    }
+    return box;
+}
+
+bool placed(const Frame& f) { return finite(f.axis[0]) && finite(f.axis[1]) && finite(f.origin); }
+
+}  // namespace
+
+Aabb bounds_of(const Part& part) {
+    const Frame& f = part.world;
+    const Shape& s = part.shape;
+    Vec3 centre = f.origin, half{};
+    switch (s.kind) {
+        case ShapeKind::plane:
+            return bounds_of_plane(f);
+        case ShapeKind::sphere:
+            half = {s.radius, s.radius, s.radius};
+            break;
+        case ShapeKind::box:
+            half = turned_extents(f, s.half_extents);
+            break;
+        case ShapeKind::capsule:
+            half = s.half_height * absolute(f.axis[1]) + Vec3{s.radius, s.radius, s.radius};
+            break;
+        case ShapeKind::cylinder:
+        case ShapeKind::cone:
+            half = s.half_height * absolute(f.axis[1]) + disc_extents(f.axis[1], s.radius);
+            break;
+        default:
+            centre = to_outer(f, 0.5 * (part.own_bounds.low + part.own_bounds.high));
+            half = turned_extents(f, 0.5 * (part.own_bounds.high - part.own_bounds.low));
+    }
+    return {centre - half, centre + half};
+}
+
+bool BodyTable::knows(std::uint32_t body) const {
+    const auto it = std::lower_bound(parts_.begin(), parts_.end(), body,
+                                     [](const Part& p, std::uint32_t id) { return p.body < id; });
+    return it != parts_.end() && it->body == body;
+}
+
+Status BodyTable::add(std::uint32_t body, const ShapePlacement& placement,
+                      const bool (&supported)[kShapeKindCount], const char* refusal) {
+    if (body == kNoBody) return {Status::bad_argument, 0, "this body id is reserved"};
+    if (knows(body)) return {Status::bad_argument, 0, "this body id is in use"};
+    if (const char* flaw = flaw_of(placement.shape)) return {Status::bad_argument, 0, flaw};
+    if (!all_supported(placement.shape, supported)) return {Status::unsupported, 0, refusal};
+    if (!placed(frame_of(placement.local)))
+        return {Status::bad_argument, 0, "the shape's place in its body is not finite"};
+    insert(body, placement);
+    return ok_status();
+}
+
+void BodyTable::insert(std::uint32_t body, const ShapePlacement& placement) {
+    const Shape& shape = placement.shape;
+    const bool compound = shape.kind == ShapeKind::compound;
+    std::vector<Part> fresh(compound ? shape.part_count : 1);
+    for (std::uint32_t i = 0; i < fresh.size(); ++i) {
+        Part& part = fresh[i];
+        part.body = body;
+        part.index = i;
+        part.shape = compound ? shape.parts[i].shape : shape;
+        part.local = frame_of(placement.local);
+        if (compound) part.local = part.local * frame_of(shape.parts[i].local);
+        if (part.shape.kind == ShapeKind::hull) part.faces = merged_faces(part.shape);
+        if (part.shape.vertex_count) part.own_bounds = bounds_of_vertices(part.shape);
+        part.group = placement.group;
+        part.mask = placement.mask;
+        part.dynamic = placement.mobility == Mobility::dynamic;
+    }
+    const auto where =
+        std::lower_bound(parts_.begin(), parts_.end(), body,
+                         [](const Part& p, std::uint32_t id) { return p.body < id; });
+    parts_.insert(where, std::make_move_iterator(fresh.begin()),
+                  std::make_move_iterator(fresh.end()));
+    has_compounds_ = has_compounds_ || fresh.size() > 1;
+    refresh_exclusion_marks();
+    ++version_;
+}
+
+Status BodyTable::remove(std::uint32_t body) {
+    if (!knows(body)) return {Status::bad_argument, 0, "there is no body of this id"};
+    std::erase_if(parts_, [body](const Part& p) { return p.body == body; });
+    std::erase_if(excluded_, [body](std::uint64_t key) {
+        return (key >> 32) == body || (key & 0xffffffffu) == body;
+    });
+    refresh_exclusion_marks();
+    ++version_;
+    return ok_status();
+}
+
+Status BodyTable::exclude(std::uint32_t a, std::uint32_t b, bool excluded) {
+    if (a == b) return {Status::bad_argument, 0, "a body cannot be excluded from itself"};
+    if (excluded)
+        excluded_.insert(pair_key(a, b));
+    else
+        excluded_.erase(pair_key(a, b));
+    refresh_exclusion_marks();
+    return ok_status();
+}
+
+void BodyTable::refresh_exclusion_marks() {
+    std::unordered_set<std::uint32_t> marked;
+    for (std::uint64_t key : excluded_) {
+        marked.insert(static_cast<std::uint32_t>(key >> 32));
+        marked.insert(static_cast<std::uint32_t>(key));
+    }
+    for (Part& part : parts_) part.has_exclusions = marked.count(part.body) != 0;
+}
+
+Status BodyTable::place(const DetectRequest& request) {
+    if (!(request.margin >= 0) || (request.body_count && !request.poses))
+        return {Status::bad_argument, 0, "detect needs poses and a margin of at least 0"};
+    std::uint32_t lost = 0;
+    for (Part& part : parts_) {
+        part.present = part.body < request.body_count;
+        if (part.present) part.world = frame_of(request.poses[part.body]) * part.local;
+        part.present = part.present && placed(part.world);
+        lost += !part.present;
+        if (!part.present) continue;
+
+        // Grown by half the margin and the whole sweep, two boxes overlap wherever their parts may
+        // be near.
+        const double sweep = request.sweeps ? request.sweeps[part.body] : 0.0;
+        part.reach = 0.5 * request.margin + (sweep > 0 ? sweep : 0.0);
+        const Vec3 grown{part.reach, part.reach, part.reach};
+        part.bounds = bounds_of(part);
+        part.bounds = {part.bounds.low - grown, part.bounds.high + grown};
+    }
+    if (lost) return {Status::failed, lost, "shapes without a finite pose were left out"};
+    return ok_status();
+}
+
+bool BodyTable::wanted(const Part& a, const Part& b) const {
+    if (a.body == b.body || (!a.dynamic && !b.dynamic)) return false;
+    if (!(a.group & b.mask) || !(b.group & a.mask)) return false;
+    if (!a.has_exclusions || !b.has_exclusions) return true;
+    return excluded_.count(pair_key(a.body, b.body)) == 0;
+}
+
+void sort_pairs(std::vector<PartPair>& pairs, std::size_t part_count) {
+    // Two counting passes, first by the second index: linear, and stable.
+    std::vector<PartPair> other(pairs.size());
+    std::vector<std::uint32_t> start(part_count + 1);
+    const auto pass = [&](auto key, const std::vector<PartPair>& from, std::vector<PartPair>& to) {
+        std::fill(start.begin(), start.end(), 0u);
+        for (const PartPair& p : from) ++start[key(p) + 1];
+        for (std::size_t i = 0; i < part_count; ++i) start[i + 1] += start[i];
+        for (const PartPair& p : from) to[start[key(p)]++] = p;
+    };
+    pass([](const PartPair& p) { return p.second; }, pairs, other);
+    pass([](const PartPair& p) { return p.first; }, other, pairs);
+}
+
+}  // namespace plumb

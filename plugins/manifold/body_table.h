@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/// The bodies of a collider: shapes, filters, exclusions, and where each part is at the moment.
+///
+/// Every plugin keeps one. A compound is taken apart on the way in, so that a narrow phase meets
+/// single shapes only; parts stand in the order of (body id, part), which makes i < j mean "a
+/// before b".
+#pragma once
+
+#include "manifold/hull_faces.h"
+#include "manifold/linear.h"
+
+#include <plumb/plugin.h>
+
+#include <cstdint>
+#include <memory>
+#include <unordered_set>
+#include <vector>
+
+namespace plumb {
+
+/// A box along the world's axes.
+struct Aabb {
+    Vec3 low, high;  ///< [m]
+};
+inline bool overlap(const Aabb& a, const Aabb& b) {
+    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
+           b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
+}
+
+/// One single shape of a body.
+struct Part {
+    std::uint32_t body = 0;
+    std::uint32_t index = 0;  ///< in its compound; else 0
+    Shape shape{};
+    Frame local{};                  ///< shape frame → body frame
+    std::vector<HullFace> faces;    ///< hulls only
+    Aabb own_bounds{};              ///< of the vertices, in the shape's frame (hull, mesh)
+    std::shared_ptr<void> backend;  ///< whatever the plugin hangs on it
+
+    Frame world{};         ///< shape frame → world, at the poses of the last `place`
+    Aabb bounds{};         ///< world, grown by half the margin and the sweep
+    double reach = 0;      ///< half the margin and the sweep [m]
+    bool present = false;  ///< has a pose, and a finite one
+    std::uint32_t group = 0, mask = 0;
+    bool dynamic = false, has_exclusions = false;
+};
+
+/// Two parts, as indices into BodyTable::parts(), first < second.
+struct PartPair {
+    std::uint32_t first, second;
+};
+
+class BodyTable {
+public:
+    /// Adds a body whose kinds of shape are all marked in `supported` (indexed by kind).
+    Status add(std::uint32_t body, const ShapePlacement& placement,
+               const bool (&supported)[kShapeKindCount], const char* refusal);
+    Status remove(std::uint32_t body);
+    Status exclude(std::uint32_t a, std::uint32_t b, bool excluded);
+
+    /// Moves every part to the pose of its body. Answers `failed` where poses were missing or not
+    /// finite; such bodies are absent until the next call.
+    Status place(const DetectRequest& request);
+
+    std::vector<Part>& parts() { return parts_; }
+    const std::vector<Part>& parts() const { return parts_; }
+
+    /// Whether two parts are to be tested, by mobility, filters and exclusions (not by place).
+    bool wanted(const Part& a, const Part& b) const;
+
+    /// Whether some body has more than one part.
+    bool has_compounds() const { return has_compounds_; }
+
+    /// Counts changes of the set of parts.
+    std::uint64_t version() const { return version_; }
+
+private:
+    void insert(std::uint32_t body, const ShapePlacement& placement);
+    bool knows(std::uint32_t body) const;
+    void refresh_exclusion_marks();
+
+    std::vector<Part> parts_;
+    std::unordered_set<std::uint64_t> excluded_;
+    bool has_compounds_ = false;
+    std::uint64_t version_ = 0;
+};
+
+/// Distance up to which two parts are reported [m].
+inline double pair_margin(const Part& a, const Part& b) { return a.reach + b.reach; }
+
+/// Sorts pairs by (first, second) in place; `part_count` bounds both.
+void sort_pairs(std::vector<PartPair>& pairs, std::size_t part_count);
+
+/// Bounds of one part at its world frame, not grown.
+Aabb bounds_of(const Part& part);
+
+}  // namespace plumb
