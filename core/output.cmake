@@ -1,0 +1,31 @@
+# plumb::output: recordings, and what can be made of them.
+find_package(ZLIB REQUIRED)
+find_package(nlohmann_json REQUIRED)
+
+# The player of the HTML replay becomes a string of the library; building Plumb needs no Node.
+set(PLUMB_PLAYER_SCRIPT "${CMAKE_CURRENT_SOURCE_DIR}/output/player/dist/player.min.js")
+set(PLUMB_PLAYER_SOURCE "${CMAKE_CURRENT_BINARY_DIR}/player_script.cpp")
+add_custom_command(OUTPUT "${PLUMB_PLAYER_SOURCE}"
+  COMMAND "${CMAKE_COMMAND}" "-DSCRIPT=${PLUMB_PLAYER_SCRIPT}" "-DSOURCE=${PLUMB_PLAYER_SOURCE}"
+    -P "${CMAKE_CURRENT_SOURCE_DIR}/output/player/embed.cmake"
+  DEPENDS "${PLUMB_PLAYER_SCRIPT}" "${CMAKE_CURRENT_SOURCE_DIR}/output/player/embed.cmake"
+  VERBATIM)
+
+add_library(plumb_output STATIC
+  output/csv.cpp
+  output/deflate.cpp
+  output/exporters.cpp
+  output/file.cpp
+  output/header_json.cpp
+  output/html.cpp
+  output/html_json.cpp
+  output/motion_code.cpp
+  output/recording.cpp
+  output/triangles.cpp
+  output/view.cpp
+  "${PLUMB_PLAYER_SOURCE}")
+add_library(plumb::output ALIAS plumb_output)
+set_target_properties(plumb_output PROPERTIES EXPORT_NAME output)
+target_link_libraries(plumb_output
+  PUBLIC plumb::scene
+  PRIVATE $<BUILD_INTERFACE:plumb_options> ZLIB::ZLIB nlohmann_json::nlohmann_json)

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+#include "output/exporters.h"
+
+#include "output/csv.h"
+#include "output/error.h"
+#include "output/html.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cstddef>
+#include <numeric>
+#include <string_view>
+#include <vector>
+
+namespace plumb {
+namespace {
+
+/// A recording is an output like any other.
+class PlumbExporter : public Exporter {
+public:
+    PlumbExporter(const std::string& path, const RecordingHeader& header) : writer_(path, header) {}
+    void append(const Frame& frame) override { writer_.append(frame); }
+    void finish() override { writer_.close(); }
+
+private:
+    RecordingWriter writer_;
+};
+
+using Maker = std::unique_ptr<Exporter> (*)(const std::string& path, const RecordingHeader& header);
+
+template <class T>
+std::unique_ptr<Exporter> make(const std::string& path, const RecordingHeader& header) {
+    return std::make_unique<T>(path, header);
+}
+
+struct Kind {
+    std::string_view extension;
+    Maker maker;
+};
+
+constexpr std::array kKinds{
+    Kind{".html", make<HtmlExporter>},
+    Kind{".csv", make<CsvExporter>},
+    Kind{".plumb", make<PlumbExporter>},
+};
+
+/// ".HTML" of "dir.d/run.HTML" in small letters; empty where the name has none.
+std::string extension_of(const std::string& path) {
+    const std::size_t name = path.find_last_of('/') + 1;  // npos + 1 is 0
+    const std::size_t dot = path.find_last_of('.');
+    if (dot == std::string::npos || dot < name) return {};
+    std::string extension = path.substr(dot);
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+/// How many letters must be put in, left out or changed to make one word of the other.
+std::size_t edits(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    std::iota(row.begin(), row.end(), std::size_t{0});
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        std::size_t diagonal = row[0]++;
+        for (std::size_t j = 0; j < b.size(); ++j) {
+            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
+            diagonal = row[j + 1];
+            row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
+        }
+    }
+    return row.back();
+}
+
+/// "has the ending .htm, and none of .html, .csv, .plumb; did you mean .html?"
+std::string sentence_about(const std::string& extension) {
+    std::string list;
+    for (const Kind& kind : kKinds) {
+        list += (list.empty() ? "" : ", ") + std::string(kind.extension);
+    }
+    if (extension.empty()) return "has no ending; it must be one of " + list;
+
+    const auto nearest =
+        std::min_element(kKinds.begin(), kKinds.end(), [&extension](const Kind& a, const Kind& b) {
+            return edits(extension, a.extension) < edits(extension, b.extension);
+        });
+    std::string sentence = "has the ending " + extension + ", which is none of " + list;
+    return sentence + "; did you mean " + std::string(nearest->extension) + "?";
+}
+
+}  // namespace
+
+std::unique_ptr<Exporter> make_exporter(const std::string& path, const RecordingHeader& header) {
+    const std::string extension = extension_of(path);
+    for (const Kind& kind : kKinds) {
+        if (kind.extension == extension) return kind.maker(path, header);
+    }
+    throw OutputError(path, sentence_about(extension));
+}
+
+std::unique_ptr<Exporter> make_exporter(const std::string& path, const Scene& scene,
+                                        const Metadata& metadata) {
+    return make_exporter(path, recording_header(scene, metadata));
+}
+
+void export_recording(const std::string& path, const Recording& recording) {
+    const std::unique_ptr<Exporter> exporter = make_exporter(path, recording.header);
+    for (const Frame& frame : recording.frames) exporter->append(frame);
+    exporter->finish();
+}
+
+}  // namespace plumb

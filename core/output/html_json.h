@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+/// What the HTML replay carries, made of a recording: a JSON text, meshes and the motion. The
+/// player reads the same.
+#pragma once
+
+#include "output/motion_code.h"
+#include "output/recording.h"
+#include "output/view.h"
+
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+struct ReplayParts {
+    std::string scene;   ///< JSON; no "<" in it, so that no string can end the script element
+    std::string meshes;  ///< for each mesh float32 vertices, then uint32 corners of triangles
+    std::string motion;  ///< encode_motion of the bodies that move
+};
+
+/// `notes`: the frames without their bodies; `motions`: [body][frame]; `balls`: what the view shall
+/// hold.
+ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>& notes,
+                         const std::vector<std::vector<PoseSample>>& motions,
+                         const std::vector<Ball>& balls);
+
+}  // namespace plumb

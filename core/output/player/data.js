@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Reads what the page carries: the scene as JSON, meshes, and the motion (format: motion_code.h).
+import { unzlibSync } from 'fflate';
+import { Quaternion, Vector3 } from 'three';
+
+function bytesOf(id) {
+    const text = atob(document.getElementById(id).textContent);
+    const bytes = new Uint8Array(text.length);
+    for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
+    return unzlibSync(bytes);
+}
+
+/// Undoes one channel: low and high bytes of zigzag differences from a linear prediction.
+function decodeChannel(bytes, offset, bodies, frames) {
+    const count = bodies * frames;
+    const values = new Uint16Array(count);
+    for (let body = 0, k = 0; body < bodies; ++body) {
+        let previous = 0, before = 0;
+        for (let frame = 0; frame < frames; ++frame, ++k) {
+            const code = bytes[offset + k] | (bytes[offset + count + k] << 8);
+            const difference = (code >>> 1) ^ -(code & 1);
+            values[k] = difference + 2 * previous - before;
+            before = previous;
+            previous = values[k];
+        }
+    }
+    return values;
+}
+
+function decodeLargest(bytes, offset, bodies, frames) {
+    const values = new Uint8Array(bodies * frames);
+    for (let body = 0, k = 0; body < bodies; ++body) {
+        let previous = 0;
+        for (let frame = 0; frame < frames; ++frame, ++k) {
+            previous = values[k] = (previous + bytes[offset + k]) & 3;
+        }
+    }
+    return values;
+}
+
+/// Poses of the moving bodies, kept as integers and made numbers when asked for.
+export class Motion {
+    constructor(scene) {
+        const bytes = bytesOf('plumb-motion');
+        this.moving = scene.moving;
+        this.frames = scene.frames.time.length;
+        this.rotationQuantum = Math.SQRT2 / (2 ** scene.rotation_bits - 1);
+        const plane = 2 * this.moving.length * this.frames;
+        this.channels = [];
+        for (let c = 0; c < 6; ++c) {
+            this.channels.push(decodeChannel(bytes, c * plane, this.moving.length, this.frames));
+        }
+        this.largest = decodeLargest(bytes, 6 * plane, this.moving.length, this.frames);
+        this.nextPosition = new Vector3();
+        this.nextRotation = new Quaternion();
+    }
+
+    position(result, index, frame) {
+        const { low, quantum } = this.moving[index];
+        const k = index * this.frames + frame;
+        return result.set(low[0] + quantum * this.channels[0][k],
+            low[1] + quantum * this.channels[1][k], low[2] + quantum * this.channels[2][k]);
+    }
+
+    rotation(result, index, frame) {
+        const k = index * this.frames + frame;
+        const largest = this.largest[k], q = [0, 0, 0, 0];
+        let rest = 1;
+        for (let i = 0, c = 3; i < 4; ++i) {
+            if (i === largest) continue;
+            q[i] = this.channels[c++][k] * this.rotationQuantum - Math.SQRT1_2;
+            rest -= q[i] * q[i];
+        }
+        q[largest] = Math.sqrt(Math.max(0, rest));
+        return result.set(q[0], q[1], q[2], q[3]).normalize();
+    }
+
+    /// Pose between a frame and the next.
+    pose(position, rotation, index, frame, fraction) {
+        this.position(position, index, frame);
+        this.rotation(rotation, index, frame);
+        if (fraction <= 0 || frame + 1 >= this.frames) return;
+        position.lerp(this.position(this.nextPosition, index, frame + 1), fraction);
+        rotation.slerp(this.rotation(this.nextRotation, index, frame + 1), fraction);
+    }
+}
+
+export function readScene() {
+    return JSON.parse(document.getElementById('plumb-scene').textContent);
+}
+
+/// Bytes of all meshes; `meshArrays` cuts one out.
+export function readMeshes() {
+    return bytesOf('plumb-meshes');
+}
+
+export function meshArrays(bytes, { offset, vertices, triangles }) {
+    const buffer = bytes.slice(offset, offset + 12 * (vertices + triangles)).buffer;
+    return {
+        positions: new Float32Array(buffer, 0, 3 * vertices),
+        corners: new Uint32Array(buffer, 12 * vertices, 3 * triangles),
+    };
+}

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "output/recording.h"
+
+#include "output/bytes.h"
+#include "output/error.h"
+#include "output/header_json.h"
+#include "output/rotation_code.h"
+
+#include <zlib.h>
+
+#include <exception>
+
+namespace plumb {
+namespace {
+
+constexpr std::string_view kMagic = "PLUMBREC";
+constexpr std::uint32_t kVersion = 1;
+constexpr std::size_t kFrameBytes = 48;  // of a payload, without its bodies
+constexpr std::size_t kBodyBytes = 44;
+
+std::uint32_t checksum(std::string_view bytes, std::uint32_t before = 0) {
+    return static_cast<std::uint32_t>(
+        crc32_z(before, reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()));
+}
+
+/// A length and its bytes under one checksum, so that a damaged length is noticed too.
+std::string framed(std::string_view payload) {
+    std::string bytes;
+    bytes.reserve(payload.size() + 8);
+    put(bytes, static_cast<std::uint32_t>(payload.size()));
+    put(bytes, checksum(payload, checksum(bytes)));
+    bytes.append(payload);
+    return bytes;
+}
+
+/// The next framed payload, or nothing where the bytes end before it does or the checksum differs.
+std::optional<std::string_view> next_framed(ByteReader& reader) {
+    if (reader.left() < 8) return std::nullopt;
+    const auto length = reader.take<std::uint32_t>();
+    const auto expected = reader.take<std::uint32_t>();
+    if (reader.left() < length) return std::nullopt;
+    const std::string_view payload = reader.take_bytes(length);
+    std::string length_bytes;
+    put(length_bytes, length);
+    if (checksum(payload, checksum(length_bytes)) != expected) return std::nullopt;
+    return payload;
+}
+
+void put_vector(std::string& bytes, const Eigen::Vector3d& v) {
+    for (int i = 0; i < 3; ++i) put(bytes, static_cast<float>(v[i]));
+}
+
+Eigen::Vector3d take_vector(ByteReader& reader) {
+    Eigen::Vector3d v;
+    for (int i = 0; i < 3; ++i) v[i] = static_cast<double>(reader.take<float>());
+    return v;
+}
+
+std::uint64_t packed(const RotationCode& code) {
+    std::uint64_t bits = code.largest;
+    for (const std::uint32_t part : code.small) bits = (bits << kRecordedRotationBits) | part;
+    return bits;
+}
+
+RotationCode unpacked(std::uint64_t bits) {
+    RotationCode code;
+    for (std::size_t i = 3; i-- > 0; bits >>= kRecordedRotationBits) {
+        code.small[i] = static_cast<std::uint32_t>(bits & ((1u << kRecordedRotationBits) - 1));
+    }
+    code.largest = static_cast<std::uint32_t>(bits & 3u);
+    return code;
+}
+
+std::string frame_payload(const Frame& frame, const Eigen::Vector3d& origin) {
+    std::string bytes;
+    bytes.reserve(kFrameBytes + kBodyBytes * frame.bodies.size());
+    put(bytes, frame.step);
+    put(bytes, frame.time);
+    put(bytes, frame.contacts);
+    put(bytes, frame.kinetic_energy);
+    put(bytes, frame.potential_energy);
+    put(bytes, frame.deepest_penetration);
+    put(bytes, static_cast<std::uint32_t>(frame.bodies.size()));
+    for (const BodyState& body : frame.bodies) {
+        put_vector(bytes, body.placement.position - origin);
+        put(bytes, packed(encode_rotation(body.placement.rotation, kRecordedRotationBits)));
+        put_vector(bytes, body.velocity);
+        put_vector(bytes, body.angular_velocity);
+    }
+    return bytes;
+}
+
+/// Nothing where the payload does not hold as many bodies as the header, although its checksum is
+/// right.
+std::optional<Frame> frame_from_payload(std::string_view payload, const RecordingHeader& header) {
+    const std::size_t count = header.bodies.size();
+    if (payload.size() != kFrameBytes + kBodyBytes * count) return std::nullopt;
+    ByteReader reader(payload);
+    Frame frame;
+    frame.step = reader.take<std::uint64_t>();
+    frame.time = reader.take<double>();
+    frame.contacts = reader.take<std::uint32_t>();
+    frame.kinetic_energy = reader.take<double>();
+    frame.potential_energy = reader.take<double>();
+    frame.deepest_penetration = reader.take<double>();
+    if (reader.take<std::uint32_t>() != count) return std::nullopt;
+    frame.bodies.resize(count);
+    for (BodyState& body : frame.bodies) {
+        body.placement.position = take_vector(reader) + header.origin;
+        body.placement.rotation =
+            decode_rotation(unpacked(reader.take<std::uint64_t>()), kRecordedRotationBits);
+        body.velocity = take_vector(reader);
+        body.angular_velocity = take_vector(reader);
+    }
+    return frame;
+}
+
+/// Middle of the bodies at the start, so that the floats near it are fine.
+Eigen::Vector3d middle(const std::vector<BodySpec>& bodies) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double count = 0;
+    for (const BodySpec& body : bodies) {
+        if (body.motion == Motion::fixed || !body.placement.position.allFinite()) continue;
+        sum += body.placement.position;
+        ++count;
+    }
+    return count > 0 ? Eigen::Vector3d(sum / count) : sum;
+}
+
+RecordingHeader take_header(ByteReader& reader, const std::string& path) {
+    if (reader.left() < kMagic.size() || reader.take_bytes(kMagic.size()) != kMagic) {
+        throw OutputError(path, "is not a recording of Plumb");
+    }
+    if (reader.left() < 4) throw OutputError(path, "ends within its header");
+    if (const auto version = reader.take<std::uint32_t>(); version != kVersion) {
+        throw OutputError(path, "has version " + std::to_string(version) + ", and only version " +
+                                    std::to_string(kVersion) + " can be read");
+    }
+    const std::optional<std::string_view> text = next_framed(reader);
+    if (!text) throw OutputError(path, "has a header that is cut off or damaged");
+    try {
+        return header_from_json(*text);
+    } catch (const std::exception& error) {
+        throw OutputError(path, std::string("has a header that cannot be read: ") + error.what());
+    }
+}
+
+}  // namespace
+
+RecordingHeader recording_header(const Scene& scene, const Metadata& metadata) {
+    RecordingHeader header;
+    header.name = scene.name;
+    header.description = scene.description;
+    header.method = scene.settings.method;
+    header.dt = scene.settings.dt;
+    header.gravity = scene.settings.gravity;
+    header.geometries = scene.geometries;
+    for (const BodySpec& body : scene.bodies) {
+        header.bodies.push_back({body.name, body.geometry, body.motion, body.color});
+    }
+    header.view = scene.view;
+    header.origin = middle(scene.bodies);
+    header.metadata = metadata;
+    return header;
+}
+
+RecordingWriter::RecordingWriter(std::string path, RecordingHeader header)
+    : header_(std::move(header)), file_(std::move(path)) {
+    std::string bytes(kMagic);
+    put(bytes, kVersion);
+    file_.append(bytes + framed(header_to_json(header_)));
+}
+
+void RecordingWriter::append(const Frame& frame) {
+    file_.append(framed(frame_payload(frame, header_.origin)));
+}
+
+Recording read_recording(const std::string& path) {
+    const std::string content = read_file(path);
+    ByteReader reader(content);
+    Recording recording;
+    recording.header = take_header(reader, path);
+
+    std::size_t sound = reader.position();
+    while (const std::optional<std::string_view> payload = next_framed(reader)) {
+        std::optional<Frame> frame = frame_from_payload(*payload, recording.header);
+        if (!frame) break;
+        recording.frames.push_back(std::move(*frame));
+        sound = reader.position();
+    }
+    recording.dropped_bytes = content.size() - sound;
+    return recording;
+}
+
+}  // namespace plumb
