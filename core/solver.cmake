@@ -1,0 +1,24 @@
+# plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
+set(PLUMB_CORE_SOURCES
+  world/build_world.cpp world/mass_properties.cpp world/shape_store.cpp
+  schedule/colouring.cpp schedule/workers.cpp
+  kernels/dispatch.cpp
+  effects/plan.cpp
+  step/choose_rebounds.cpp step/contact_pairs.cpp step/detect.cpp step/follow_contacts.cpp step/integrate.cpp
+  step/match_contacts.cpp step/move_scripted.cpp step/row_solver.cpp step/step.cpp
+  measure/measure.cpp)
+
+# One unit an instruction set; what a processor cannot run is never called (kernels/dispatch.cpp).
+plumb_kernel_unit(baseline kernels/unit_baseline.cpp)
+list(APPEND PLUMB_CORE_SOURCES "${PLUMB_KERNEL_OBJECT}")
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  plumb_kernel_unit(avx2 kernels/unit_avx2.cpp -mavx2)
+  list(APPEND PLUMB_CORE_SOURCES "${PLUMB_KERNEL_OBJECT}")
+  plumb_kernel_unit(avx512 kernels/unit_avx512.cpp -mavx2 -mavx512f -mavx512dq -mavx512vl -mavx512bw)
+  list(APPEND PLUMB_CORE_SOURCES "${PLUMB_KERNEL_OBJECT}")
+endif()
+
+add_library(plumb_core STATIC ${PLUMB_CORE_SOURCES})
+add_library(plumb::core ALIAS plumb_core)
+set_target_properties(plumb_core PROPERTIES EXPORT_NAME core)
+target_link_libraries(plumb_core PUBLIC plumb::scene spdlog::spdlog Threads::Threads PRIVATE plumb_options)

@@ -108,8 +108,14 @@ void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const 
 
 // ---- once a substep
 
+/// Sums of the substep before become the start of this one, or nothing without warm starting.
+template <class T>
+inline T carried_over(const T& velocity_pass, const T& position_pass, bool warm_start) {
+    return warm_start ? velocity_pass + position_pass : T(0);
+}
+
 template <class Real, int W, ContactVariant V>
-void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>&,
+void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
            std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     for (std::uint32_t i = first; i < last; ++i) {
@@ -120,18 +126,31 @@ void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
             const Vector3<T> n = load_vector(row.normal);
             const Vector3<T> u =
                 velocity_at<T>(pair.a, load_vector(row.arm_a)) - velocity_at<T>(pair.b, load_vector(row.arm_b));
-            store(row.velocity, dot<T>(n, u));
+            const T u_n = dot<T>(n, u);
+            store(row.velocity, u_n);
+            // the recovery of a collision's overlap adds no speed to bodies that part by themselves
+            store(row.stiffness, select_greater(u_n, T(pass.collision_speed), T(0), T(pass.stiffness)));
+            store(row.lambda_velocity,
+                  carried_over<T>(load(row.lambda_velocity), load(row.lambda_position), pass.warm_start));
+            store(row.lambda_position, T(0));
             if constexpr (V != ContactVariant::frictionless) {
                 FrictionRow<Real, W>& across = arrays.frictions[k];
                 const Tangents<T> t = load_tangents(across, n);
                 store(across.velocity_x, T(dot<T>(t.x, u) + load(across.drift_x)));
                 store(across.velocity_y, T(dot<T>(t.y, u) + load(across.drift_y)));
+                store(across.held_x, carried_over<T>(load(across.held_x), load(across.rubbed_x), pass.warm_start));
+                store(across.held_y, carried_over<T>(load(across.held_y), load(across.rubbed_y), pass.warm_start));
+                store(across.rubbed_x, T(0));
+                store(across.rubbed_y, T(0));
                 if constexpr (V == ContactVariant::turning) {
                     TurningRow<Real, W>& turning = arrays.turnings[k];
                     const Vector3<T> w = pair.a.w - pair.b.w;
                     store(turning.rate_x, dot<T>(t.x, w));
                     store(turning.rate_y, dot<T>(t.y, w));
                     store(turning.rate_n, dot<T>(n, w));
+                    store(turning.torque_x, T(0));
+                    store(turning.torque_y, T(0));
+                    store(turning.torque_n, T(0));
                 }
             }
         }

@@ -85,10 +85,13 @@ struct BodyRows {
 /// What a pass needs to know besides the rows.
 template <class Real>
 struct PassSettings {
-    Real h;                 // substep [s]
-    Real recovery;          // greatest overlap pushed out in a substep [m]
-    bool shared_cone;       // one friction bound for both passes
-    bool forwards;          // direction of this sweep
+    Real h;                // substep [s]
+    Real stiffness;        // s of this substep
+    Real recovery;         // greatest overlap pushed out in a substep [m]
+    Real collision_speed;  // bodies that part faster than this are left to part by themselves [m/s]
+    bool warm_start;       // begin with the impulses of the substep before
+    bool shared_cone;      // one friction bound for both passes
+    bool forwards;         // direction of this sweep
 };
 
 }  // namespace plumb

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+/// What a scene calls for, and why: the plan of a run.
+///
+/// An effect that is not called for costs no call, no allocation and no memory. The plan says what may run; a step
+/// still skips what nothing moves, such as joints' iterations in a world without contacts.
+#pragma once
+
+#include "world/world.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumb {
+
+enum class Effect : std::uint32_t {
+    contacts,
+    friction,
+    turning_friction,
+    restitution,
+    sticking_anchors,
+    gyroscopic,
+    joints,
+    kinematics,
+    shock_propagation,
+};
+inline constexpr std::size_t kEffectCount = 9;
+
+struct Decision {
+    std::string_view name;
+    bool runs = false;
+    std::string why;
+};
+
+struct Plan {
+    std::array<Decision, kEffectCount> decisions;
+    std::vector<std::string> warnings;  ///< an effect that is needed but forbidden
+
+    bool runs(Effect e) const { return decisions[static_cast<std::size_t>(e)].runs; }
+};
+
+/// Asks every effect whether the world wants it, and applies Settings::require and Settings::forbid.
+/// Throws SceneError for an effect that does not exist.
+Plan make_plan(const World& world);
+
+}  // namespace plumb

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: MIT
+/// A scene that runs: the facade that programs use.
+///
+///     plumb::Scene scene = …;
+///     plumb::ColliderLibrary colliders;
+///     plumb::Simulation simulation(scene, colliders, "ode");
+///     while (simulation.time() < 10) simulation.step();
+///
+/// To bring a collider of your own, derive from plumb::Proximity and use the other constructor.
+#pragma once
+
+#include "effects/ledger.h"
+#include "effects/plan.h"
+#include "host/collider_library.h"
+#include "measure/frame.h"
+#include "scene/scene.h"
+#include "step/report.h"
+#include "world/world.h"
+
+#include <memory>
+#include <string>
+
+namespace plumb {
+
+class Simulation {
+public:
+    /// Runs on a collider of yours, which must outlive the simulation. Throws SceneError or ColliderError.
+    Simulation(const Scene& scene, Proximity& proximity, std::string collider_name = "custom");
+
+    /// Runs on a plugin by name; "auto" takes the first that supports all pairs of the scene.
+    Simulation(const Scene& scene, const ColliderLibrary& colliders, const std::string& collider);
+
+    ~Simulation();
+    Simulation(const Simulation&) = delete;
+    Simulation& operator=(const Simulation&) = delete;
+
+    /// Advances by Settings::dt.
+    StepReport step();
+
+    double time() const;           ///< [s]
+    std::uint64_t steps() const;   ///< made so far
+    const World& world() const;
+    const Plan& plan() const;
+    const Ledger& ledger() const;  ///< of the last step
+    DetectStats detect_stats() const;
+    const std::string& collider_name() const;
+    const std::string& collider_version() const;
+
+    void capture(Frame& frame) const;
+
+    /// Sets the velocity of the centre of mass [m/s] and the angular velocity [rad/s] of a body.
+    void set_velocity(std::uint32_t body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& angular_velocity);
+
+    /// Replaces the constant force [N] and torque [N m] on a body.
+    void set_force(std::uint32_t body, const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+
+private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace plumb

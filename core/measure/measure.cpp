@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+#include "measure/measure.h"
+
+#include <algorithm>
+#include <cstring>
+
+namespace plumb {
+namespace {
+
+Vector3d spin_momentum(const Bodies& b, std::size_t i) {
+    const Quaterniond& q = b.orientation[i];
+    return q * b.inertia[i].cwiseProduct(q.conjugate() * b.angular_velocity[i]);
+}
+
+/// The contacts of the last detection: kept as those "before" once a step is done.
+const std::vector<Contact>& last_contacts(const World& world) { return world.contacts.found_before; }
+
+}  // namespace
+
+double kinetic_energy(const World& world) {
+    const Bodies& b = world.bodies;
+    double sum = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        sum += 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() + b.angular_velocity[i].dot(spin_momentum(b, i)));
+    return sum;
+}
+
+double potential_energy(const World& world) {
+    const Bodies& b = world.bodies;
+    double sum = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (b.motion[i] == Motion::dynamic)
+            sum -= (b.mass[i] * world.settings.gravity + b.force[i]).dot(b.position[i]);
+    return sum;
+}
+
+Vector3d linear_momentum(const World& world) {
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) sum += world.bodies.mass[i] * world.bodies.velocity[i];
+    return sum;
+}
+
+Vector3d angular_momentum(const World& world) {
+    const Bodies& b = world.bodies;
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < b.size(); ++i)
+        sum += b.position[i].cross(b.mass[i] * b.velocity[i]) + spin_momentum(b, i);
+    return sum;
+}
+
+std::vector<double> penetrations(const World& world) {
+    std::vector<double> depths;
+    const auto& contacts = last_contacts(world);
+    for (std::size_t i = 0; i < contacts.size();) {
+        double deepest = 0;
+        const Contact& first = contacts[i];
+        for (; i < contacts.size() && contacts[i].a == first.a && contacts[i].b == first.b; ++i)
+            deepest = std::max(deepest, -contacts[i].gap);
+        if (deepest > 0) depths.push_back(deepest);
+    }
+    return depths;
+}
+
+std::vector<double> joint_errors(const World& world) {
+    const Bodies& b = world.bodies;
+    std::vector<double> errors;
+    auto point = [&](std::uint32_t body, const Vector3d& anchor) -> Vector3d {
+        return body == kNoIndex ? anchor : Vector3d(b.position[body] + b.orientation[body] * anchor);
+    };
+    for (std::size_t i = 0; i < world.balls.size(); ++i)
+        errors.push_back((point(world.balls.a[i], world.balls.anchor_a[i]) -
+                          point(world.balls.b[i], world.balls.anchor_b[i])).norm());
+    return errors;
+}
+
+std::uint64_t state_hash(const World& world) {
+    std::uint64_t hash = 1469598103934665603ull;
+    auto add = [&](const double* values, int count) {
+        for (int k = 0; k < count; ++k) {
+            std::uint64_t bits;
+            std::memcpy(&bits, values + k, sizeof bits);
+            for (int byte = 0; byte < 8; ++byte) {
+                hash ^= (bits >> (8 * byte)) & 0xff;
+                hash *= 1099511628211ull;
+            }
+        }
+    };
+    const Bodies& b = world.bodies;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        add(b.position[i].data(), 3);
+        add(b.orientation[i].coeffs().data(), 4);
+        add(b.velocity[i].data(), 3);
+        add(b.angular_velocity[i].data(), 3);
+    }
+    return hash;
+}
+
+void capture(const World& world, Frame& frame) {
+    frame.step = world.steps;
+    frame.time = world.time;
+    frame.bodies.resize(world.bodies.size());
+    for (std::size_t i = 0; i < world.bodies.size(); ++i)
+        frame.bodies[i] = {geometry_placement(world.bodies, i), world.bodies.velocity[i],
+                           world.bodies.angular_velocity[i]};
+    frame.contacts = static_cast<std::uint32_t>(last_contacts(world).size());
+    frame.kinetic_energy = kinetic_energy(world);
+    frame.potential_energy = potential_energy(world);
+    frame.deepest_penetration = 0;
+    for (const Contact& c : last_contacts(world))
+        frame.deepest_penetration = std::max(frame.deepest_penetration, -c.gap);
+}
+
+double percentile(std::vector<double> values, double p) {
+    if (values.empty()) return 0;
+    const auto k = std::min(values.size() - 1, static_cast<std::size_t>(p * static_cast<double>(values.size())));
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
+    return values[k];
+}
+
+}  // namespace plumb

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+/// Numbers that describe a world.
+#pragma once
+
+#include "measure/frame.h"
+#include "world/world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+double kinetic_energy(const World& world);    ///< [J]
+double potential_energy(const World& world);  ///< of gravity and constant forces, against the origin [J]
+Vector3d linear_momentum(const World& world);   ///< [kg m/s]
+Vector3d angular_momentum(const World& world);  ///< about the origin [kg m²/s]
+
+/// Depth of the deepest point of each pair that penetrates [m], from the contacts of the last detection.
+std::vector<double> penetrations(const World& world);
+
+/// Distance between the two points of each joint [m].
+std::vector<double> joint_errors(const World& world);
+
+/// 64-bit hash (FNV-1a) of all positions, orientations and velocities, bit for bit.
+std::uint64_t state_hash(const World& world);
+
+/// What watchers get to see.
+void capture(const World& world, Frame& frame);
+
+/// Value at share p in [0, 1] of the sorted values; 0 of none.
+double percentile(std::vector<double> values, double p);
+
+}  // namespace plumb

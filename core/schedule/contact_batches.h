@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// Coloured contacts in lanes: memory of all rows, and where each pair sits in it.
+#pragma once
+
+#include "schedule/colouring.h"
+#include "schedule/contact_rows.h"
+
+#include <cstring>
+#include <vector>
+
+namespace plumb {
+
+template <class Real, int W>
+class ContactBatches {
+public:
+    /// Where a pair sits: its lane of a block, whose rows follow each other.
+    struct Slot {
+        std::uint32_t block, lane;
+    };
+
+    /// Lays out zeroed blocks and rows for pairs that `colouring` has coloured.
+    void lay_out(const std::vector<BodyPair>& pairs, const Colouring& colouring, ContactVariant variant,
+                 std::int32_t zero_row) {
+        ranges_.clear();
+        slots_.resize(pairs.size());
+        std::uint32_t block_count = 0;
+        for (const Batch& b : colouring.batches()) {
+            const std::uint32_t pairs_here = b.last - b.first;
+            const std::uint32_t blocks_here = b.independent ? (pairs_here + W - 1) / W : pairs_here;
+            ranges_.push_back({block_count, block_count + blocks_here, b.independent});
+            block_count += blocks_here;
+        }
+        clear(blocks_, block_count);
+        std::uint32_t rows = 0;
+        for (std::size_t i = 0; i < ranges_.size(); ++i)
+            rows = fill_range(ranges_[i], colouring.batches()[i], colouring.order(), pairs, zero_row, rows);
+        clear(normals_, rows);
+        clear(frictions_, variant != ContactVariant::frictionless ? rows : 0);
+        clear(turnings_, variant == ContactVariant::turning ? rows : 0);
+    }
+
+    const std::vector<BlockRange>& ranges() const { return ranges_; }
+    Slot slot(std::size_t pair) const { return slots_[pair]; }
+    std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
+    ContactArrays<Real, W> arrays() {
+        return {blocks_.data(), normals_.data(), frictions_.data(), turnings_.data()};
+    }
+
+private:
+    template <class Row>
+    static void clear(std::vector<Row>& rows, std::size_t count) {
+        rows.resize(count);
+        if (count > 0) std::memset(static_cast<void*>(rows.data()), 0, count * sizeof(Row));
+    }
+
+    /// Gives the pairs of one batch their blocks and returns the number of rows so far.
+    std::uint32_t fill_range(const BlockRange& range, const Batch& batch, const std::vector<std::uint32_t>& order,
+                             const std::vector<BodyPair>& pairs, std::int32_t zero_row, std::uint32_t rows) {
+        const std::uint32_t width = range.independent ? W : 1;
+        for (std::uint32_t b = range.first; b < range.last; ++b) {
+            PairBlock<Real, W>& block = blocks_[b];
+            for (int lane = 0; lane < W; ++lane) block.row_a[lane] = block.row_b[lane] = zero_row;
+            block.first_row = rows;
+            const std::uint32_t begin = batch.first + (b - range.first) * width;
+            for (std::uint32_t lane = 0; lane < width && begin + lane < batch.last; ++lane) {
+                const BodyPair& pair = pairs[order[begin + lane]];
+                block.row_a[lane] = pair.row_a;
+                block.row_b[lane] = pair.row_b;
+                block.row_count = block.row_count > pair.count ? block.row_count : pair.count;
+                slots_[order[begin + lane]] = {b, lane};
+            }
+            rows += block.row_count;
+        }
+        return rows;
+    }
+
+    std::vector<PairBlock<Real, W>> blocks_;
+    std::vector<NormalRow<Real, W>> normals_;
+    std::vector<FrictionRow<Real, W>> frictions_;
+    std::vector<TurningRow<Real, W>> turnings_;
+    std::vector<BlockRange> ranges_;
+    std::vector<Slot> slots_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/workers.h"
+
+namespace plumb {
+namespace {
+
+/// Spins for a while, then lets others run: a barrier is usually a microsecond away.
+template <class Condition>
+void wait_until(Condition reached) {
+    for (int spins = 0; !reached(); ++spins)
+        if (spins > 2000) std::this_thread::yield();
+}
+
+}  // namespace
+
+Workers::Workers(std::uint32_t count) : count_(count > 0 ? count : 1) {
+    for (std::uint32_t w = 1; w < count_; ++w) threads_.emplace_back([this, w] { wait_for_tasks(w); });
+}
+
+Workers::~Workers() {
+    stop_ = true;
+    ++round_;
+    round_.notify_all();
+    for (std::thread& t : threads_) t.join();
+}
+
+void Workers::run(const std::function<void(std::uint32_t)>& task) {
+    if (count_ == 1) return task(0);
+    task_ = &task;
+    running_ = count_ - 1;
+    ++round_;
+    round_.notify_all();
+    task(0);
+    wait_until([this] { return running_ == 0; });
+}
+
+void Workers::barrier() {
+    if (count_ == 1) return;
+    const std::uint64_t passed = barriers_;
+    if (++arrived_ == count_) {
+        arrived_ = 0;
+        ++barriers_;
+    } else {
+        wait_until([&] { return barriers_ != passed; });
+    }
+}
+
+void Workers::wait_for_tasks(std::uint32_t worker) {
+    for (std::uint64_t seen = 0;;) {
+        for (int spins = 0; round_ == seen; ++spins)
+            if (spins > 20000) round_.wait(seen);
+        ++seen;
+        if (stop_) return;
+        (*task_)(worker);
+        --running_;
+    }
+}
+
+}  // namespace plumb

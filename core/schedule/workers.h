@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+/// Worker threads that run one function together, in fixed shares.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <thread>
+#include <vector>
+
+namespace plumb {
+
+/// Half-open range of items.
+struct Range {
+    std::uint32_t first, last;
+};
+
+/// A team of n workers, of which the caller is the first. Shares depend on n and the item count alone, and the
+/// solver gives the same bits for any n because items of one share never touch those of another.
+class Workers {
+public:
+    explicit Workers(std::uint32_t count);
+    ~Workers();
+    Workers(const Workers&) = delete;
+    Workers& operator=(const Workers&) = delete;
+
+    std::uint32_t count() const { return count_; }
+
+    /// Calls task(worker) once on every worker and returns when all have returned.
+    void run(const std::function<void(std::uint32_t worker)>& task);
+
+    /// Inside of a task: waits until every worker has come here.
+    void barrier();
+
+    /// Share of `items` that a worker takes.
+    Range share(std::uint32_t items, std::uint32_t worker) const {
+        return {static_cast<std::uint32_t>(std::uint64_t(items) * worker / count_),
+                static_cast<std::uint32_t>(std::uint64_t(items) * (worker + 1) / count_)};
+    }
+
+private:
+    void wait_for_tasks(std::uint32_t worker);
+
+    std::uint32_t count_;
+    const std::function<void(std::uint32_t)>* task_ = nullptr;
+    std::atomic<std::uint64_t> round_{0};
+    std::atomic<std::uint32_t> running_{0};
+    std::atomic<bool> stop_{false};
+    std::atomic<std::uint32_t> arrived_{0};
+    std::atomic<std::uint64_t> barriers_{0};
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace plumb

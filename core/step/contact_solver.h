@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: MIT
+/// Contacts of one precision and lane width: from the world's columns to rows, iterations, and back.
+#pragma once
+
+#include "effects/plan.h"
+#include "kernels/contact_kernels.h"
+#include "schedule/contact_batches.h"
+#include "schedule/workers.h"
+#include "step/contact_pairs.h"
+#include "step/fill_mass.h"
+#include "step/velocity_table.h"
+#include "world/world.h"
+
+#include <cmath>
+#include <vector>
+
+namespace plumb {
+
+/// The variant of rows that a plan calls for.
+inline ContactVariant contact_variant(const Plan& plan) {
+    if (plan.runs(Effect::turning_friction)) return ContactVariant::turning;
+    return plan.runs(Effect::friction) ? ContactVariant::friction : ContactVariant::frictionless;
+}
+
+template <class Real, int W>
+class ContactSolver {
+public:
+    ContactSolver(const Plan& plan, Workers& workers)
+        : variant_(contact_variant(plan)), kernels_(contact_kernels<Real, W>(variant_)), workers_(workers) {}
+
+    bool empty() const { return pairs_.empty(); }
+
+    /// Rows for the pairs; `levels` (may be null) makes the lower body of a pair immovable.
+    void load(const World& world, const std::vector<std::uint32_t>* levels) {
+        find_pairs(world, levels, pairs_);
+        colouring_.colour(pairs_, world.dynamic_count);
+        batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
+        fill_geometry(world, levels);
+        run(kernels_.prepare, {}, {});
+    }
+
+    /// Impulses that the contacts remember of the step before.
+    void load_impulses(const World& world) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            const ContactMemory& memory = world.contacts.memory[contact];
+            if (!memory.matched) return;
+            rows.normals[k].lambda_velocity[lane] = static_cast<Real>(memory.normal_impulse);
+            if (!rows.frictions) return;
+            FrictionRow<Real, W>& across = rows.frictions[k];
+            const auto [x, y] = tangents(rows.normals[k], across, lane);
+            across.held_x[lane] = static_cast<Real>(x.dot(memory.friction_impulse));
+            across.held_y[lane] = static_cast<Real>(y.dot(memory.friction_impulse));
+        });
+    }
+
+    /// Gaps, rebounds and drifts of the substep; sums of the pass before become the start of this one.
+    void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+        const ContactTable& c = world.contacts;
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            NormalRow<Real, W>& row = rows.normals[k];
+            row.gap[lane] = static_cast<Real>(c.gap[contact]);
+            if (!c.rebound.empty()) {
+                const bool passing = c.rebound[contact] == ContactTable::kPassing;
+                row.rebound[lane] = passing ? Real(0) : static_cast<Real>(c.rebound[contact]);
+                if (passing) row.gap[lane] = kOutOfReach;
+            }
+            if (!rows.frictions || c.drift.empty()) return;
+            FrictionRow<Real, W>& across = rows.frictions[k];
+            const auto [x, y] = tangents(row, across, lane);
+            across.drift_x[lane] = static_cast<Real>(pull * x.dot(c.drift[contact]));
+            across.drift_y[lane] = static_cast<Real>(pull * y.dot(c.drift[contact]));
+        });
+        run(kernels_.begin, bodies, pass);
+    }
+
+    void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+        run(kernels_.warm_start, bodies, pass);
+    }
+    void velocity_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass, std::uint32_t worker) {
+        sweep(kernels_.solve_velocities, bodies, pass, worker);
+    }
+    void position_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass, std::uint32_t worker) {
+        sweep(kernels_.solve_positions, bodies, pass, worker);
+    }
+
+    /// Takes over another solver's summed impulses: what shock propagation adds to.
+    void copy_impulses(ContactSolver& from) {
+        const ContactArrays<Real, W> rows = batches_.arrays(), source = from.batches_.arrays();
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const auto to = batches_.slot(p), at = from.batches_.slot(p);
+            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
+                copy_row(rows, row_of(to.block, i), to.lane, source, from.row_of(at.block, i), at.lane);
+        }
+    }
+
+    void store_impulses(ContactTable& contacts) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            ContactMemory& memory = contacts.memory[contact];
+            const NormalRow<Real, W>& row = rows.normals[k];
+            memory.normal_impulse = double(row.lambda_velocity[lane]) + double(row.lambda_position[lane]);
+            memory.sticks = false;
+            if (!rows.frictions) return;
+            const FrictionRow<Real, W>& across = rows.frictions[k];
+            const auto [x, y] = tangents(row, across, lane);
+            const double fx = double(across.held_x[lane]) + double(across.rubbed_x[lane]);
+            const double fy = double(across.held_y[lane]) + double(across.rubbed_y[lane]);
+            memory.friction_impulse = fx * x + fy * y;
+            memory.sticks = std::hypot(fx, fy) < (1 - 1e-5) * double(across.friction[lane]) * memory.normal_impulse;
+        });
+    }
+
+private:
+    static constexpr Real kOutOfReach = Real(1e6);  // [m]
+
+    struct TangentPair {
+        Vector3d x, y;
+    };
+    static TangentPair tangents(const NormalRow<Real, W>& row, const FrictionRow<Real, W>& across, std::uint32_t lane) {
+        const Vector3d n(row.normal[0][lane], row.normal[1][lane], row.normal[2][lane]);
+        const Vector3d x(across.tangent[0][lane], across.tangent[1][lane], across.tangent[2][lane]);
+        return {x, n.cross(x)};
+    }
+
+    std::uint32_t row_of(std::uint32_t block, std::uint32_t point) {
+        return batches_.arrays().blocks[block].first_row + point;
+    }
+
+    /// Calls visit(contact, row, lane) for all contacts, in their order.
+    template <class Visit>
+    void each_contact(Visit visit) {
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const auto slot = batches_.slot(p);
+            const std::uint32_t first = row_of(slot.block, 0);
+            for (std::uint32_t i = 0; i < pairs_[p].count; ++i) visit(pairs_[p].first + i, first + i, slot.lane);
+        }
+    }
+
+    void fill_geometry(const World& world, const std::vector<std::uint32_t>* levels) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const auto slot = batches_.slot(p);
+            const Contact& first = world.contacts.found[pairs_[p].first];
+            const bool hold_a = levels && (*levels)[first.a] < (*levels)[first.b];
+            const bool hold_b = levels && (*levels)[first.b] < (*levels)[first.a];
+            PairBlock<Real, W>& block = rows.blocks[slot.block];
+            if (!hold_a) fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a, slot.lane);
+            if (!hold_b) fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b, slot.lane);
+            const SurfacePair& surface = world.surface_pair(first.a, first.b);
+            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
+                fill_row(world, rows, pairs_[p].first + i, block.first_row + i, slot.lane, surface);
+        }
+    }
+
+    void fill_row(const World& world, const ContactArrays<Real, W>& rows, std::size_t contact, std::uint32_t k,
+                  std::uint32_t lane, const SurfacePair& surface) {
+        const Contact& c = world.contacts.found[contact];
+        const Vector3d n = to_eigen(c.normal), point = common_point(c);
+        const Vector3d arm_a = point - world.bodies.position[c.a], arm_b = point - world.bodies.position[c.b];
+        NormalRow<Real, W>& row = rows.normals[k];
+        for (int i = 0; i < 3; ++i) {
+            row.normal[i][lane] = static_cast<Real>(n[i]);
+            row.arm_a[i][lane] = static_cast<Real>(arm_a[i]);
+            row.arm_b[i][lane] = static_cast<Real>(arm_b[i]);
+        }
+        if (rows.frictions) rows.frictions[k].friction[lane] = static_cast<Real>(surface.friction);
+        if (!rows.turnings) return;
+        rows.turnings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
+        rows.turnings[k].spinning[lane] = static_cast<Real>(surface.spinning_friction);
+    }
+
+    static void copy_row(const ContactArrays<Real, W>& to, std::uint32_t k, std::uint32_t lane,
+                         const ContactArrays<Real, W>& from, std::uint32_t j, std::uint32_t from_lane) {
+        const NormalRow<Real, W>& source = from.normals[j];
+        to.normals[k].lambda_velocity[lane] = source.lambda_velocity[from_lane] + source.lambda_position[from_lane];
+        to.normals[k].lambda_position[lane] = 0;
+        if (!to.frictions) return;
+        const FrictionRow<Real, W>& across = from.frictions[j];
+        to.frictions[k].held_x[lane] = across.held_x[from_lane] + across.rubbed_x[from_lane];
+        to.frictions[k].held_y[lane] = across.held_y[from_lane] + across.rubbed_y[from_lane];
+        to.frictions[k].rubbed_x[lane] = to.frictions[k].rubbed_y[lane] = 0;
+    }
+
+    /// Runs a kernel over all blocks in one go each batch, all workers together.
+    void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+        workers_.run([&](std::uint32_t worker) { sweep(kernel, bodies, pass, worker); });
+    }
+
+    /// One pass over the batches in order (or backwards); inside of a batch every worker takes its share of blocks.
+    void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+               std::uint32_t worker) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        const std::vector<BlockRange>& ranges = batches_.ranges();
+        for (std::size_t i = 0; i < ranges.size(); ++i) {
+            const BlockRange& range = ranges[pass.forwards ? i : ranges.size() - 1 - i];
+            if (range.independent) {
+                const Range share = workers_.share(range.last - range.first, worker);
+                kernel(rows, bodies, pass, range.first + share.first, range.first + share.last);
+            } else if (worker == 0) {
+                sweep_in_order(kernel, rows, bodies, pass, range);
+            }
+            workers_.barrier();
+        }
+    }
+
+    static void sweep_in_order(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,
+                               const BodyRows<Real>& bodies, const PassSettings<Real>& pass, const BlockRange& range) {
+        if (pass.forwards) return kernel(rows, bodies, pass, range.first, range.last);
+        for (std::uint32_t b = range.last; b > range.first; --b) kernel(rows, bodies, pass, b - 1, b);
+    }
+
+    ContactVariant variant_;
+    const ContactKernels<Real, W>& kernels_;
+    Workers& workers_;
+    std::vector<BodyPair> pairs_;
+    Colouring colouring_;
+    ContactBatches<Real, W> batches_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "step/stages.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+Contact* grow(void* ctx, std::uint32_t count) {
+    auto& contacts = *static_cast<std::vector<Contact>*>(ctx);
+    const std::size_t before = contacts.size();
+    contacts.resize(before + count);
+    return contacts.data() + before;
+}
+
+/// How far a body may come in dt beyond what the margin covers already [m].
+double sweep(const World& world, std::size_t i, double dt) {
+    const Bodies& b = world.bodies;
+    if (b.motion[i] == Motion::fixed || !(b.reach[i] > 0)) return 0;
+    const double turn = std::min(b.angular_velocity[i].norm() * dt, 2.0);
+    const double spin = b.isotropic[i] && b.reach[i] == 0 ? 0 : turn * b.reach[i];
+    const double travel = b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
+    return std::max(0.0, travel - world.settings.margin / 2);
+}
+
+bool usable(const Contact& c, const World& world) {
+    const auto n = world.bodies.size();
+    if (c.a >= n || c.b >= n || c.a >= c.b) return false;
+    if (world.bodies.motion[c.a] != Motion::dynamic && world.bodies.motion[c.b] != Motion::dynamic) return false;
+    const double sum = c.gap + c.radius_a + c.radius_b + c.point_a.x + c.point_a.y + c.point_a.z + c.point_b.x +
+                       c.point_b.y + c.point_b.z;
+    const double length = to_eigen(c.normal).squaredNorm();
+    return std::isfinite(sum) && std::abs(length - 1) < 1e-6;
+}
+
+bool before(const Contact& x, const Contact& y) {
+    if (x.a != y.a) return x.a < y.a;
+    if (x.b != y.b) return x.b < y.b;
+    return x.feature < y.feature;
+}
+
+}  // namespace
+
+void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt, StepReport& report) {
+    const Bodies& bodies = world.bodies;
+    const std::size_t n = bodies.size();
+    buffers.poses.resize(n);
+    buffers.sweeps.resize(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        buffers.poses[i] = {to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
+        buffers.sweeps[i] = sweep(world, i, dt);
+    }
+    buffers.sinks.resize(std::max<std::size_t>(1, world.settings.threads));
+    std::vector<ContactSink> sinks;
+    for (auto& contacts : buffers.sinks) {
+        contacts.clear();
+        sinks.push_back({&contacts, grow});
+    }
+    const DetectRequest request{buffers.poses.data(), buffers.sweeps.data(), static_cast<std::uint32_t>(n), 0,
+                                world.settings.margin};
+    const Status status = proximity.detect(request, sinks.data(), static_cast<std::uint32_t>(sinks.size()));
+    if (status.code != Status::ok) {
+        report.collider_failed = true;
+        report.message = status.message ? status.message : "the collider failed without a message";
+    }
+
+    std::vector<Contact>& found = world.contacts.found;
+    found.clear();
+    for (const auto& contacts : buffers.sinks)
+        for (const Contact& c : contacts) {
+            if (usable(c, world)) found.push_back(c);
+            else ++report.rejected_contacts;
+        }
+    world.contacts.rejected += report.rejected_contacts;
+    if (!std::is_sorted(found.begin(), found.end(), before)) std::stable_sort(found.begin(), found.end(), before);
+    report.contacts = static_cast<std::uint32_t>(found.size());
+}
+
+}  // namespace plumb

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "step/row_solver.h"
+
+#include "scene/error.h"
+#include "step/ball_solver.h"
+#include "step/contact_solver.h"
+
+#include <cmath>
+#include <optional>
+#include <string>
+
+namespace plumb {
+namespace {
+
+/// s′ = 1 − (1 − s)^(5/N): s is defined for five iterations of one substep, and N are made.
+double rescaled_stiffness(const Settings& s) {
+    const double n = double(s.position_iterations) * s.substeps;
+    return n > 0 ? 1 - std::pow(1 - s.stiffness, 5 / n) : 0;
+}
+
+template <class Real, int W>
+class RowSolverOf final : public RowSolver {
+public:
+    RowSolverOf(const World& world, const Plan& plan, Workers& workers)
+        : settings_(world.settings), workers_(workers), shocks_(plan.runs(Effect::shock_propagation)),
+          contacts_(plan, workers) {
+        if (plan.runs(Effect::joints)) balls_.emplace(world, workers);
+        if (shocks_) shock_.emplace(plan, workers);
+    }
+
+    void load_contacts(const World& world) override {
+        contacts_.load(world, nullptr);
+        if (settings_.warm_start) contacts_.load_impulses(world);
+        if (!shocks_) return;
+        find_levels(world, levels_);
+        shock_->load(world, &levels_);
+    }
+
+    void begin_substep(const World& world, double h) override {
+        table_.begin(world);
+        pass_.h = static_cast<Real>(h);
+        pass_.stiffness = static_cast<Real>(rescaled_stiffness(settings_));
+        pass_.recovery = static_cast<Real>(h * settings_.recovery_speed);
+        pass_.collision_speed =
+            static_cast<Real>(std::sqrt(2 * settings_.gravity.norm() * settings_.collision_depth));
+        pass_.warm_start = settings_.warm_start;
+        pass_.shared_cone = settings_.shared_cone;
+        pass_.forwards = true;
+        sweeps_ = 0;
+        if (!contacts_.empty()) contacts_.begin(world, table_.rows(), pass_);
+        if (shocks_) shock_->begin(world, table_.rows(), pass_);
+        if (balls_) balls_->begin(world);
+    }
+
+    void solve_velocities() override {
+        if (contacts_.empty()) return;
+        if (settings_.warm_start) contacts_.warm_start(table_.rows(), pass_);
+        workers_.run([this](std::uint32_t worker) {
+            PassSettings<Real> pass = pass_;
+            for (std::uint32_t i = 0; i < settings_.velocity_iterations; ++i) {
+                pass.forwards = forwards(sweeps_ + i);
+                contacts_.velocity_iteration(table_.rows(), pass, worker);
+            }
+        });
+        sweeps_ += settings_.velocity_iterations;
+    }
+
+    void solve_positions() override {
+        if (contacts_.empty() && !balls_) return;
+        workers_.run([this](std::uint32_t worker) {
+            PassSettings<Real> pass = pass_;
+            for (std::uint32_t i = 0; i < settings_.position_iterations; ++i) {
+                pass.forwards = forwards(sweeps_ + i);
+                if (balls_) balls_->position_iteration(table_.rows(), pass.h, pass.forwards, worker);
+                if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
+            }
+        });
+        sweeps_ += settings_.position_iterations;
+    }
+
+    /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman et al.).
+    void propagate_shock() override {
+        if (contacts_.empty()) return;
+        shock_->copy_impulses(contacts_);
+        PassSettings<Real> pass = pass_;
+        pass.shared_cone = true;
+        workers_.run([&](std::uint32_t worker) { shock_->position_iteration(table_.rows(), pass, worker); });
+    }
+
+    Vector3d velocity_change(std::int32_t row) const override { return table_.velocity_change(row); }
+    Vector3d angular_velocity_change(std::int32_t row) const override {
+        return table_.angular_velocity_change(row);
+    }
+
+    void store_impulses(World& world) override { contacts_.store_impulses(world.contacts); }
+
+private:
+    bool forwards(std::uint32_t sweep) const { return !settings_.alternate_sweeps || sweep % 2 == 0; }
+
+    const Settings settings_;
+    Workers& workers_;
+    bool shocks_;
+    VelocityTable<Real> table_;
+    PassSettings<Real> pass_{};
+    ContactSolver<Real, W> contacts_;
+    std::optional<ContactSolver<Real, W>> shock_;
+    std::optional<BallSolver<Real, W>> balls_;
+    std::vector<std::uint32_t> levels_;
+    std::uint32_t sweeps_ = 0;  // made in this substep
+};
+
+template <class Real>
+std::unique_ptr<RowSolver> make_with_lanes(const World& world, const Plan& plan, Workers& workers) {
+    const int widest = widest_lanes();
+    const int lanes = world.settings.lanes == 0 ? widest : static_cast<int>(world.settings.lanes);
+    if (lanes <= widest) {
+        switch (lanes) {
+            case 1: return std::make_unique<RowSolverOf<Real, 1>>(world, plan, workers);
+            case 4: return std::make_unique<RowSolverOf<Real, 4>>(world, plan, workers);
+            case 8: return std::make_unique<RowSolverOf<Real, 8>>(world, plan, workers);
+            case 16: return std::make_unique<RowSolverOf<Real, 16>>(world, plan, workers);
+            default: break;
+        }
+    }
+    throw SceneError("", "/settings/lanes",
+                     std::to_string(lanes) + " lanes cannot be run here; this processor runs 1, 4" +
+                         (widest >= 8 ? ", 8" : "") + (widest >= 16 ? ", 16" : "") + ", or 0 for the widest");
+}
+
+}  // namespace
+
+std::unique_ptr<RowSolver> make_row_solver(const World& world, const Plan& plan, Workers& workers) {
+    return world.settings.precision == Precision::single ? make_with_lanes<float>(world, plan, workers)
+                                                         : make_with_lanes<double>(world, plan, workers);
+}
+
+}  // namespace plumb

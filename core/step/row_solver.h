@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// The iterations of a substep, in one precision and lane width chosen at run time.
+///
+/// A virtual call is one stage over all constraints, never one constraint.
+#pragma once
+
+#include "effects/plan.h"
+#include "schedule/workers.h"
+#include "world/world.h"
+
+#include <memory>
+
+namespace plumb {
+
+class RowSolver {
+public:
+    virtual ~RowSolver() = default;
+
+    /// Once a step: colours the contacts, fills their rows, and takes over the impulses they remember.
+    virtual void load_contacts(const World& world) = 0;
+
+    /// Once a substep of length h [s]: velocities, gaps and drifts at its start.
+    virtual void begin_substep(const World& world, double h) = 0;
+
+    virtual void solve_velocities() = 0;
+    virtual void solve_positions() = 0;
+    virtual void propagate_shock() = 0;
+
+    /// What the substep changed of a dynamic body's velocity [m/s] and angular velocity [rad/s].
+    virtual Vector3d velocity_change(std::int32_t row) const = 0;
+    virtual Vector3d angular_velocity_change(std::int32_t row) const = 0;
+
+    /// Once a step: impulses, into ContactTable::memory.
+    virtual void store_impulses(World& world) = 0;
+};
+
+/// Throws SceneError when this processor cannot run Settings::lanes.
+std::unique_ptr<RowSolver> make_row_solver(const World& world, const Plan& plan, Workers& workers);
+
+}  // namespace plumb

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+/// The stages of a step that work on the world's tables. Each does one thing; step.cpp puts them in order.
+#pragma once
+
+#include "effects/plan.h"
+#include "step/report.h"
+#include "step/row_solver.h"
+#include "world/world.h"
+
+#include <plumb/proximity.h>
+
+#include <vector>
+
+namespace plumb {
+
+/// Reused memory of detection.
+struct DetectBuffers {
+    std::vector<Pose> poses;
+    std::vector<double> sweeps;
+    std::vector<std::vector<Contact>> sinks;
+};
+
+/// Asks the collider for all contacts at the present poses, bodies growing their margin by how far they may move in
+/// dt [s]. Its status and message go into the report.
+void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt, StepReport& report);
+
+/// Checks and sorts what was found, and hands each contact the memory of the same contact of the step before.
+void match_contacts(World& world, const Plan& plan);
+
+/// Gaps and drifts at the start of a substep, from points that ride on the bodies.
+void follow_contacts(World& world, const Plan& plan, bool first_substep);
+
+/// Kinematic bodies' velocities over the coming substep of length h [s], from their scripts.
+void move_scripted(World& world, double h);
+
+/// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich). Speeds are those
+/// before forces are added, so that a resting body does not bounce, whatever its e.
+void choose_rebounds(World& world, bool first_substep);
+
+/// v ← v + h F/m, ω ← ω + h I⁻¹(τ − ω × Iω) (§3).
+void integrate_velocities(World& world, const Plan& plan, double h);
+
+/// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made.
+void move(World& world, const RowSolver& solver, double h);
+
+/// Keeps contacts and impulses for the next step.
+void remember_contacts(World& world);
+
+}  // namespace plumb

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// The time step.
+#pragma once
+
+#include "effects/ledger.h"
+#include "effects/plan.h"
+#include "schedule/workers.h"
+#include "step/report.h"
+#include "step/row_solver.h"
+#include "step/stages.h"
+#include "world/world.h"
+
+#include <plumb/proximity.h>
+
+#include <memory>
+
+namespace plumb {
+
+/// What steps need besides the world: the plan, the threads, and reused memory.
+struct Stepper {
+    explicit Stepper(const World& world)
+        : plan(make_plan(world)), workers(world.settings.threads), solver(make_row_solver(world, plan, workers)) {}
+
+    Plan plan;
+    Workers workers;
+    std::unique_ptr<RowSolver> solver;
+    DetectBuffers buffers;
+    Ledger ledger;  ///< of the last step
+};
+
+/// Advances the world by Settings::dt.
+StepReport step(World& world, Stepper& stepper, Proximity& proximity);
+
+}  // namespace plumb

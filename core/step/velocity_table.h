@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// The solver's unknowns: one row a body, 32 bytes in single and 64 in double precision.
+///
+/// Because every displacement is followed at once by its velocity (§3, end), x = x₀ + h v holds throughout the
+/// iterations, and velocity and preview position are one unknown. Rows hold the change since the start of the
+/// substep, so that single precision loses nothing of gravity at tiny steps.
+#pragma once
+
+#include "schedule/contact_rows.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+template <class Real>
+class VelocityTable {
+public:
+    /// Takes the velocities at the start of a substep, forces included, and clears the changes.
+    void begin(const World& world) {
+        const std::size_t rows = static_cast<std::size_t>(world.zero_row()) + 1;
+        start_.assign(rows * kBodyRowSize, Real(0));
+        change_.assign(rows * kBodyRowSize, Real(0));
+        dynamic_count_ = world.dynamic_count;
+        for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+            if (world.bodies.motion[i] == Motion::fixed) continue;
+            Real* row = start_.data() + world.bodies.row[i] * kBodyRowSize;
+            for (int k = 0; k < 3; ++k) {
+                row[k] = static_cast<Real>(world.bodies.velocity[i][k]);
+                row[4 + k] = static_cast<Real>(world.bodies.angular_velocity[i][k]);
+            }
+        }
+    }
+
+    BodyRows<Real> rows() { return {change_.data(), start_.data(), dynamic_count_}; }
+
+    Vector3d velocity_change(std::int32_t row) const { return read(row, 0); }
+    Vector3d angular_velocity_change(std::int32_t row) const { return read(row, 4); }
+
+private:
+    Vector3d read(std::int32_t row, int offset) const {
+        const Real* r = change_.data() + row * kBodyRowSize + offset;
+        return {static_cast<double>(r[0]), static_cast<double>(r[1]), static_cast<double>(r[2])};
+    }
+
+    std::vector<Real> start_, change_;
+    std::int32_t dynamic_count_ = 0;
+};
+
+}  // namespace plumb

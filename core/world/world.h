@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// The world: all that a step reads and changes, as tables.
+#pragma once
+
+#include "scene/scene.h"
+#include "world/bodies.h"
+#include "world/contacts.h"
+#include "world/shape_store.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+/// How two materials meet.
+struct SurfacePair {
+    double friction, restitution, rolling_friction, spinning_friction;
+};
+
+/// Ball joints, [joint].
+struct BallJoints {
+    std::vector<std::uint32_t> a, b;               ///< bodies; b may be kNoIndex: the world
+    std::vector<Vector3d> anchor_a, anchor_b;      ///< in the bodies' frames; world frame where b is kNoIndex [m]
+    std::size_t size() const { return a.size(); }
+};
+
+struct World {
+    Settings settings;
+    Bodies bodies;
+    BallJoints balls;
+    std::vector<SurfacePair> surface_pairs;  ///< [material_a × material_count + material_b]
+    std::uint32_t material_count = 1;
+    ContactTable contacts;
+    ShapeStore shapes;
+    std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table
+    std::int32_t kinematic_count = 0;  ///< then those of kinematic bodies, then one of zeros
+    double time = 0;                   ///< [s]
+    std::uint64_t steps = 0;
+
+    const SurfacePair& surface_pair(std::uint32_t body_a, std::uint32_t body_b) const {
+        return surface_pairs[bodies.material[body_a] * material_count + bodies.material[body_b]];
+    }
+    std::int32_t zero_row() const { return dynamic_count + kinematic_count; }
+};
+
+/// Makes the world of a scene. Throws SceneError, with a JSON pointer, for what cannot be simulated: a dynamic body
+/// without mass, an impossible inertia, an index out of range, a number that is not finite.
+World build_world(const Scene& scene);
+
+}  // namespace plumb
