@@ -1,0 +1,22 @@
+# plumb::reader: scenes from JSON files. Its libraries stay private to it.
+find_package(nlohmann_json 3.11 REQUIRED)
+find_package(tinyobjloader REQUIRED CONFIG)
+find_package(Qhull REQUIRED CONFIG)
+
+add_library(plumb_reader STATIC
+  reader/bodies.cpp reader/hull.cpp reader/joints.cpp reader/materials.cpp reader/names.cpp reader/nearest.cpp
+  reader/node.cpp reader/obj.cpp reader/parse.cpp reader/polyhedra.cpp reader/reader.cpp reader/repeat.cpp
+  reader/rotation.cpp reader/schema.cpp reader/settings.cpp reader/shapes.cpp reader/table.cpp reader/types.cpp)
+add_library(plumb::reader ALIAS plumb_reader)
+set_target_properties(plumb_reader PROPERTIES EXPORT_NAME reader)
+target_link_libraries(plumb_reader
+  PUBLIC plumb::scene
+  PRIVATE $<BUILD_INTERFACE:plumb_options> nlohmann_json::nlohmann_json tinyobjloader::tinyobjloader_double
+          Qhull::qhull_r)
+
+# After a change of the format: cmake --build BUILD --target plumb_scene_schema
+add_executable(plumb_write_schema EXCLUDE_FROM_ALL reader/write_schema.cpp)
+target_link_libraries(plumb_write_schema PRIVATE plumb::reader plumb_options)
+add_custom_target(plumb_scene_schema
+  COMMAND plumb_write_schema "${CMAKE_CURRENT_SOURCE_DIR}/../samples/schema/plumb-scene.schema.json"
+  COMMENT "Writing the schema of scenes")

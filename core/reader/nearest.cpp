@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#include "reader/nearest.h"
+
+#include <algorithm>
+
+namespace plumb::reader {
+
+namespace {
+
+constexpr std::size_t kMostListed = 24;   // candidates that an error lists
+constexpr std::size_t kLongestWord = 64;  // [characters] longer words are not worth comparing
+
+}  // namespace
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    // Rows of the table of distances between the first i letters of a and the first j of b.
+    std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
+
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t replace = last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({last[j] + 1, row[j - 1] + 1, replace});
+            const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+            if (swapped) row[j] = std::min(row[j], before[j - 2] + 1);
+        }
+        std::swap(before, last);
+        std::swap(last, row);
+    }
+    return last[b.size()];
+}
+
+std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+    if (word.size() > kLongestWord) return "";
+
+    // A third of the letters may be wrong, and one always.
+    std::size_t best_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+    std::string best;
+    for (const std::string& candidate : candidates) {
+        if (candidate.size() > kLongestWord) continue;
+        const std::size_t distance = edit_distance(word, candidate);
+        if (distance < best_distance) {
+            best_distance = distance;
+            best = candidate;
+        }
+    }
+    return best;
+}
+
+std::string advice(std::string_view word, const std::vector<std::string>& candidates) {
+    const std::string near = nearest(word, candidates);
+    std::string text = near.empty() ? "." : "; did you mean \"" + near + "\"?";
+    if (candidates.empty()) return text;
+
+    text += " Allowed: ";
+    for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i) {
+        text += (i > 0 ? ", " : "") + candidates[i];
+    }
+    if (candidates.size() > kMostListed) {
+        text += " and " + std::to_string(candidates.size() - kMostListed) + " more";
+    }
+    return text;
+}
+
+}  // namespace plumb::reader

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "reader/node.h"
+
+#include "scene/error.h"
+
+namespace plumb::reader {
+
+namespace {
+
+constexpr std::size_t kLongestShown = 40;  // characters of a value that an error repeats
+
+/// A value in words: what it is, and when it is short, itself.
+std::string described(const Json& json) {
+    switch (json.type()) {
+        case Json::value_t::object:
+            return "an object";
+        case Json::value_t::array:
+            return "a list of " + std::to_string(json.size());
+        case Json::value_t::string: {
+            const auto& text = json.get_ref<const std::string&>();
+            return text.size() <= kLongestShown ? "the text \"" + text + "\"" : "a long text";
+        }
+        default:
+            return json.dump();
+    }
+}
+
+}  // namespace
+
+std::string pointer_part(const std::string& key) {
+    std::string part;
+    for (const char c : key) {
+        if (c == '~') {
+            part += "~0";
+        } else if (c == '/') {
+            part += "~1";
+        } else {
+            part += c;
+        }
+    }
+    return part;
+}
+
+Node Node::at(const std::string& key) const {
+    return {json_->at(key), *source_, pointer_ + "/" + pointer_part(key)};
+}
+
+Node Node::at(std::size_t index) const {
+    return {json_->at(index), *source_, pointer_ + "/" + std::to_string(index)};
+}
+
+void Node::fail(const std::string& sentence) const {
+    throw SceneError(source_->name, pointer_, sentence);
+}
+
+void Node::fail_wanting(const std::string& wanted) const {
+    fail("must be " + wanted + ", but is " + described(*json_));
+}
+
+}  // namespace plumb::reader

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include "reader/polyhedra.h"
+
+#include "reader/bad_shape.h"
+#include "reader/hull.h"
+#include "reader/obj.h"
+
+namespace plumb::reader {
+
+namespace {
+
+using Triangle = std::array<std::uint32_t, 3>;
+
+/// [[x, y, z], …].
+struct VertexList {
+    std::vector<Eigen::Vector3d> read(const Node& node) const {
+        if (!node.json().is_array()) node.fail_wanting("a list of points [x, y, z]");
+        std::vector<Eigen::Vector3d> list;
+        list.reserve(node.size());
+        for (std::size_t i = 0; i < node.size(); ++i) {
+            list.push_back(Vector3{{-1e6, 1e6}}.read(node.at(i)));
+        }
+        return list;
+    }
+    SchemaJson schema() const {
+        return {{"type", "array"}, {"items", Vector3{{-1e6, 1e6}}.schema()}};
+    }
+};
+
+/// [[i, j, k], …].
+struct TriangleList {
+    std::vector<Triangle> read(const Node& node) const {
+        if (!node.json().is_array()) node.fail_wanting("a list of triangles [i, j, k]");
+        std::vector<Triangle> list;
+        list.reserve(node.size());
+        for (std::size_t i = 0; i < node.size(); ++i) {
+            const Node corners = node.at(i);
+            require_list(corners, 3, "indices of vertices");
+            list.push_back(
+                {index.read(corners.at(0)), index.read(corners.at(1)), index.read(corners.at(2))});
+        }
+        return list;
+    }
+    SchemaJson schema() const {
+        return {{"type", "array"},
+                {"items",
+                 {{"type", "array"}, {"items", index.schema()}, {"minItems", 3}, {"maxItems", 3}}}};
+    }
+
+private:
+    Whole<std::uint32_t> index{{0, 4294967294.0}};
+};
+
+/// Points from the scene itself or from a file.
+struct PointsDraft {
+    std::vector<Eigen::Vector3d> vertices;
+    std::vector<Triangle> triangles;
+    std::string obj;
+    double scale = 1;
+};
+
+const Table<PointsDraft>& hull_table() {
+    using P = PointsDraft;
+    static const Table<P> table = {
+        field<P>("vertices", VertexList{}, &P::vertices, "points, whose convex hull is taken [m]"),
+        field<P>("obj", Text{}, &P::obj, "Wavefront OBJ file, relative to the scene's folder"),
+        field<P>("scale", Number{kScale}, &P::scale, "factor on the coordinates of the file"),
+    };
+    return table;
+}
+
+const Table<PointsDraft>& mesh_table() {
+    static const Table<PointsDraft> table = [] {
+        Table<PointsDraft> fields = hull_table();
+        fields[0].meaning = "corners of the triangles [m]";
+        fields.push_back(
+            field<PointsDraft>("triangles", TriangleList{}, &PointsDraft::triangles,
+                               "three indices of vertices each, counter-clockwise from outside"));
+        return fields;
+    }();
+    return table;
+}
+
+/// Calls `make` and lets what it throws name the node.
+template <class Make>
+auto at_node(const Node& node, Make make) {
+    try {
+        return make();
+    } catch (const BadShape& error) {
+        node.fail(error.what());
+    }
+}
+
+std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double scale,
+                                    const Node& node) {
+    for (Eigen::Vector3d& p : points) {
+        p *= scale;
+        if (!(p.cwiseAbs().maxCoeff() <= 1e6))
+            node.fail("a vertex of the file lies further away than 1e6 m");
+    }
+    return points;
+}
+
+void require_one_source(const PointsDraft& draft, const Node& node) {
+    if (node.has("vertices") == node.has("obj"))
+        node.fail("must have either \"vertices\" or \"obj\"");
+    if (node.has("scale") && draft.obj.empty())
+        node.at("scale").fail("\"scale\" is for \"obj\" alone");
+}
+
+Geometry hull_geometry(const std::vector<Eigen::Vector3d>& points) {
+    Hull hull = convex_hull(points);
+    Geometry geometry;
+    geometry.kind = ShapeKind::hull;
+    geometry.vertices = std::move(hull.vertices);
+    geometry.faces = std::move(hull.faces);
+    return geometry;
+}
+
+void check_triangles(const PointsDraft& draft, const Node& node) {
+    if (!node.has("triangles")) node.fail("\"triangles\" is missing");
+    if (draft.triangles.empty()) node.at("triangles").fail("a mesh needs at least one triangle");
+    for (std::size_t i = 0; i < draft.triangles.size(); ++i) {
+        const auto& [a, b, c] = draft.triangles[i];
+        const Node place = node.at("triangles").at(i);
+        if (std::max({a, b, c}) >= draft.vertices.size()) {
+            place.fail("the mesh has " + std::to_string(draft.vertices.size()) +
+                       " vertices, numbered from 0; the triangle names one that is not there");
+        }
+        const Eigen::Vector3d u = draft.vertices[b] - draft.vertices[a],
+                              v = draft.vertices[c] - draft.vertices[a];
+        if (!(u.cross(v).norm() > 0)) place.fail("the triangle has no area");
+    }
+}
+
+SchemaJson either_source(SchemaJson json, const SchemaJson& inline_keys) {
+    json["oneOf"] = {{{"required", inline_keys}}, {{"required", {"obj"}}}};
+    return json;
+}
+
+}  // namespace
+
+void read_hull(ShapeDraft& draft, const Node& node) {
+    PointsDraft points;
+    read_object(points, node, hull_table());
+    require_one_source(points, node);
+    if (points.obj.empty()) {
+        draft.geometry = at_node(node, [&] { return hull_geometry(points.vertices); });
+        return;
+    }
+    draft.geometry = at_node(node.at("obj"), [&] {
+        const TriangleMesh mesh = load_obj(node.source().folder / points.obj);
+        return hull_geometry(scaled(mesh.vertices, points.scale, node.at("obj")));
+    });
+}
+
+void read_mesh(ShapeDraft& draft, const Node& node) {
+    PointsDraft points;
+    read_object(points, node, mesh_table());
+    require_one_source(points, node);
+    if (points.obj.empty()) {
+        check_triangles(points, node);
+    } else {
+        if (node.has("triangles"))
+            node.at("triangles").fail("\"triangles\" go with \"vertices\", not with \"obj\"");
+        TriangleMesh mesh =
+            at_node(node.at("obj"), [&] { return load_obj(node.source().folder / points.obj); });
+        points.vertices = scaled(std::move(mesh.vertices), points.scale, node.at("obj"));
+        points.triangles = std::move(mesh.triangles);
+    }
+    draft.geometry.kind = ShapeKind::mesh;
+    draft.geometry.vertices = std::move(points.vertices);
+    draft.geometry.triangles = std::move(points.triangles);
+}
+
+std::vector<GeometryPart> hulls_of_file(const Node& node, double scale) {
+    const std::string name = Text{}.read(node);
+    const auto meshes = at_node(node, [&] { return load_obj_groups(node.source().folder / name); });
+    std::vector<GeometryPart> parts;
+    for (const TriangleMesh& mesh : meshes) {
+        try {
+            parts.push_back({hull_geometry(scaled(mesh.vertices, scale, node)), {}});
+        } catch (const BadShape& error) {
+            node.fail("object \"" + mesh.name + "\" of the file: " + error.what());
+        }
+        parts.back().geometry.name = mesh.name;
+    }
+    return parts;
+}
+
+SchemaJson hull_schema() { return either_source(object_schema(hull_table()), {"vertices"}); }
+
+SchemaJson mesh_schema() {
+    return either_source(object_schema(mesh_table()), {"vertices", "triangles"});
+}
+
+}  // namespace plumb::reader

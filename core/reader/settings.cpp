@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+/// The keys of "settings", and single settings from a command line.
+#include <algorithm>
+#include <string>
+
+#include "reader/drafts.h"
+#include "reader/parse.h"
+
+namespace plumb::reader {
+
+namespace {
+
+using S = Settings;
+constexpr Range kIterations{0, 100000};
+
+/// Names of ready-made settings.
+enum class Preset { paper };
+
+Field<S> preset_field() {
+    const Choice<Preset> preset{{{"paper", Preset::paper}}};
+    return special<S>(
+        "preset", preset.schema(),
+        [preset](S& settings, const Node& node) {
+            if (preset.read(node) == Preset::paper) apply_paper_preset(settings);
+        },
+        "settings to begin from, which the other keys then change; paper: the paper's step to the "
+        "letter");
+}
+
+/// Widths that the solver is built for; 0 lets it choose.
+Field<S> lanes_field() {
+    return special<S>(
+        "lanes", {{"enum", {0, 1, 4, 8, 16}}},
+        [](S& settings, const Node& node) {
+            const Json allowed = {0, 1, 4, 8, 16};
+            if (std::find(allowed.begin(), allowed.end(), node.json()) == allowed.end()) {
+                node.fail_wanting("one of 0, 1, 4, 8, 16");
+            }
+            settings.lanes = Whole<std::uint32_t>{{0, 16}}.read(node);
+        },
+        "constraints solved side by side; 0: the widest that the processor runs");
+}
+
+}  // namespace
+
+const Table<Settings>& settings_table() {
+    using W = Whole<std::uint32_t>;
+    static const Table<S> table = {
+        preset_field(),
+        field<S>("gravity", Vector3{{-1e6, 1e6}}, &S::gravity, "acceleration of gravity [m/s²]"),
+        field<S>("dt", Number{{1e-9, 10}}, &S::dt, "step [s]"),
+        field<S>("duration", Number{{0, 1e9}}, &S::duration, "simulated time [s]"),
+        field<S>("substeps", W{{1, 100000}}, &S::substeps,
+                 "small steps to one detection of contacts"),
+        field<S>("velocity_iterations", W{kIterations}, &S::velocity_iterations,
+                 "sweeps over the velocity constraints a substep"),
+        field<S>("position_iterations", W{kIterations}, &S::position_iterations,
+                 "sweeps over the position constraints a substep"),
+        field<S>("method", Choice<std::string>{{{"pbd", "pbd"}}}, &S::method, "how a step is made"),
+        field<S>("precision",
+                 Choice<Precision>{{{"single", Precision::single}, {"double", Precision::double_}}},
+                 &S::precision, "numbers of the solver's iterations; poses are always double"),
+        field<S>("threads", W{{1, 1024}}, &S::threads, "worker threads"),
+        lanes_field(),
+        field<S>("margin", Number{{0, 1e3}}, &S::margin,
+                 "distance at which contacts are found [m]"),
+        field<S>("stiffness", Number{{0, 1}}, &S::stiffness,
+                 "share of an old overlap removed an iteration, of five a step"),
+        field<S>("recovery_speed", Number{kNotNegative}, &S::recovery_speed,
+                 "greatest speed at which old overlap is pushed out [m/s]"),
+        field<S>("collision_depth", Number{{0, 1e3}}, &S::collision_depth,
+                 "depth ε: a pair collides when it approaches faster than √(2 g ε) [m]"),
+        field<S>("anchor_stiffness", Number{{0, 1}}, &S::anchor_stiffness,
+                 "share of a sticking contact's drift undone a substep; 0: no anchors"),
+        field<S>("gyroscopic",
+                 Choice<Gyroscopic>{{{"conserving", Gyroscopic::conserving},
+                                     {"implicit", Gyroscopic::implicit},
+                                     {"explicit", Gyroscopic::explicit_}}},
+                 &S::gyroscopic, "how the gyroscopic term is integrated"),
+        field<S>("warm_start", Flag{}, &S::warm_start,
+                 "begin from the impulses of the step before"),
+        field<S>("alternate_sweeps", Flag{}, &S::alternate_sweeps,
+                 "sweep forwards and backwards in turn"),
+        field<S>("shared_cone", Flag{}, &S::shared_cone,
+                 "one bound of friction for the velocity and the position pass"),
+        field<S>("require", TextList{}, &S::require,
+                 "effects that run although nothing seems to call for them"),
+        field<S>("forbid", TextList{}, &S::forbid, "effects that never run"),
+    };
+    return table;
+}
+
+namespace {
+
+/// One value of a command line: JSON if it is JSON, else a text.
+Json loose_value(std::string_view text) {
+    const Json value = Json::parse(text.begin(), text.end(), nullptr, false);
+    return value.is_discarded() || value.is_object() ? Json(std::string(text)) : value;
+}
+
+/// "0,-9.81,0" → [0, -9.81, 0].
+Json loose_list(std::string_view text) {
+    Json list = Json::array();
+    for (std::size_t begin = 0; begin <= text.size() && !text.empty();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        list.push_back(loose_value(text.substr(begin, end - begin)));
+        begin = end + 1;
+    }
+    return list;
+}
+
+bool takes_list(const std::string& key) {
+    for (const auto& entry : settings_table()) {
+        if (entry.key == key) return entry.schema.value("type", "") == "array";
+    }
+    return false;
+}
+
+}  // namespace
+
+}  // namespace plumb::reader
+
+namespace plumb {
+
+void apply_setting(Settings& settings, std::string_view key_equals_value) {
+    using namespace reader;
+    const Source source{"--set " + std::string(key_equals_value), {}};
+    const std::size_t equals = key_equals_value.find('=');
+    if (equals == std::string_view::npos || equals == 0) {
+        throw SceneError(source.name, "", "must be key=value, such as dt=0.005");
+    }
+
+    const std::string key(key_equals_value.substr(0, equals));
+    const std::string_view text = key_equals_value.substr(equals + 1);
+    Json value = loose_value(text);
+    if (takes_list(key) && !value.is_array()) value = loose_list(text);
+
+    // A copy, so that a bad value leaves the settings as they were.
+    Settings changed = settings;
+    const Json object = {{key, value}};
+    read_object(changed, Node(object, source), settings_table());
+    settings = changed;
+}
+
+}  // namespace plumb
