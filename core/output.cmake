@@ -1,6 +1,8 @@
 # plumb::output: recordings, and what can be made of them.
 find_package(ZLIB REQUIRED)
 find_package(nlohmann_json REQUIRED)
+find_package(embree 3 REQUIRED)
+find_path(PLUMB_STB_INCLUDE_DIR stb/stb_image_write.h REQUIRED)
 
 # The player of the HTML replay becomes a string of the library; building Plumb needs no Node.
 set(PLUMB_PLAYER_SCRIPT "${CMAKE_CURRENT_SOURCE_DIR}/output/player/dist/player.min.js")
@@ -20,6 +22,9 @@ add_library(plumb_output STATIC
   output/html.cpp
   output/html_json.cpp
   output/motion_code.cpp
+  output/picture.cpp
+  output/png.cpp
+  output/ray_scene.cpp
   output/recording.cpp
   output/triangles.cpp
   output/view.cpp
@@ -28,4 +33,6 @@ add_library(plumb::output ALIAS plumb_output)
 set_target_properties(plumb_output PROPERTIES EXPORT_NAME output)
 target_link_libraries(plumb_output
   PUBLIC plumb::scene
-  PRIVATE $<BUILD_INTERFACE:plumb_options> ZLIB::ZLIB nlohmann_json::nlohmann_json)
+  PRIVATE $<BUILD_INTERFACE:plumb_options> ZLIB::ZLIB nlohmann_json::nlohmann_json embree
+    Threads::Threads)
+target_include_directories(plumb_output SYSTEM PRIVATE "${PLUMB_STB_INCLUDE_DIR}")

@@ -94,7 +94,7 @@ ColliderLibrary::ColliderLibrary(const std::string& extra_path) {
     add_directories(searched_, extra_path.c_str());
     add_directories(searched_, std::getenv("PLUMB_PLUGIN_PATH"));
     const fs::path own = own_directory();
-    for (const fs::path& relative : {"../lib/plumb/plugins", "plumb/plugins", "../plumb/plugins"})
+    for (const char* relative : {"../lib/plumb/plugins", "plumb/plugins", "../plumb/plugins"})
         searched_.push_back((own / relative).lexically_normal().string());
 
     for (const std::string& directory : searched_) {

@@ -191,7 +191,8 @@ inline T wanted_velocity(const NormalRow<Real, W>& row, const PassSettings<Real>
     const T gap = load(row.gap), h(pass.h);
     if constexpr (P == Pass::velocity) {
         // a separated contact may close by gap/h, no more; a collision rebounds
-        return max(load(row.rebound), -max(gap, T(0)) / h);
+        const T rebound = load(row.rebound);
+        return select_greater(rebound, T(0), rebound, -max(gap, T(0)) / h);
     } else {
         const T left = overlap_left<T>(gap, T(pass.recovery));
         const T c = (gap + h * u) - left;

@@ -4,6 +4,7 @@
 #include "output/csv.h"
 #include "output/error.h"
 #include "output/html.h"
+#include "output/png.h"
 
 #include <algorithm>
 #include <array>
@@ -41,6 +42,7 @@ struct Kind {
 
 constexpr std::array kKinds{
     Kind{".html", make<HtmlExporter>},
+    Kind{".png", make<PngExporter>},
     Kind{".csv", make<CsvExporter>},
     Kind{".plumb", make<PlumbExporter>},
 };

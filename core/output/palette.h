@@ -20,7 +20,7 @@ inline std::uint32_t scattered(std::uint32_t i) {
 /// sRGB colour of a body, 0xRRGGBB.
 inline std::uint32_t body_color(const RecordedBody& body, std::size_t index) {
     if (body.color != 0) return body.color & 0xffffffu;
-    if (body.motion == Motion::fixed) return 0xb9bcc2;
+    if (body.motion == Motion::fixed) return 0x9aa3ac;
     if (body.motion == Motion::kinematic) return 0x5b6675;
     constexpr std::array<std::uint32_t, 8> kColors{0xe4572e, 0xf2a541, 0xf3d9a4, 0x2e86ab,
                                                    0x5fb0b7, 0x1b4965, 0xc8553d, 0x7fb069};

@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "output/triangles.h"
 
+#include <cmath>
+#include <numbers>
+
 namespace plumb {
 namespace {
+
+constexpr std::uint32_t kAround = 96;     // corners of a round shape's outline
+constexpr std::uint32_t kHalfRings = 16;  // from the end of a capsule to its segment
 
 std::vector<std::array<std::uint32_t, 3>> fans(
     const std::vector<std::vector<std::uint32_t>>& polygons) {
@@ -37,10 +43,56 @@ TriangleMesh height_field(const Geometry& g) {
     return mesh;
 }
 
-}  // namespace
+TriangleMesh box(const Eigen::Vector3d& half_extents) {
+    TriangleMesh mesh;
+    for (int i = 0; i < 8; ++i) {
+        const Eigen::Vector3d sign(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
+        mesh.vertices.push_back(sign.cwiseProduct(half_extents).cast<float>());
+    }
+    mesh.triangles =
+        fans({{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}});
+    return mesh;
+}
 
-TriangleMesh triangles_of(const Geometry& geometry) {
-    if (geometry.kind == ShapeKind::height_field) return height_field(geometry);
+/// A point of the outline that is turned about y.
+struct OutlinePoint {
+    double radius, y;  ///< [m]
+};
+
+/// The body of revolution of an outline that runs from the bottom to the top, both on the axis.
+TriangleMesh turned(const std::vector<OutlinePoint>& outline) {
+    TriangleMesh mesh;
+    for (const OutlinePoint& point : outline) {
+        for (std::uint32_t i = 0; i < kAround; ++i) {
+            const double angle = 2 * std::numbers::pi * i / kAround;
+            mesh.vertices.emplace_back(Eigen::Vector3d(point.radius * std::sin(angle), point.y,
+                                                       point.radius * std::cos(angle))
+                                           .cast<float>());
+        }
+    }
+    for (std::uint32_t ring = 0; ring + 1 < outline.size(); ++ring) {
+        for (std::uint32_t i = 0; i < kAround; ++i) {
+            const std::uint32_t a = ring * kAround + i, b = ring * kAround + (i + 1) % kAround;
+            mesh.triangles.push_back({a, b, b + kAround});
+            mesh.triangles.push_back({a, b + kAround, a + kAround});
+        }
+    }
+    return mesh;
+}
+
+TriangleMesh capsule(double radius, double half_height) {
+    std::vector<OutlinePoint> outline;
+    for (std::uint32_t i = 0; i <= 2 * kHalfRings; ++i) {
+        const double angle = std::numbers::pi * (static_cast<double>(i) / (2 * kHalfRings) - 0.5);
+        const double end = i < kHalfRings ? -half_height : half_height;
+        if (i == kHalfRings) outline.push_back({radius, -half_height});
+        outline.push_back({radius * std::cos(angle), end + radius * std::sin(angle)});
+    }
+    return turned(outline);
+}
+
+/// Hull and mesh: what the user gave.
+TriangleMesh given(const Geometry& geometry) {
     TriangleMesh mesh;
     for (const Eigen::Vector3d& v : geometry.vertices) mesh.vertices.push_back(v.cast<float>());
     mesh.triangles = geometry.kind == ShapeKind::hull ? fans(geometry.faces) : geometry.triangles;
@@ -51,6 +103,34 @@ TriangleMesh triangles_of(const Geometry& geometry) {
         return false;
     });
     return mesh;
+}
+
+}  // namespace
+
+TriangleMesh triangles_of(const Geometry& g) {
+    switch (g.kind) {
+        case ShapeKind::box:
+            return box(g.half_extents);
+        case ShapeKind::capsule:
+            return capsule(g.radius, g.half_height);
+        case ShapeKind::cylinder:
+            return turned({{0, -g.half_height},
+                           {g.radius, -g.half_height},
+                           {g.radius, g.half_height},
+                           {0, g.half_height}});
+        case ShapeKind::cone:
+            return turned({{0, -g.half_height}, {g.radius, -g.half_height}, {0, g.half_height}});
+        case ShapeKind::height_field:
+            return height_field(g);
+        case ShapeKind::hull:
+        case ShapeKind::mesh:
+            return given(g);
+        case ShapeKind::plane:
+        case ShapeKind::sphere:
+        case ShapeKind::compound:
+            break;
+    }
+    return {};
 }
 
 }  // namespace plumb

@@ -17,7 +17,9 @@ struct TriangleMesh {
     std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
-/// The surface of a hull, a mesh or a height field; corners that name no vertex are left out.
+/// The surface of a shape in its own frame; triangles that name no vertex are left out. Round
+/// shapes are outlined so finely that a picture does not show it. A plane, a sphere and a compound
+/// have no triangles here.
 TriangleMesh triangles_of(const Geometry& geometry);
 
 }  // namespace plumb

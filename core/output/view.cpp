@@ -144,7 +144,7 @@ View fitted_view(std::vector<Ball> balls, const Eigen::Vector3d& up, double aspe
     view.field_of_view = 35;
     const double half_angle = 0.5 * view.field_of_view * std::numbers::pi / 180;
     view.eye =
-        view.target + 1.08 * fitting_distance(balls, view.target, axes, half_angle, aspect) * back;
+        view.target + 1.12 * fitting_distance(balls, view.target, axes, half_angle, aspect) * back;
     return view;
 }
 

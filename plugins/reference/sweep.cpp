@@ -44,7 +44,6 @@ std::vector<Entry> entries_along(int axis, const std::vector<Part>& parts) {
 }  // namespace
 
 void find_pairs(std::vector<PartPair>& pairs, const BodyTable& table) {
-    pairs.clear();
     const std::vector<Part>& parts = table.parts();
     std::vector<Entry> entries = entries_along(widest_axis(parts), parts);
     std::sort(entries.begin(), entries.end(), [](const Entry& p, const Entry& q) {
@@ -63,7 +62,6 @@ void find_pairs(std::vector<PartPair>& pairs, const BodyTable& table) {
                 pairs.push_back({std::min(p.part, q.part), std::max(p.part, q.part)});
         }
     }
-    sort_pairs(pairs, parts.size());
 }
 
 }  // namespace plumb::reference

@@ -79,20 +79,21 @@ export class ShapeLibrary {
     }
 
     form(shape) {
-        const one = [1, 1, 1], around = Math.round(40 * this.detail);
+        const one = [1, 1, 1], around = Math.round(40 * this.detail), rings = this.detail < 1 ? 20 : 30;
+        const band = Math.sin(Math.PI * 0.1);  // its edge lies on a ring
         const { kind, radius, half_height: half, half_extents: h } = shape;
         const key = JSON.stringify(shape);
         switch (kind) {
             case 'sphere':
                 return { key: kind, scale: [radius, radius, radius],
-                    make: () => banded(new THREE.SphereGeometry(1, around, Math.round(28 * this.detail)),
-                        (p) => Math.abs(p.y) < 0.27) };
+                    make: () => banded(new THREE.SphereGeometry(1, around, rings),
+                        (p) => Math.abs(p.y) < band) };
             case 'box':
                 if (this.many.has(kind)) {
                     return { key: kind, scale: h, make: () => plain(new THREE.BoxGeometry(2, 2, 2)) };
                 }
                 return { key, scale: one, make: () => plain(new RoundedBoxGeometry(2 * h[0], 2 * h[1],
-                    2 * h[2], 2, Math.min(0.07 * Math.min(...h), 0.03 * Math.max(...h)))) };
+                    2 * h[2], 2, 0.1 * Math.min(...h))) };
             case 'capsule':
                 return { key, scale: one, make: () => banded(
                     new THREE.CapsuleGeometry(radius, 2 * half, 10, around), (p) => Math.abs(p.y) > half) };

@@ -4,7 +4,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
 
-const kHorizon = 0xdfe5ea, kZenith = 0x9fb4c7, kGround = 0xd3d6d8;
+const kHorizon = 0xdde4ea, kZenith = 0x8fa9c1, kGround = 0xbfc5ca;
 
 /// Sky as a large ball with a gradient along `up`.
 function sky(up) {
@@ -35,9 +35,10 @@ function ground(cell) {
         Object.assign(shader.uniforms, { focus, reach, cell: { value: cell },
             horizon: { value: new THREE.Color(kHorizon) } });
         shader.vertexShader = shader.vertexShader
-            .replace('#include <common>', '#include <common>\nvarying vec2 onGround; varying vec3 inWorld;')
+            .replace('#include <common>', `#include <common>
+                varying vec2 onGround; varying vec3 inWorld; uniform float reach;`)
             .replace('#include <begin_vertex>', `#include <begin_vertex>
-                onGround = position.xz; inWorld = (modelMatrix * vec4(position, 1.0)).xyz;`);
+                onGround = reach * position.xz; inWorld = (modelMatrix * vec4(position, 1.0)).xyz;`);
         shader.fragmentShader = shader.fragmentShader
             .replace('#include <common>', `#include <common>
                 varying vec2 onGround; varying vec3 inWorld; uniform vec3 focus, horizon; uniform float reach, cell;
@@ -47,7 +48,7 @@ function ground(cell) {
                     return max(a.x, a.y);
                 }`)
             .replace('#include <color_fragment>', `#include <color_fragment>
-                float grid = max(0.5 * lines(onGround / cell, 0.006), lines(onGround / (5.0 * cell), 0.0022));
+                float grid = max(0.5 * lines(onGround / cell, 0.008), lines(onGround / (5.0 * cell), 0.003));
                 diffuseColor.rgb *= 1.0 - 0.26 * grid;`)
             .replace('#include <tonemapping_fragment>', `#include <tonemapping_fragment>
                 float far = smoothstep(0.25, 1.0, distance(inWorld, focus) / reach);`)
@@ -145,7 +146,7 @@ export class Stage {
         this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
         this.renderer.setSize(width, height, false);
         this.camera.aspect = width / Math.max(height, 1);
-        this.camera.updateProjectionMatrix();
+        this.camera.setViewOffset(width, height, 0, 0.04 * height, width, height);  // room for the controls
     }
 
     /// Looks from where it does now, from as far as it takes to see the ball.
