@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: MIT
+#include "output/ray_scene.h"
+
+#include "output/triangles.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <stdexcept>
+
+namespace plumb {
+namespace {
+
+void commit_into(RTCScene scene, RTCGeometry geometry) {
+    rtcCommitGeometry(geometry);
+    rtcAttachGeometry(scene, geometry);
+    rtcReleaseGeometry(geometry);
+}
+
+/// A ball that is one, not triangles.
+RTCGeometry ball(RTCDevice device, double radius) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_SPHERE_POINT);
+    auto* point = static_cast<float*>(rtcSetNewGeometryBuffer(
+        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 1));
+    std::fill(point, point + 3, 0.0f);
+    point[3] = static_cast<float>(radius);
+    return geometry;
+}
+
+RTCGeometry triangles(RTCDevice device, const TriangleMesh& mesh) {
+    RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), mesh.vertices.size()));
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        std::copy_n(mesh.vertices[i].data(), 3, vertices + 3 * i);
+    }
+    auto* corners = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(std::uint32_t), mesh.triangles.size()));
+    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+        std::copy_n(mesh.triangles[i].data(), 3, corners + 3 * i);
+    }
+    return geometry;
+}
+
+TriangleMesh square(double reach) {
+    const auto r = static_cast<float>(reach);
+    return {{{-r, 0, -r}, {-r, 0, r}, {r, 0, r}, {r, 0, -r}}, {{0, 1, 2}, {0, 2, 3}}};
+}
+
+Eigen::Vector3f capsule_normal(const Eigen::Vector3f& p, float half) {
+    return {p.x(), p.y() - std::clamp(p.y(), -half, half), p.z()};
+}
+
+/// Normal of the true round surface, of which the triangles are but an outline; flat parts keep
+/// theirs.
+Eigen::Vector3f true_normal(const Geometry& g, const Eigen::Vector3f& p, Eigen::Vector3f flat) {
+    const auto radius = static_cast<float>(g.radius), half = static_cast<float>(g.half_height);
+    const Eigen::Vector3f radial(p.x(), 0, p.z());
+    switch (g.kind) {
+        case ShapeKind::sphere:
+            return p;
+        case ShapeKind::capsule:
+            return capsule_normal(p, half);
+        case ShapeKind::cylinder:
+            return std::abs(flat.normalized().y()) > 0.9f ? flat : radial;
+        case ShapeKind::cone:
+            if (flat.normalized().y() < -0.999f || radial.squaredNorm() == 0) return flat;
+            return radial.normalized() * 2 * half + Eigen::Vector3f(0, radius, 0);
+        default:
+            return flat;
+    }
+}
+
+RTCRay ray_of(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) {
+    RTCRay ray{};
+    ray.org_x = from.x(), ray.org_y = from.y(), ray.org_z = from.z();
+    ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
+    ray.tfar = std::numeric_limits<float>::infinity();
+    ray.mask = ~0u;
+    return ray;
+}
+
+}  // namespace
+
+RayScene::RayScene(const RecordingHeader& header, const Frame& frame, const Eigen::Vector3d& middle,
+                   double reach)
+    : middle_(middle), reach_(reach), device_(rtcNewDevice(nullptr)) {
+    if (!device_) throw std::runtime_error("Embree cannot be started");
+    scene_.reset(rtcNewScene(device_.get()));
+    const std::size_t count = std::min(header.bodies.size(), frame.bodies.size());
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint32_t geometry = header.bodies[i].geometry;
+        const Placement& placement = frame.bodies[i].placement;
+        if (geometry >= header.geometries.size() || !placement.position.allFinite()) continue;
+        add(header.geometries[geometry], placement, static_cast<std::uint32_t>(i));
+    }
+    rtcCommitScene(scene_.get());
+}
+
+void RayScene::add(const Geometry& geometry, const Placement& placement, std::uint32_t body) {
+    if (geometry.kind == ShapeKind::compound) {
+        for (const GeometryPart& part : geometry.parts) {
+            Placement placed;
+            placed.position = placement.position + placement.rotation * part.local.position;
+            placed.rotation = placement.rotation * part.local.rotation;
+            add(part.geometry, placed, body);
+        }
+        return;
+    }
+    const Item item{&geometry, body,
+                    placement.rotation.normalized().toRotationMatrix().cast<float>(),
+                    (placement.position - middle_).cast<float>()};
+    if (!item.rotation.allFinite()) return;
+    RTCGeometry instance = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_INSTANCE);
+    rtcSetGeometryInstancedScene(instance, form(geometry));
+    Eigen::Matrix<float, 3, 4> transform;
+    transform << item.rotation, item.position;
+    rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
+    commit_into(scene_.get(), instance);
+    items_.push_back(item);
+}
+
+RTCScene RayScene::form(const Geometry& geometry) {
+    Scene& scene = forms_[&geometry];
+    if (scene) return scene.get();
+    scene.reset(rtcNewScene(device_.get()));
+    if (geometry.kind == ShapeKind::sphere) {
+        commit_into(scene.get(), ball(device_.get(), geometry.radius));
+    } else {
+        const bool plane = geometry.kind == ShapeKind::plane;
+        const TriangleMesh mesh = plane ? square(reach_) : triangles_of(geometry);
+        if (!mesh.triangles.empty()) commit_into(scene.get(), triangles(device_.get(), mesh));
+    }
+    rtcCommitScene(scene.get());
+    return scene.get();
+}
+
+std::optional<RaySurface> RayScene::nearest(const Eigen::Vector3f& from,
+                                            const Eigen::Vector3f& direction) const {
+    RTCRayHit hit{};
+    hit.ray = ray_of(from, direction);
+    hit.hit.geomID = hit.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcIntersect1(scene_.get(), &context, &hit);
+    if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+    const Item& item = items_[hit.hit.instID[0]];
+    RaySurface surface;
+    surface.distance = hit.ray.tfar;
+    surface.point = from + hit.ray.tfar * direction;
+    surface.point_local = item.rotation.transpose() * (surface.point - item.position);
+    surface.geometry = item.geometry;
+    surface.body = item.body;
+    const Eigen::Vector3f flat(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z);
+    surface.normal =
+        (item.rotation * true_normal(*item.geometry, surface.point_local, flat)).normalized();
+    if (surface.normal.dot(direction) > 0) surface.normal = -surface.normal;
+    return surface;
+}
+
+bool RayScene::blocked(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) const {
+    RTCRay ray = ray_of(from, direction);
+    RTCIntersectContext context;
+    rtcInitIntersectContext(&context);
+    rtcOccluded1(scene_.get(), &context, &ray);
+    return ray.tfar < 0;
+}
+
+}  // namespace plumb
