@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+/// One face is cut by the prism that stands over the other one along the normal (Sutherland and
+/// Hodgman); what is left is measured against the other face's plane, along the normal. Segments
+/// and points are the short cases.
+#include "manifold/clip.h"
+
+namespace plumb {
+namespace {
+
+constexpr std::uint32_t kWindowLine = 64;  ///< lines of the cutting face are numbered from here
+
+/// The face that is cut, the face that cuts, and the way from one to the other.
+struct Roles {
+    const SupportFace &subject, &window;
+    bool subject_is_a;
+    Vec3 n;        ///< out of b towards a
+    double slack;  ///< a corner this far outside still counts as inside [m]
+};
+
+void emit(FacingPoints& out, const Roles& r, Vec3 p, Vec3 q, std::uint32_t feature) {
+    // p lies on the subject; q is any point of the window right over it.
+    const double way = dot(r.n, q - p);
+    const Vec3 other = p + way * r.n;
+    const double gap = (r.subject_is_a ? -way : way) - r.subject.radius - r.window.radius;
+    if (r.subject_is_a)
+        out.add({p, other, gap, feature});
+    else
+        out.add({other, p, gap, feature});
+}
+
+/// The point of the window's plane over p.
+Vec3 on_plane(const Roles& r, Vec3 p) {
+    const double height = dot(r.window.normal, r.window.corner[0] - p) / dot(r.window.normal, r.n);
+    return p + height * r.n;
+}
+
+/// Inward unit normal of the side of the prism over the window's edge i.
+Vec3 side_normal(const Roles& r, int i) {
+    const Vec3 edge = r.window.corner[(i + 1) % r.window.count] - r.window.corner[i];
+    const Vec3 up = dot(r.window.normal, r.n) > 0 ? r.n : -r.n;
+    return unit_or(cross(up, edge), {0, 0, 0});
+}
+
+struct Corner {
+    Vec3 p;
+    std::uint32_t line;  ///< the line that leaves this corner
+};
+
+struct Polygon {
+    Corner corner[FacingPoints::kMost];
+    int count = 0;
+    void add(Vec3 p, std::uint32_t line) {
+        if (count < FacingPoints::kMost) corner[count++] = {p, line};
+    }
+};
+
+void cut(Polygon& out, const Polygon& in, Vec3 p, Vec3 m, std::uint32_t line, double slack) {
+    out.count = 0;
+    for (int i = 0; i < in.count; ++i) {
+        const Corner &c = in.corner[i], &d = in.corner[i + 1 < in.count ? i + 1 : 0];
+        const double dc = dot(m, c.p - p), dd = dot(m, d.p - p);
+        const bool c_inside = dc >= -slack, d_inside = dd >= -slack;
+        if (c_inside) out.add(c.p, c.line);
+        if (c_inside != d_inside)
+            out.add(c.p + (dc / (dc - dd)) * (d.p - c.p), c_inside ? line : c.line);
+    }
+}
+
+void polygon_in_polygon(FacingPoints& out, const Roles& r) {
+    Polygon first, second;
+    Polygon *now_at = &first, *next_at = &second;
+    for (int i = 0; i < r.subject.count; ++i)
+        now_at->add(r.subject.corner[i], static_cast<std::uint32_t>(i));
+    for (int i = 0; i < r.window.count && now_at->count; ++i) {
+        const auto line = kWindowLine + static_cast<std::uint32_t>(i);
+        cut(*next_at, *now_at, r.window.corner[i], side_normal(r, i), line, r.slack);
+        std::swap(now_at, next_at);
+    }
+    const Polygon& now = *now_at;
+    for (int i = 0; i < now.count; ++i) {
+        const Corner& before = now.corner[(i + now.count - 1) % now.count];
+        emit(out, r, now.corner[i].p, on_plane(r, now.corner[i].p),
+             128 * before.line + now.corner[i].line);
+    }
+}
+
+void segment_in_polygon(FacingPoints& out, const Roles& r) {
+    const Vec3 p = r.subject.corner[0], d = r.subject.corner[1] - p;
+    double low = 0, high = 1;
+    std::uint32_t low_line = 0, high_line = 1;
+    for (int i = 0; i < r.window.count; ++i) {
+        const Vec3 m = side_normal(r, i);
+        const double start = dot(m, p - r.window.corner[i]) + r.slack, slope = dot(m, d);
+        const auto line = kWindowLine + static_cast<std::uint32_t>(i);
+        if (start < 0 && start + slope < 0) return;
+        if (start < 0 && -start / slope > low) low = -start / slope, low_line = line;
+        if (start + slope < 0 && -start / slope < high) high = -start / slope, high_line = line;
+    }
+    if (low > high) return;
+    emit(out, r, p + low * d, on_plane(r, p + low * d), 128 * 0 + low_line);
+    if ((high - low) * norm(d) > 1e-9)
+        emit(out, r, p + high * d, on_plane(r, p + high * d), 128 * 1 + high_line);
+}
+
+void point_in_polygon(FacingPoints& out, const Roles& r) {
+    const Vec3 p = r.subject.corner[0];
+    for (int i = 0; i < r.window.count; ++i)
+        if (dot(side_normal(r, i), p - r.window.corner[i]) < -r.slack) return;
+    emit(out, r, p, on_plane(r, p), 0);
+}
+
+/// Two segments: the stretch along which they run side by side, or the point where they cross.
+void segment_on_segment(FacingPoints& out, const Roles& r) {
+    const auto flat = [&](Vec3 v) { return v - dot(v, r.n) * r.n; };
+    const Vec3 p = r.subject.corner[0], d = r.subject.corner[1] - p;
+    const Vec3 q = r.window.corner[0], e = r.window.corner[1] - q;
+    const Vec3 df = flat(d), ef = flat(e), offset = flat(q - p);
+    const double dd = dot(df, df), ee = dot(ef, ef), turn = dot(r.n, cross(df, ef));
+    if (dd < 1e-18 || ee < 1e-18) return;
+
+    if (std::abs(turn) < 1e-3 * std::sqrt(dd * ee)) {
+        if (norm(cross(df, offset)) > (1e-3 * std::sqrt(ee) + r.slack) * std::sqrt(dd)) return;
+        const double t0 = dot(df, offset) / dd, t1 = dot(df, offset + ef) / dd;
+        const double low = std::max(0.0, std::min(t0, t1)), high = std::min(1.0, std::max(t0, t1));
+        if (low > high) return;
+        for (int end = 0; end < 2; ++end) {
+            const double t = end ? high : low, s = (t - t0) / (t1 - t0);
+            emit(out, r, p + t * d, q + s * e, 1 + static_cast<std::uint32_t>(end));
+        }
+        return;
+    }
+    const double t = dot(r.n, cross(offset, ef)) / turn, s = dot(r.n, cross(offset, df)) / turn;
+    const double slack_t = r.slack / std::sqrt(dd), slack_s = r.slack / std::sqrt(ee);
+    if (t < -slack_t || t > 1 + slack_t || s < -slack_s || s > 1 + slack_s) return;
+    emit(out, r, p + t * d, q + s * e, 3);
+}
+
+void point_on_segment(FacingPoints& out, const Roles& r) {
+    const Vec3 p = r.subject.corner[0], q = r.window.corner[0], e = r.window.corner[1] - q;
+    const auto flat = [&](Vec3 v) { return v - dot(v, r.n) * r.n; };
+    const Vec3 ef = flat(e), offset = flat(p - q);
+    const double ee = dot(ef, ef),
+                 s = ee > 1e-18 ? std::min(1.0, std::max(0.0, dot(offset, ef) / ee)) : 0;
+    if (norm(offset - s * ef) <= r.slack) emit(out, r, p, q + s * e, 0);
+}
+
+}  // namespace
+
+FacingPoints facing_points(const SupportFace& a, const SupportFace& b, Vec3 n) {
+    // The simpler face is cut by the richer one.
+    const bool a_is_subject = std::min(a.count, 3) <= std::min(b.count, 3);
+    const SupportFace &subject = a_is_subject ? a : b, &window = a_is_subject ? b : a;
+    double size = 0;
+    for (int i = 1; i < subject.count; ++i)
+        size = std::max(size, norm(subject.corner[i] - subject.corner[0]));
+    const Roles r{subject, window, a_is_subject, n, 1e-7 * (size + subject.radius) + 1e-12};
+
+    FacingPoints out;
+    if (window.count >= 3)
+        (subject.count >= 3   ? polygon_in_polygon
+         : subject.count == 2 ? segment_in_polygon
+                              : point_in_polygon)(out, r);
+    else if (window.count == 2)
+        (subject.count == 2 ? segment_on_segment : point_on_segment)(out, r);
+    else
+        emit(out, r, subject.corner[0], window.corner[0], 0);
+    return out;
+}
+
+}  // namespace plumb

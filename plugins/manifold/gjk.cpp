@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+/// The simplex holds up to four points w = a − b of the difference of the cores; v is its point
+/// nearest to the origin, found by trying all sub-simplices (at most fifteen small linear systems,
+/// exact for each).
+#include "manifold/gjk.h"
+
+#include "manifold/support.h"
+
+namespace plumb {
+namespace {
+
+struct Vertex {
+    Vec3 on_a, on_b, w;
+};
+
+struct Simplex {
+    Vertex vertex[4];
+    double weight[4];
+    int count = 0;
+};
+
+/// Weights of the point nearest to the origin in the affine hull of the chosen vertices; false
+/// unless all positive.
+bool affine_weights(const Simplex& s, const int* chosen, int n, double* weight) {
+    const Vec3 p = s.vertex[chosen[0]].w;
+    if (n == 1) return weight[0] = 1, true;
+    const Vec3 d = s.vertex[chosen[1]].w - p;
+    if (n == 2) {
+        const double dd = dot(d, d);
+        if (dd <= 0) return false;
+        weight[1] = -dot(p, d) / dd;
+        weight[0] = 1 - weight[1];
+        return weight[0] > 0 && weight[1] > 0;
+    }
+    const Vec3 e = s.vertex[chosen[2]].w - p;
+    if (n == 3) {
+        const Vec3 m = cross(d, e);
+        const double mm = dot(m, m);
+        if (mm <= 0) return false;
+        weight[1] = dot(m, cross(e, p)) / mm;
+        weight[2] = -dot(m, cross(d, p)) / mm;
+        weight[0] = 1 - weight[1] - weight[2];
+        return weight[0] > 0 && weight[1] > 0 && weight[2] > 0;
+    }
+    const Vec3 f = s.vertex[chosen[3]].w - p;
+    const double det = dot(d, cross(e, f));
+    if (det == 0) return false;
+    weight[1] = -dot(p, cross(e, f)) / det;
+    weight[2] = -dot(d, cross(p, f)) / det;
+    weight[3] = -dot(d, cross(e, p)) / det;
+    weight[0] = 1 - weight[1] - weight[2] - weight[3];
+    return weight[0] > 0 && weight[1] > 0 && weight[2] > 0 && weight[3] > 0;
+}
+
+/// Shrinks the simplex to the vertices that carry the nearest point, and returns that point.
+Vec3 nearest_point(Simplex& s) {
+    Vec3 best{};
+    double best_squared = 1e300, best_weight[4] = {};
+    int best_chosen[4] = {}, best_count = 0;
+    for (unsigned subset = 1; subset < (1u << s.count); ++subset) {
+        int chosen[4], n = 0;
+        for (int i = 0; i < s.count; ++i)
+            if (subset & (1u << i)) chosen[n++] = i;
+        double weight[4];
+        if (!affine_weights(s, chosen, n, weight)) continue;
+        Vec3 v{};
+        for (int i = 0; i < n; ++i) v = v + weight[i] * s.vertex[chosen[i]].w;
+        if (dot(v, v) >= best_squared) continue;
+        best = v, best_squared = dot(v, v), best_count = n;
+        std::copy(chosen, chosen + n, best_chosen);
+        std::copy(weight, weight + n, best_weight);
+    }
+    Simplex kept;
+    for (int i = 0; i < best_count; ++i) {
+        kept.vertex[i] = s.vertex[best_chosen[i]];
+        kept.weight[i] = best_weight[i];
+    }
+    kept.count = best_count;
+    s = kept;
+    return best;
+}
+
+Vec3 middle(const Part& part) {
+    return to_outer(part.world, 0.5 * (part.own_bounds.low + part.own_bounds.high));
+}
+
+Vertex support(const Part& a, const Part& b, Vec3 d, double scale) {
+    Vec3 p = core_support(a, -d), q = core_support(b, d);
+    if (scale != 1) {
+        p = middle(a) + scale * (p - middle(a));
+        q = middle(b) + scale * (q - middle(b));
+    }
+    return {p, q, p - q};
+}
+
+bool closest(Witness& witness, const Part& a, const Part& b, double scale) {
+    const double size = size_of(a) + size_of(b), tiny = 1e-9 * size;
+    Simplex s;
+    Vec3 v = middle(a) - middle(b);
+    if (dot(v, v) < tiny * tiny) v = {0, 1, 0};
+    s.vertex[0] = support(a, b, v, scale);
+    s.count = 1;
+    v = nearest_point(s);
+    for (int i = 0; i < 64; ++i) {
+        const double vv = dot(v, v);
+        if (vv < tiny * tiny) return false;
+        const Vertex next = support(a, b, v, scale);
+        // No further progress: v is the shortest difference.
+        if (vv - dot(v, next.w) <= 1e-12 * vv + 1e-16 * size * std::sqrt(vv)) break;
+        if (s.count == 4) return false;
+        const Simplex before = s;
+        s.vertex[s.count++] = next;
+        const Vec3 shorter = nearest_point(s);
+        if (!(dot(shorter, shorter) < vv)) {
+            s = before;
+            break;
+        }
+        v = shorter;
+    }
+    Vec3 on_a{}, on_b{};
+    for (int i = 0; i < s.count; ++i) {
+        on_a = on_a + s.weight[i] * s.vertex[i].on_a;
+        on_b = on_b + s.weight[i] * s.vertex[i].on_b;
+    }
+    const double distance = norm(v);
+    if (!(distance > tiny)) return false;
+    witness.normal = (1 / distance) * v;
+    witness.gap = distance - core_radius(a) - core_radius(b);
+    witness.point =
+        0.5 * (on_a - core_radius(a) * witness.normal + on_b + core_radius(b) * witness.normal);
+    witness.approximate = false;
+    return true;
+}
+
+}  // namespace
+
+bool closest_when_apart(Witness& witness, const Part& a, const Part& b) {
+    return closest(witness, a, b, 1);
+}
+
+bool closest_when_touching(Witness& witness, const Part& a, const Part& b) {
+    if (!closest(witness, a, b, 0.98)) return false;
+    witness.gap = support_gap(a, b, witness.normal);
+    return true;
+}
+
+}  // namespace plumb

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+/// Closest points of two convex parts that are apart (Gilbert, Johnson and Keerthi), for back-ends
+/// that answer nothing until shapes overlap.
+#pragma once
+
+#include "manifold/manifold.h"
+
+namespace plumb {
+
+/// The witness of two separated parts, a before b. Returns false where the cores overlap or come
+/// closer than about 1e-9 of their size. Neither part may be a plane or a mesh.
+bool closest_when_apart(Witness& witness, const Part& a, const Part& b);
+
+/// The same where parts touch or overlap a little: asks about both shrunk by a fiftieth, which
+/// keeps the direction of faces and edges, and so mostly the normal; the gap is then measured on
+/// the true shapes.
+bool closest_when_touching(Witness& witness, const Part& a, const Part& b);
+
+}  // namespace plumb

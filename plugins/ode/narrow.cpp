@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: MIT
+/// ODE answers only where shapes overlap. So: round shapes are asked in their wide form, which is
+/// exact; boxes are asked again a little larger where they do not overlap; and where that does not
+/// settle it (an edge or a vertex in front of something sharp), the closest points of the true
+/// shapes are computed beside ODE.
+#include "ode/narrow.h"
+
+#include "manifold/gjk.h"
+#include "manifold/support.h"
+
+#include <mutex>
+
+namespace plumb::ode {
+namespace {
+
+constexpr int kMostFromOde = 512;
+constexpr std::size_t kMostOfMesh = 16;
+
+bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
+
+Witness witness_of(const dContactGeom& c, double wider_by) {
+    return {{c.normal[0], c.normal[1], c.normal[2]},
+            {c.pos[0], c.pos[1], c.pos[2]},
+            wider_by - c.depth,
+            false};
+}
+
+double widened(const Part& part) { return geoms_of(part).wide ? geoms_of(part).wider_by : 0; }
+
+/// ODE's deepest point; false where it has none. A round shape is asked wide, but only one of two.
+bool ask(Witness& witness, const Part& a, const Part& b) {
+    const bool widen_a = geoms_of(a).wide != nullptr;
+    dContactGeom c[16];
+    const int count =
+        dCollide(geoms_of(a).widest(), widen_a ? geoms_of(b).exact : geoms_of(b).widest(), 16, c,
+                 sizeof(dContactGeom));
+    if (count < 1) return false;
+    int best = 0;
+    for (int i = 1; i < count; ++i)
+        if (c[i].depth > c[best].depth) best = i;
+    witness = witness_of(c[best], widen_a ? widened(a) : widened(b));
+    return true;
+}
+
+/// ODE's box against box with all half extents grown by `grown`.
+bool ask_boxes(Witness& witness, const Part& a, const Part& b, double grown) {
+    const auto sides = [grown](const Part& p, dVector3 s) {
+        const Vec3& h = p.shape.half_extents;
+        s[0] = 2 * (h.x + grown), s[1] = 2 * (h.y + grown), s[2] = 2 * (h.z + grown);
+    };
+    dVector3 side_a, side_b, normal;
+    sides(a, side_a);
+    sides(b, side_b);
+    dContactGeom c[8];
+    dReal depth = 0;
+    int code = 0;
+    const int count =
+        dBoxBox(dGeomGetPosition(geoms_of(a).exact), dGeomGetRotation(geoms_of(a).exact), side_a,
+                dGeomGetPosition(geoms_of(b).exact), dGeomGetRotation(geoms_of(b).exact), side_b,
+                normal, &depth, &code, 1, c, sizeof(dContactGeom));
+    if (count < 1) return false;
+    witness = {{-normal[0], -normal[1], -normal[2]},
+               {c[0].pos[0], c[0].pos[1], c[0].pos[2]},
+               2 * grown - depth,
+               false};
+    return true;
+}
+
+/// The closest points of sharp parts that ODE says nothing about: apart, or just touching.
+bool ask_beside(Witness& witness, const Part& a, const Part& b) {
+    return closest_when_apart(witness, a, b) || closest_when_touching(witness, a, b);
+}
+
+/// ODE's general convex test can name a normal along which the true shapes overlap far more than it
+/// says. Then the closest points are computed beside it, and of both normals the one of less
+/// overlap is nearer to the truth.
+bool ask_sharp(Witness& witness, const Part& a, const Part& b) {
+    if (!ask(witness, a, b)) return ask_beside(witness, a, b);
+    const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
+    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return true;
+    Witness other;
+    witness.approximate = true;
+    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    return true;
+}
+
+bool ask_any(Witness& witness, const Part& a, const Part& b) {
+    if (!is(a, ShapeKind::box) || !is(b, ShapeKind::box)) return ask_sharp(witness, a, b);
+    if (ask_boxes(witness, a, b, 0)) return true;
+    // Apart: the normal of larger boxes will do where two points of the true ones reach the gap
+    // that it implies.
+    if (!ask_boxes(witness, a, b, 0.5 * pair_margin(a, b))) return false;
+    return gap_is_reached(a, b, witness.normal) || ask_beside(witness, a, b);
+}
+
+bool is_plane_pair(const Part& a, const Part& b) {
+    return is(a, ShapeKind::plane) || is(b, ShapeKind::plane);
+}
+
+/// Index of the part's triangle in an answer of ODE.
+std::uint32_t triangle(const Part& part, int side) {
+    return is(part, ShapeKind::mesh) && side >= 0 ? static_cast<std::uint32_t>(side) : 0;
+}
+
+/// ODE's meshes share scratch memory over the whole process.
+std::mutex& mesh_lock() {
+    static std::mutex lock;
+    return lock;
+}
+
+/// A sphere's contact is anchored on its centre, whatever point ODE chose.
+void anchor_sphere(Contact& c, const Part& a, const Part& b) {
+    if (is(a, ShapeKind::sphere)) {
+        c.point_a = a.world.origin, c.radius_a = a.shape.radius;
+        c.point_b = c.point_a - (c.radius_a + c.gap) * c.normal;
+    } else if (is(b, ShapeKind::sphere)) {
+        c.point_b = b.world.origin, c.radius_b = b.shape.radius;
+        c.point_a = c.point_b + (c.radius_b + c.gap) * c.normal;
+    }
+}
+
+bool same_place(const Contact& p, const Contact& q) {
+    const Vec3 d = p.point_b - q.point_b;
+    return dot(d, d) < 1e-12 && dot(p.normal, q.normal) > 1 - 1e-6;
+}
+
+void drop_repeated(ContactList& contacts, std::size_t begin) {
+    Contact* all = contacts.data();
+    std::size_t kept = begin;
+    for (std::size_t i = begin; i < contacts.size(); ++i) {
+        bool repeated = false;
+        for (std::size_t k = begin; k < kept && !repeated; ++k)
+            repeated = same_place(all[k], all[i]);
+        if (!repeated) all[kept++] = all[i];
+    }
+    contacts.shrink(kept);
+}
+
+void add_all(Output out, const Part& a, const Part& b, const dContactGeom* c, int count,
+             double wider_by) {
+    const bool compound_part_a = a.index != 0, compound_part_b = b.index != 0;
+    for (int i = 0; i < count; ++i) {
+        Witness w = witness_of(c[i], wider_by);
+        w.approximate = is(a, ShapeKind::mesh) || is(b, ShapeKind::mesh);
+        const std::uint32_t ta = triangle(a, c[i].side1), tb = triangle(b, c[i].side2);
+        const std::size_t before = out.contacts.size();
+        add_raw(out.contacts, out.stats, a, b, w, feature_key({ta, tb}));
+        if (out.contacts.size() == before) continue;
+        Contact& added = out.contacts.data()[before];
+        if (!compound_part_a && is(a, ShapeKind::mesh)) added.part_a = ta;
+        if (!compound_part_b && is(b, ShapeKind::mesh)) added.part_b = tb;
+        anchor_sphere(added, a, b);
+    }
+}
+
+}  // namespace
+
+void collide_convex(Output out, const Part& a, const Part& b) {
+    // A half-space needs no question: its normal is the contact's.
+    Witness witness{{0, 1, 0}, is(a, ShapeKind::plane) ? b.world.origin : a.world.origin, 0, false};
+    if (is_plane_pair(a, b) || ask_any(witness, a, b))
+        build_manifold(out.contacts, out.stats, a, b, witness);
+}
+
+void collide_mesh(Output out, const Part& a, const Part& b) {
+    const std::lock_guard<std::mutex> guard(mesh_lock());
+    static dContactGeom c[kMostFromOde];  // behind the lock
+    const Geoms &ga = geoms_of(a), &gb = geoms_of(b);
+    const int count = dCollide(ga.widest(), gb.widest(), kMostFromOde, c, sizeof(dContactGeom));
+    const std::size_t begin = out.contacts.size();
+    add_all(out, a, b, c, count, std::max(widened(a), widened(b)));
+    drop_repeated(out.contacts, begin);
+    thin_out(out.contacts, begin, kMostOfMesh);
+    out.stats.from_backend -= static_cast<std::uint64_t>(count);
+    out.stats.from_backend += out.contacts.size() - begin;
+}
+
+void collide_raw(Output out, const Part& a, const Part& b) {
+    const std::lock_guard<std::mutex> guard(mesh_lock());
+    static dContactGeom c[kMostFromOde];  // behind the lock
+    const int count =
+        dCollide(geoms_of(a).exact, geoms_of(b).exact, kMostFromOde, c, sizeof(dContactGeom));
+    add_all(out, a, b, c, count, 0);
+}
+
+}  // namespace plumb::ode
