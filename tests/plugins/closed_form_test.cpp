@@ -9,6 +9,8 @@
 namespace plumb::test {
 namespace {
 
+class ClosedForm : public EachPlugin {};
+
 struct Case {
     const char* name;
     Shape lower, upper;
@@ -114,7 +116,7 @@ void check(const std::string& name, const Case& c, double gap, const Place& fram
     EXPECT_GE(contacts.size(), c.points);
 }
 
-TEST_P(EachPlugin, MeetsClosedForms) {
+TEST_P(ClosedForm, MeetsClosedForms) {
     const Place home{}, away{V(3, -2, 5), turn(77, V(1, 2, -3))};
     for (const Case& c : cases())
         for (double gap : {0.005, 0.0, -0.0005, -0.005}) {
@@ -130,7 +132,7 @@ TEST_P(EachPlugin, MeetsClosedForms) {
         }
 }
 
-TEST_P(EachPlugin, ReportsNothingBeyondTheMargin) {
+TEST_P(ClosedForm, ReportsNothingBeyondTheMargin) {
     for (const Case& c : cases()) {
         if (!ability(GetParam(), c.lower.kind, c.upper.kind)) continue;
         SCOPED_TRACE(c.name);
@@ -143,7 +145,7 @@ TEST_P(EachPlugin, ReportsNothingBeyondTheMargin) {
     }
 }
 
-TEST_P(EachPlugin, SweepsWidenTheMargin) {
+TEST_P(ClosedForm, SweepsWidenTheMargin) {
     World world(GetParam());
     world.add(0, plane(), {}, Mobility::fixed);
     world.add(1, sphere(.5), {V(0, .6, 0), Q::Identity()});
@@ -153,7 +155,7 @@ TEST_P(EachPlugin, SweepsWidenTheMargin) {
     EXPECT_NEAR(world.last()[0].gap, 0.1, 1e-9);
 }
 
-TEST_P(EachPlugin, ClaimsThePairsThatEveryPluginHas) {
+TEST_P(ClosedForm, ClaimsThePairsThatEveryPluginHas) {
     const ShapeKind kinds[] = {ShapeKind::plane, ShapeKind::sphere, ShapeKind::box,
                                ShapeKind::capsule};
     for (ShapeKind a : kinds)
@@ -171,7 +173,7 @@ TEST_P(EachPlugin, ClaimsThePairsThatEveryPluginHas) {
     EXPECT_EQ(plugin(GetParam()).name, GetParam());
 }
 
-PLUMB_FOR_EACH_PLUGIN(EachPlugin);
+PLUMB_FOR_EACH_PLUGIN(ClosedForm);
 
 }  // namespace
 }  // namespace plumb::test
