@@ -35,11 +35,14 @@ std::string reason(std::string message) {
     return message;
 }
 
-/// Whether the parser stumbled over NaN or an infinity, which JSON does not have.
-bool looks_not_finite(std::string_view token) {
-    if (token.starts_with('-')) token.remove_prefix(1);
-    return token.starts_with('N') || token.starts_with("na") || token.starts_with('I') ||
-           token.starts_with('i');
+/// Whether the word that ends at `position` begins like NaN or an infinity, which JSON does not
+/// have.
+bool looks_not_finite(std::string_view text, std::size_t position) {
+    std::string_view word = text.substr(0, position);
+    word.remove_prefix(word.find_last_of(" \t\r\n:,[{/") + 1);  // npos + 1 is 0
+    if (word.starts_with('-')) word.remove_prefix(1);
+    return word.starts_with('N') || word.starts_with("na") || word.starts_with('I') ||
+           word.starts_with('i');
 }
 
 /// Builds the tree while the library walks through the text.
@@ -67,11 +70,11 @@ public:
         return true;
     }
 
-    bool parse_error(std::size_t position, const std::string& token,
+    bool parse_error(std::size_t position, const std::string&,
                      const Json::exception& error) override {
         std::string sentence = line_and_column(text_, position);
         sentence += ": ";
-        if (looks_not_finite(token)) {
+        if (looks_not_finite(text_, position)) {
             sentence += "JSON has no NaN and no infinity; write a finite number";
         } else {
             sentence += reason(error.what());

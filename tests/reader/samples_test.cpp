@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include <filesystem>
+#include <set>
+
+#include "reading.h"
+
+namespace plumb::test {
+
+namespace {
+
+Scene sample(const std::string& name) {
+    return read_scene(PLUMB_SAMPLES "/scenes/" + name + ".json");
+}
+
+}  // namespace
+
+TEST(Samples, AllAreRead) {
+    int count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(PLUMB_SAMPLES "/scenes")) {
+        if (entry.path().extension() != ".json") continue;
+        const Scene scene = read_scene(entry.path());
+        EXPECT_EQ(scene.name, entry.path().stem()) << entry.path();
+        EXPECT_FALSE(scene.description.empty()) << entry.path();
+        EXPECT_TRUE(scene.view.has_value()) << entry.path();
+        ++count;
+    }
+    EXPECT_GE(count, 9);
+}
+
+TEST(Samples, PileHasTwoThousandBodiesAmongNinePoles) {
+    const Scene scene = sample("pile");
+    std::size_t boxes = 0, balls = 0, fixed = 0;
+    std::set<std::string> names;
+    for (const BodySpec& body : scene.bodies) {
+        names.insert(body.name);
+        if (body.motion == Motion::fixed) {
+            ++fixed;
+        } else if (scene.geometries[body.geometry].kind == ShapeKind::box) {
+            ++boxes;
+        } else {
+            ++balls;
+        }
+    }
+    EXPECT_EQ(boxes, 1000u);
+    EXPECT_EQ(balls, 1000u);
+    EXPECT_EQ(fixed, 10u);
+    EXPECT_EQ(names.size(), 2010u);
+
+    // The second layer begins with the 197th of them, one spacing higher.
+    const Eigen::Vector3d wanted(-6.5 * 0.75, 5.25, -6.5 * 0.75);
+    EXPECT_LE((scene.bodies[10 + 196].placement.position - wanted).cwiseAbs().maxCoeff(), 0.02);
+}
+
+TEST(Samples, StackStandsOnTheGroundWithoutGaps) {
+    for (const std::string name : {"stack", "stack_heavy"}) {
+        const Scene scene = sample(name);
+        ASSERT_EQ(scene.bodies.size(), 21u);
+        for (std::size_t i = 1; i <= 20; ++i) {
+            EXPECT_EQ(scene.bodies[i].placement.position.y(), static_cast<double>(i) - 0.5);
+        }
+        EXPECT_EQ(scene.settings.require, (std::vector<std::string>{"shock_propagation"}));
+    }
+    const Scene heavy = sample("stack_heavy");
+    const auto density = [&](std::size_t i) {
+        return heavy.materials[heavy.bodies[i].material].density;
+    };
+    EXPECT_EQ(density(20), 1000 * density(19));
+}
+
+TEST(Samples, BoxesLieOnTheSlope) {
+    const Scene scene = sample("slope");
+    const Eigen::Vector3d normal = scene.bodies[0].placement.rotation * Eigen::Vector3d::UnitY();
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i) {
+        EXPECT_NEAR(normal.dot(scene.bodies[i].placement.position), 0.25, 1e-5)
+            << scene.bodies[i].name;
+    }
+    EXPECT_EQ(scene.material_pairs.size(), 7u);
+}
+
+TEST(Samples, PendulumsJointsAreWhereTheLinksMeet) {
+    const Scene scene = sample("pendulum");
+    ASSERT_EQ(scene.joints.size(), 10u);
+    const auto& shape = scene.geometries[0];
+    for (const JointSpec& joint : scene.joints) {
+        for (const std::uint32_t body : {joint.body_a, joint.body_b}) {
+            if (body == kNoIndex) continue;
+            const double distance = (scene.bodies[body].placement.position - joint.anchor).norm();
+            EXPECT_NEAR(distance, shape.half_extents.x(), 1e-12) << joint.name;
+        }
+    }
+}
+
+TEST(Samples, ConveyorsScriptBeginsWhereThePlatformIs) {
+    const Scene scene = sample("conveyor");
+    const BodySpec& platform = scene.bodies[1];
+    ASSERT_FALSE(platform.script.keyframes.empty());
+    EXPECT_EQ(platform.script.keyframes.front().placement.position, platform.placement.position);
+    EXPECT_EQ(platform.script.keyframes.back().placement.position, platform.placement.position);
+    EXPECT_TRUE(platform.script.loop);
+}
+
+}  // namespace plumb::test

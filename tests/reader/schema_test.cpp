@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "reading.h"
+
+namespace plumb::test {
+
+namespace {
+
+using Json = nlohmann::json;
+
+Json schema() { return Json::parse(scene_schema()); }
+
+/// Whether the reader's complaint about a text is an unknown key.
+bool key_is_unknown(const std::string& text) {
+    return std::string(error_of(text).what()).find("unknown key") != std::string::npos;
+}
+
+}  // namespace
+
+TEST(Schema, ThatIsShippedIsTheReaders) {
+    std::ifstream file(PLUMB_SAMPLES "/schema/plumb-scene.schema.json", std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    EXPECT_EQ(text.str(), scene_schema())
+        << "write it anew: cmake --build BUILD --target plumb_scene_schema";
+}
+
+TEST(Schema, ReferencesAreDefined) {
+    const Json json = schema();
+    const std::string text = json.dump(), mark = "\"#/$defs/";
+    int references = 0;
+    for (auto at = text.find(mark); at != std::string::npos; at = text.find(mark, at + 1)) {
+        const auto begin = at + mark.size();
+        EXPECT_TRUE(json["$defs"].contains(text.substr(begin, text.find('"', begin) - begin)));
+        ++references;
+    }
+    EXPECT_GT(references, 10);
+}
+
+TEST(Schema, NamesKeysThatTheReaderKnows) {
+    // How an object of a definition gets into a scene; %s is a key with a value.
+    const std::map<std::string, std::pair<std::string, std::string>> places = {
+        {"settings", {R"({"settings": {)", "}}"}},
+        {"material", {R"({"materials": {"m": {)", "}}}"}},
+        {"material_pair", {R"({"material_pairs": [{)", "}]}"}},
+        {"shape", {R"({"shapes": {"s": {)", "}}}"}},
+        {"part", {R"({"shapes": {"s": {"compound": {"parts": [{)", "}]}}}}"}},
+        {"rotation", {R"({"bodies": [{"rotation": {)", "}}]}"}},
+        {"body", {R"({"bodies": [{)", "}]}"}},
+        {"script", {R"({"bodies": [{"script": {)", "}}]}"}},
+        {"keyframe", {R"({"bodies": [{"script": {"keyframes": [{)", "}]}}]}"}},
+        {"grid", {R"({"bodies": [{"repeat": {)", "}}]}"}},
+        {"repeat", {R"({"bodies": [{"repeat": {"count": [1, 1, 1]}, )", "}]}"}},
+        {"prototype", {R"({"bodies": [{"repeat": {"count": [1, 1, 1]}, "bodies": [{)", "}]}]}"}},
+        {"joint", {R"({"joints": [{)", "}]}"}},
+        {"view", {R"({"view": {)", "}}"}}};
+
+    for (const auto& [name, definition] : schema()["$defs"].items()) {
+        if (!definition.contains("properties")) continue;
+        ASSERT_TRUE(places.contains(name)) << name;
+        const auto& [before, after] = places.at(name);
+        for (const auto& property : definition["properties"].items()) {
+            if (name == "repeat" && property.key() == "repeat") continue;  // it stands in `before`
+            EXPECT_FALSE(key_is_unknown(before + '"' + property.key() + "\": null" + after))
+                << name << "/" << property.key();
+        }
+        EXPECT_TRUE(key_is_unknown(before + "\"no_such_key\": null" + after)) << name;
+        EXPECT_EQ(definition["additionalProperties"], false) << name;
+    }
+}
+
+TEST(Schema, HasAKeyForEveryMemberOfSettings) {
+    // 19 values and 2 lists, and "preset".
+    EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), 22u);
+}
+
+}  // namespace plumb::test
