@@ -152,28 +152,4 @@ void add_raw(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
     ++stats.from_backend;
 }
 
-void thin_out(ContactList& out, std::size_t begin, std::size_t most) {
-    Contact* all = out.data() + begin;
-    const std::size_t count = out.size() - begin;
-    if (count <= most) return;
-    // The deepest first; then, again and again, the one farthest from all that were taken. A point
-    // that differs in normal counts as far away, so that a wedge between two walls keeps both.
-    std::vector<double> distance(count, 1e300);
-    std::size_t next = 0;
-    for (std::size_t i = 1; i < count; ++i)
-        if (all[i].gap < all[next].gap) next = i;
-    for (std::size_t taken = 0; taken < most; ++taken) {
-        std::swap(all[taken], all[next]);
-        std::swap(distance[taken], distance[next]);
-        next = taken + 1;
-        for (std::size_t i = taken + 1; i < count; ++i) {
-            const Vec3 d = all[i].point_a - all[taken].point_a,
-                       m = all[i].normal - all[taken].normal;
-            distance[i] = std::min(distance[i], dot(d, d) + 0.01 * dot(m, m));
-            if (distance[i] > distance[next]) next = i;
-        }
-    }
-    out.shrink(begin + most);
-}
-
 }  // namespace plumb

@@ -33,8 +33,4 @@ bool gap_is_reached(const Part& a, const Part& b, Vec3 n);
 void add_raw(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
              const Witness& witness, std::uint64_t feature);
 
-/// Thins out the contacts of one pair from `begin` on, keeping the deepest and those spread
-/// farthest: for the many points of a mesh.
-void thin_out(ContactList& out, std::size_t begin, std::size_t most);
-
 }  // namespace plumb

@@ -6,6 +6,7 @@
 #include "ode/narrow.h"
 
 #include "manifold/gjk.h"
+#include "manifold/mesh_points.h"
 #include "manifold/support.h"
 
 #include <mutex>
@@ -14,7 +15,6 @@ namespace plumb::ode {
 namespace {
 
 constexpr int kMostFromOde = 512;
-constexpr std::size_t kMostOfMesh = 16;
 
 bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 
@@ -108,34 +108,6 @@ std::mutex& mesh_lock() {
     return lock;
 }
 
-/// A sphere's contact is anchored on its centre, whatever point ODE chose.
-void anchor_sphere(Contact& c, const Part& a, const Part& b) {
-    if (is(a, ShapeKind::sphere)) {
-        c.point_a = a.world.origin, c.radius_a = a.shape.radius;
-        c.point_b = c.point_a - (c.radius_a + c.gap) * c.normal;
-    } else if (is(b, ShapeKind::sphere)) {
-        c.point_b = b.world.origin, c.radius_b = b.shape.radius;
-        c.point_a = c.point_b + (c.radius_b + c.gap) * c.normal;
-    }
-}
-
-bool same_place(const Contact& p, const Contact& q) {
-    const Vec3 d = p.point_b - q.point_b;
-    return dot(d, d) < 1e-12 && dot(p.normal, q.normal) > 1 - 1e-6;
-}
-
-void drop_repeated(ContactList& contacts, std::size_t begin) {
-    Contact* all = contacts.data();
-    std::size_t kept = begin;
-    for (std::size_t i = begin; i < contacts.size(); ++i) {
-        bool repeated = false;
-        for (std::size_t k = begin; k < kept && !repeated; ++k)
-            repeated = same_place(all[k], all[i]);
-        if (!repeated) all[kept++] = all[i];
-    }
-    contacts.shrink(kept);
-}
-
 void add_all(Output out, const Part& a, const Part& b, const dContactGeom* c, int count,
              double wider_by) {
     const bool compound_part_a = a.index != 0, compound_part_b = b.index != 0;
@@ -163,14 +135,14 @@ void collide_convex(Output out, const Part& a, const Part& b) {
 }
 
 void collide_mesh(Output out, const Part& a, const Part& b) {
+    if (is_plane_pair(a, b)) return mesh_on_plane(out.contacts, out.stats, a, b);
     const std::lock_guard<std::mutex> guard(mesh_lock());
     static dContactGeom c[kMostFromOde];  // behind the lock
     const Geoms &ga = geoms_of(a), &gb = geoms_of(b);
     const int count = dCollide(ga.widest(), gb.widest(), kMostFromOde, c, sizeof(dContactGeom));
     const std::size_t begin = out.contacts.size();
     add_all(out, a, b, c, count, std::max(widened(a), widened(b)));
-    drop_repeated(out.contacts, begin);
-    thin_out(out.contacts, begin, kMostOfMesh);
+    tidy_mesh_points(out.contacts, begin);
     out.stats.from_backend -= static_cast<std::uint64_t>(count);
     out.stats.from_backend += out.contacts.size() - begin;
 }

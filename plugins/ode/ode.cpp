@@ -98,7 +98,7 @@ std::uint32_t ability(ShapeKind a, ShapeKind b) {
     if (has(ShapeKind::hull) || has(ShapeKind::compound))
         return has(ShapeKind::hull) ? kPairNone : kPairPoint;
     std::uint32_t bits = kPairPoint | kPairManifold | kPairMovingMesh;
-    if (has(ShapeKind::sphere)) bits |= kPairSeparated;
+    if (has(ShapeKind::sphere) || has(ShapeKind::plane)) bits |= kPairSeparated;
     return bits;
 }
 

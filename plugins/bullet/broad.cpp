@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include "bullet/broad.h"
+
+namespace plumb::bullet {
+namespace {
+
+btDbvtVolume volume_of(const Aabb& b) {
+    return btDbvtVolume::FromMM({b.low.x, b.low.y, b.low.z}, {b.high.x, b.high.y, b.high.z});
+}
+
+/// Takes the tree's candidates; its volumes may be stale, so bounds are compared again.
+struct Meet : btDbvt::ICollide {
+    std::vector<PartPair>& pairs;
+    const BodyTable& table;
+    Meet(std::vector<PartPair>& p, const BodyTable& t) : pairs(p), table(t) {}
+
+    void meet(std::uint32_t i, std::uint32_t j) {
+        const Part &a = table.parts()[i], &b = table.parts()[j];
+        if (overlap(a.bounds, b.bounds) && table.wanted(a, b))
+            pairs.push_back({std::min(i, j), std::max(i, j)});
+    }
+    void Process(const btDbvtNode* p, const btDbvtNode* q) override {
+        meet(static_cast<std::uint32_t>(p->dataAsInt), static_cast<std::uint32_t>(q->dataAsInt));
+    }
+};
+
+}  // namespace
+
+void Tree::refill(const BodyTable& table) {
+    tree_.clear();
+    leaves_.assign(table.parts().size(), nullptr);
+    version_ = table.version();
+}
+
+void Tree::update(const BodyTable& table) {
+    unbounded_.clear();
+    for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
+        const Part& part = table.parts()[i];
+        btDbvtNode*& leaf = leaves_[i];
+        const bool bounded = part.present && part.shape.kind != ShapeKind::plane;
+        if (part.present && !bounded) unbounded_.push_back(i);
+        if (!bounded) {
+            if (leaf) tree_.remove(leaf);
+            leaf = nullptr;
+            continue;
+        }
+        // A leaf is a little larger than its part, so that small motions leave the tree as it is.
+        btDbvtVolume volume = volume_of(part.bounds);
+        const double spare = 0.02 * (part.bounds.high.y - part.bounds.low.y) + 1e-6;
+        if (leaf) {
+            tree_.update(leaf, volume, spare);
+            continue;
+        }
+        volume.Expand({spare, spare, spare});
+        leaf = tree_.insert(volume, nullptr);
+        leaf->dataAsInt = static_cast<int>(i);
+    }
+    tree_.optimizeIncremental(1 + static_cast<int>(leaves_.size()) / 100);
+}
+
+void Tree::find_pairs(std::vector<PartPair>& pairs, const BodyTable& table) {
+    if (version_ != table.version()) refill(table);
+    update(table);
+    Meet meet(pairs, table);
+    if (tree_.m_root) tree_.collideTTpersistentStack(tree_.m_root, tree_.m_root, meet);
+    for (std::uint32_t i : unbounded_)
+        for (std::uint32_t j = 0; j < leaves_.size(); ++j)
+            if (leaves_[j]) meet.meet(i, j);
+}
+
+}  // namespace plumb::bullet

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+/// The collider on Bullet 3.24 in double precision: tree of volumes, closest points, shared
+/// support-face clipping.
+#include "bullet/broad.h"
+#include "bullet/narrow.h"
+#include "manifold/collider.h"
+
+namespace plumb::bullet {
+namespace {
+
+#ifndef BT_USE_DOUBLE_PRECISION
+#error "this plugin needs bullet-float64: pkg-config bullet-float64 defines BT_USE_DOUBLE_PRECISION"
+#endif
+
+constexpr Supported kSupported{
+    {true, true, true, true, true, true, true, true, false, true},
+    "bullet takes no height fields here; a height field can be given as a mesh"};
+
+class Bullet final : public Collider {
+public:
+    Bullet() : Collider(kSupported) {}
+
+private:
+    void prepare(Part& part) override { part.backend = make_shapes(part); }
+
+    void find_pairs(std::vector<PartPair>& pairs) override { tree_.find_pairs(pairs, table_); }
+
+    void collide_all(const std::vector<PartPair>& pairs, bool raw) override {
+        for (const Part& part : table_.parts())
+            if (part.present) place_shapes(part);
+        for (const PartPair& pair : pairs) {
+            const Part &a = table_.parts()[pair.first], &b = table_.parts()[pair.second];
+            const bool mesh = a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh;
+            if (raw)
+                narrow_.collide_raw(contacts_, stats_, a, b);
+            else if (mesh)
+                narrow_.collide_mesh(contacts_, stats_, a, b);
+            else
+                narrow_.collide_convex(contacts_, stats_, a, b);
+        }
+    }
+
+    Tree tree_;
+    Narrow narrow_;
+};
+
+Proximity* create(const CreateRequest*, const char** message) {
+    try {
+        return new Bullet;
+    } catch (...) {
+        if (message) *message = "memory ran out";
+        return nullptr;
+    }
+}
+void destroy(Proximity* proximity) { delete static_cast<Bullet*>(proximity); }
+
+std::uint32_t ability(ShapeKind a, ShapeKind b) {
+    const auto has = [&](ShapeKind k) { return a == k || b == k; };
+    if (a == b && a == ShapeKind::plane) return kPairNone;
+    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated;
+    if (has(ShapeKind::compound)) return kPairPoint | kPairMovingMesh;
+    return kPairPoint | kPairManifold | kPairMovingMesh |
+           (has(ShapeKind::plane) ? kPairSeparated : 0u);
+}
+
+PluginTable make_table() {
+    PluginTable t = blank_table();
+    t.name = "bullet";
+    t.description =
+        "Bullet Physics in double precision: volume tree, closest points, shared clipping";
+    t.backend_version = "Bullet 3.24";
+    for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
+        for (std::uint32_t j = 0; j < kShapeKindCount; ++j)
+            if (kSupported.kind[i] && kSupported.kind[j])
+                t.pairs[i][j] = ability(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
+    t.create = create;
+    t.destroy = destroy;
+    return t;
+}
+
+}  // namespace
+}  // namespace plumb::bullet
+
+extern "C" PLUMB_PLUGIN_EXPORT const plumb::PluginTable* plumb_collider_plugin(void) {
+    static const plumb::PluginTable table = plumb::bullet::make_table();
+    return &table;
+}

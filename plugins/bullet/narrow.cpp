@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+/// Convex pairs: the closest-point query on cushioned shapes, which is exact to twelve digits;
+/// boxes by Bullet's box detector, which is ten times as fast, on the true boxes where they overlap
+/// and on larger ones where they do not. Meshes: GImpact, whose every point is taken as it comes,
+/// without Bullet's cap of four and without history.
+#include "bullet/narrow.h"
+
+#include "manifold/gjk.h"
+#include "manifold/mesh_points.h"
+#include "manifold/support.h"
+
+#include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
+#include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+
+namespace plumb::bullet {
+namespace {
+
+bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
+
+/// Keeps the deepest point of an answer.
+struct Deepest : btDiscreteCollisionDetectorInterface::Result {
+    btVector3 normal, point;
+    double depth = 1e300;
+    void setShapeIdentifiersA(int, int) override {}
+    void setShapeIdentifiersB(int, int) override {}
+    void addContactPoint(const btVector3& n, const btVector3& on_b, btScalar distance) override {
+        if (distance < depth) normal = n, point = on_b, depth = distance;
+    }
+};
+
+/// Takes every point of an algorithm as it comes.
+class Everything : public btManifoldResult {
+public:
+    struct Point {
+        Vec3 normal, on_b;
+        double distance;
+        int index_a, index_b;
+    };
+    Everything(const btCollisionObjectWrapper* a, const btCollisionObjectWrapper* b,
+               double threshold)
+        : btManifoldResult(a, b) {
+        m_closestPointDistanceThreshold = threshold;
+    }
+    void addContactPoint(const btVector3& n, const btVector3& p, btScalar distance) override {
+        // Algorithms of mixed kinds may have turned the pair round.
+        const bool turned =
+            m_manifoldPtr && m_manifoldPtr->getBody0() != m_body0Wrap->getCollisionObject();
+        const Vec3 normal = turned ? -from(n) : from(n), point = from(p);
+        points.push_back({normal, turned ? point + distance * from(n) : point, distance,
+                          turned ? m_index1 : m_index0, turned ? m_index0 : m_index1});
+    }
+    std::vector<Point> points;
+};
+
+btDiscreteCollisionDetectorInterface::ClosestPointInput input_of(const Part& a, const Part& b,
+                                                                 double reach) {
+    btDiscreteCollisionDetectorInterface::ClosestPointInput input;
+    input.m_transformA = shapes_of(a).place;
+    input.m_transformB = shapes_of(b).place;
+    input.m_maximumDistanceSquared = reach * reach;
+    return input;
+}
+
+/// Last resort, for cores that coincide: of all axes of both frames, the one of least overlap.
+Witness least_overlap(const Part& a, const Part& b) {
+    Witness best{{0, 1, 0}, 0.5 * (a.world.origin + b.world.origin), -1e300, true};
+    for (const Part* part : {&a, &b})
+        for (const Vec3& axis : part->world.axis)
+            for (double side : {1.0, -1.0}) {
+                const double gap = support_gap(a, b, side * axis);
+                if (gap > best.gap + 1e-9) best.gap = gap, best.normal = side * axis;
+            }
+    return best;
+}
+
+/// Overlapping parts that Bullet leaves out or gets wrong: the closest points of the parts a little
+/// smaller, or the best axis. False where the parts are apart after all.
+bool ask_beside(Witness& witness, const Part& a, const Part& b) {
+    if (closest_when_apart(witness, a, b)) return witness.gap <= pair_margin(a, b);
+    if (!closest_when_touching(witness, a, b)) witness = least_overlap(a, b);
+    return true;
+}
+
+}  // namespace
+
+Narrow::Narrow() { btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_); }
+
+bool Narrow::ask_boxes(Witness& witness, const Part& a, const Part& b, bool grown) {
+    const Shapes &sa = shapes_of(a), &sb = shapes_of(b);
+    btBoxBoxDetector detector(grown ? sa.grown_box.get() : sa.exact_box.get(),
+                              grown ? sb.grown_box.get() : sb.exact_box.get());
+    Deepest result;
+    detector.getClosestPoints(input_of(a, b, 1e9), result, nullptr);
+    if (result.depth > 1e299) return false;
+    witness = {from(result.normal), from(result.point),
+               result.depth + (grown ? pair_margin(a, b) : 0), false};
+    return true;
+}
+
+bool Narrow::ask_closest(Witness& witness, const Part& a, const Part& b) {
+    const Shapes &sa = shapes_of(a), &sb = shapes_of(b);
+    const double margins = sa.cushioned->getMargin() + sb.cushioned->getMargin();
+    const double cushions = sa.cushion + sb.cushion;
+    btVoronoiSimplexSolver simplex;
+    btGjkEpaPenetrationDepthSolver penetration;
+    btGjkPairDetector detector(sa.cushioned.get(), sb.cushioned.get(), &simplex, &penetration);
+    Deepest result;
+    detector.getClosestPoints(input_of(a, b, margins + pair_margin(a, b) + cushions), result,
+                              nullptr);
+    if (result.depth > 1e299) return false;
+    const Vec3 n = from(result.normal);
+    witness = {n, from(result.point) + (0.5 * result.depth) * n, result.depth + cushions, false};
+    return true;
+}
+
+bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
+    if (is(a, ShapeKind::sphere) && is(b, ShapeKind::sphere)) {
+        const Vec3 d = a.world.origin - b.world.origin;
+        witness = {unit_or(d, {0, 1, 0}), 0.5 * (a.world.origin + b.world.origin), 0, false};
+        return true;
+    }
+    if (is(a, ShapeKind::box) && is(b, ShapeKind::box)) {
+        if (ask_boxes(witness, a, b, false)) return true;
+        if (!ask_boxes(witness, a, b, true)) return false;
+        if (gap_is_reached(a, b, witness.normal)) return true;
+    }
+    if (!ask_closest(witness, a, b)) {
+        // Nothing near, unless the cores coincide: such pairs Bullet leaves out.
+        return least_overlap(a, b).gap <= 0 && ask_beside(witness, a, b);
+    }
+    // An answer that its own normal contradicts is not trusted.
+    const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
+    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return true;
+    Witness other;
+    witness.approximate = true;
+    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    return true;
+}
+
+void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Part& a,
+                            const Part& b) {
+    // A half-space needs no question: its normal is the contact's.
+    const bool plane = is(a, ShapeKind::plane) || is(b, ShapeKind::plane);
+    Witness witness{{0, 1, 0}, is(a, ShapeKind::plane) ? b.world.origin : a.world.origin, 0, false};
+    if (plane || ask(witness, a, b)) build_manifold(contacts, stats, a, b, witness);
+}
+
+void Narrow::run_algorithm(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b,
+                           bool exact_boxes) {
+    const Shapes &sa = shapes_of(a), &sb = shapes_of(b);
+    const bool boxes = exact_boxes && sa.exact_box && sb.exact_box;
+    btCollisionShape* shape_a = boxes ? sa.exact_box.get() : sa.any();
+    btCollisionShape* shape_b = boxes ? sb.exact_box.get() : sb.any();
+    const double cushions =
+        boxes ? 0 : (sa.cushioned ? sa.cushion : 0) + (sb.cushioned ? sb.cushion : 0);
+
+    btCollisionObject object_a, object_b;
+    object_a.setCollisionShape(shape_a);
+    object_b.setCollisionShape(shape_b);
+    object_a.setWorldTransform(sa.place);
+    object_b.setWorldTransform(sb.place);
+    const btCollisionObjectWrapper wrap_a(nullptr, shape_a, &object_a, object_a.getWorldTransform(),
+                                          -1, -1);
+    const btCollisionObjectWrapper wrap_b(nullptr, shape_b, &object_b, object_b.getWorldTransform(),
+                                          -1, -1);
+    const auto kind = exact_boxes ? BT_CONTACT_POINT_ALGORITHMS : BT_CLOSEST_POINT_ALGORITHMS;
+    btCollisionAlgorithm* algorithm = dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, kind);
+    if (!algorithm) return;
+    Everything result(&wrap_a, &wrap_b, pair_margin(a, b));
+    algorithm->processCollision(&wrap_a, &wrap_b, btDispatcherInfo(), &result);
+    algorithm->~btCollisionAlgorithm();
+    dispatcher_.freeCollisionAlgorithm(algorithm);
+
+    for (const Everything::Point& p : result.points) {
+        const bool mesh_a = is(a, ShapeKind::mesh), mesh_b = is(b, ShapeKind::mesh);
+        const auto ta = mesh_a && p.index_a >= 0 ? static_cast<std::uint32_t>(p.index_a) : 0;
+        const auto tb = mesh_b && p.index_b >= 0 ? static_cast<std::uint32_t>(p.index_b) : 0;
+        const Witness w{p.normal, p.on_b + (0.5 * p.distance) * p.normal, p.distance + cushions,
+                        mesh_a || mesh_b};
+        const std::size_t before = contacts.size();
+        add_raw(contacts, stats, a, b, w, feature_key({ta, tb}));
+        if (contacts.size() == before) continue;
+        Contact& c = contacts.data()[before];
+        if (mesh_a && a.index == 0) c.part_a = ta;
+        if (mesh_b && b.index == 0) c.part_b = tb;
+        anchor_sphere(c, a, b);
+    }
+}
+
+void Narrow::collide_mesh(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
+    if (is(a, ShapeKind::plane) || is(b, ShapeKind::plane))
+        return mesh_on_plane(contacts, stats, a, b);
+    const std::size_t begin = contacts.size();
+    DetectStats all{};
+    run_algorithm(contacts, all, a, b, false);
+    tidy_mesh_points(contacts, begin);
+    stats.from_backend += contacts.size() - begin;
+}
+
+void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
+    run_algorithm(contacts, stats, a, b, true);
+}
+
+}  // namespace plumb::bullet

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+/// Bullet's shapes for our parts.
+///
+/// Bullet's closest points stand on a core and a margin around it. A sharp shape gets its true size
+/// as the core and a small cushion as the margin, which is subtracted again from every answer: so
+/// edges and vertices stay exact, and a slight overlap is still an answer of the closest-point
+/// query and not of the penetration solver.
+#pragma once
+
+#include "manifold/manifold.h"
+
+#include <btBulletCollisionCommon.h>
+
+#include <memory>
+
+namespace plumb::bullet {
+
+inline constexpr double kCushion = 1e-3;  ///< [m]; less for parts smaller than a hundred cushions
+
+/// What hangs on a part.
+struct Shapes {
+    std::unique_ptr<btConvexShape> cushioned;  ///< all convex kinds
+    double cushion = 0;                        ///< of `cushioned`; 0 for sphere and capsule [m]
+    std::unique_ptr<btBoxShape> exact_box;     ///< boxes only
+    std::unique_ptr<btBoxShape> grown_box;     ///< boxes only: larger by the part's reach
+    std::unique_ptr<btTriangleIndexVertexArray> triangles;  ///< behind a mesh
+    std::unique_ptr<btCollisionShape> other;                ///< plane, mesh
+    btTransform place;
+
+    /// The shape that stands for the part in Bullet's own algorithms.
+    btCollisionShape* any() const { return cushioned ? cushioned.get() : other.get(); }
+};
+
+inline Shapes& shapes_of(const Part& part) { return *static_cast<Shapes*>(part.backend.get()); }
+
+std::shared_ptr<Shapes> make_shapes(const Part& part);
+
+/// Moves a part to its world frame and fits the grown box to its reach.
+void place_shapes(const Part& part);
+
+inline btVector3 bt(Vec3 v) { return {v.x, v.y, v.z}; }
+inline Vec3 from(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
+
+}  // namespace plumb::bullet
