@@ -168,16 +168,14 @@ ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>
                          const std::vector<std::vector<PoseSample>>& motions,
                          const std::vector<Ball>& balls) {
     ReplayParts parts;
-    const Eigen::Vector3d up = up_direction(header);
     json scene{{"name", header.name},
                {"description", header.description},
                {"method", header.method},
                {"collider", header.metadata.collider},
                {"dt", header.dt},
-               {"up", to_json(up)},
+               {"up", to_json(up_direction(header))},
                {"metadata", header.metadata.values}};
-    const View view = header.view ? *header.view : fitted_view(balls, up, kAspect);
-    scene["view"] = view_to_json(view, header.origin);
+    scene["view"] = view_to_json(chosen_view(header, balls, kAspect), header.origin);
     scene["shapes"] = json::array();
     for (const Geometry& g : header.geometries) {
         scene["shapes"].push_back(shape_to_json(parts.meshes, g));

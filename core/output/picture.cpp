@@ -192,7 +192,7 @@ private:
         };
         const bool thick = near_line(5 * cell_, 0.016f * cell_),
                    thin = near_line(cell_, 0.009f * cell_);
-        return linear_color(0xbfc5ca) * (thick ? 0.74f : thin ? 0.87f : 1.0f);
+        return linear_color(0xb4bac0) * (thick ? 0.74f : thin ? 0.87f : 1.0f);
     }
 
     Color seen(const Vector& direction, Sampler& sampler) const {
@@ -255,9 +255,7 @@ private:
 Picture draw_picture(const RecordingHeader& header, const Frame& frame,
                      const PictureSettings& settings) {
     const double aspect = static_cast<double>(settings.width) / settings.height;
-    const View view =
-        header.view ? *header.view
-                    : fitted_view(balls_of_interest(header, frame), up_direction(header), aspect);
+    const View view = chosen_view(header, balls_of_interest(header, frame), aspect);
     const Painter painter(header, frame, view, settings);
 
     Picture picture{settings.width, settings.height, {}};

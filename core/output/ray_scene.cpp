@@ -54,6 +54,35 @@ Eigen::Vector3f capsule_normal(const Eigen::Vector3f& p, float half) {
     return {p.x(), p.y() - std::clamp(p.y(), -half, half), p.z()};
 }
 
+/// Slope of the surface about a point of the grid, in (x, z).
+Eigen::Vector2f slope_at(const Geometry& g, std::uint32_t row, std::uint32_t column) {
+    const auto height = [&g](std::uint32_t r, std::uint32_t c) {
+        return g.heights[std::size_t{r} * g.columns + c];
+    };
+    const std::uint32_t left = column > 0 ? column - 1 : 0,
+                        right = std::min(column + 1, g.columns - 1);
+    const std::uint32_t back = row > 0 ? row - 1 : 0, front = std::min(row + 1, g.rows - 1);
+    return {static_cast<float>((height(row, right) - height(row, left)) /
+                               ((right - left) * g.spacing_x)),
+            static_cast<float>((height(front, column) - height(back, column)) /
+                               ((front - back) * g.spacing_z))};
+}
+
+/// Upward normal of a height field, whose slopes are blended between the points of its grid.
+Eigen::Vector3f height_field_normal(const Geometry& g, const Eigen::Vector3f& p) {
+    const auto cell = [](double place, double spacing, std::uint32_t count) {
+        return std::clamp(place / spacing + 0.5 * (count - 1), 0.0, count - 1.001);
+    };
+    const double x = cell(static_cast<double>(p.x()), g.spacing_x, g.columns);
+    const double z = cell(static_cast<double>(p.z()), g.spacing_z, g.rows);
+    const auto column = static_cast<std::uint32_t>(x), row = static_cast<std::uint32_t>(z);
+    const auto u = static_cast<float>(x - column), v = static_cast<float>(z - row);
+    const Eigen::Vector2f slope =
+        (1 - v) * ((1 - u) * slope_at(g, row, column) + u * slope_at(g, row, column + 1)) +
+        v * ((1 - u) * slope_at(g, row + 1, column) + u * slope_at(g, row + 1, column + 1));
+    return {-slope.x(), 1, -slope.y()};
+}
+
 /// Normal of the true round surface, of which the triangles are but an outline; flat parts keep
 /// theirs.
 Eigen::Vector3f true_normal(const Geometry& g, const Eigen::Vector3f& p, Eigen::Vector3f flat) {
@@ -69,6 +98,8 @@ Eigen::Vector3f true_normal(const Geometry& g, const Eigen::Vector3f& p, Eigen::
         case ShapeKind::cone:
             if (flat.normalized().y() < -0.999f || radial.squaredNorm() == 0) return flat;
             return radial.normalized() * 2 * half + Eigen::Vector3f(0, radius, 0);
+        case ShapeKind::height_field:
+            return height_field_normal(g, p);
         default:
             return flat;
     }

@@ -119,6 +119,17 @@ std::vector<Ball> balls_of_interest(const RecordingHeader& header, const Frame& 
     return movable.empty() ? fixed : movable;
 }
 
+View chosen_view(const RecordingHeader& header, std::vector<Ball> balls, double aspect) {
+    if (header.view) {
+        const double distance = (header.view->eye - header.view->target).norm();
+        const double angle = header.view->field_of_view;
+        if (std::isfinite(distance) && distance > 0 && angle >= 1 && angle <= 170) {
+            return *header.view;
+        }
+    }
+    return fitted_view(std::move(balls), up_direction(header), aspect);
+}
+
 View fitted_view(std::vector<Ball> balls, const Eigen::Vector3d& up, double aspect) {
     if (balls.empty()) return View{};
     drop_outliers(balls);

@@ -25,6 +25,10 @@ Eigen::Vector3d up_direction(const RecordingHeader& header);
 /// the fixed ones.
 std::vector<Ball> balls_of_interest(const RecordingHeader& header, const Frame& frame);
 
+/// The view that the scene asks for, or one that is fitted to the balls where it asks for none that
+/// can be drawn.
+View chosen_view(const RecordingHeader& header, std::vector<Ball> balls, double aspect);
+
 /// A view that has the balls in the picture, but for the few that flew far away. `aspect`: width by
 /// height.
 View fitted_view(std::vector<Ball> balls, const Eigen::Vector3d& up, double aspect);

@@ -46,6 +46,18 @@ TEST(FittedView, HoldsAllBallsButFarOutliers) {
     }
 }
 
+TEST(ChosenView, IsTheScenesUnlessItCannotBeDrawn) {
+    RecordingHeader header;
+    const std::vector<Ball> balls{{{0, 1, 0}, 0.5}};
+    header.view = View{{1, 2, 3}, {0, 0, 0}, 50};
+    EXPECT_EQ(chosen_view(header, balls, 1.5).eye, header.view->eye);
+    for (const View& bad : {View{{1, 2, 3}, {1, 2, 3}, 50}, View{{1, 2, 3}, {0, 0, 0}, 0},
+                            View{{std::nan(""), 2, 3}, {0, 0, 0}, 50}}) {
+        header.view = bad;
+        EXPECT_TRUE(visible(chosen_view(header, balls, 1.5), balls[0], {0, 1, 0}, 1.5));
+    }
+}
+
 TEST(BoundingRadius, IsTheFarthestPoint) {
     EXPECT_DOUBLE_EQ(bounding_radius(sphere(2)), 2);
     EXPECT_DOUBLE_EQ(bounding_radius(box(1, 2, 2)), 3);

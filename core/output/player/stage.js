@@ -4,7 +4,7 @@ import * as THREE from 'three';
 import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 import { RoomEnvironment } from 'three/examples/jsm/environments/RoomEnvironment.js';
 
-const kHorizon = 0xdde4ea, kZenith = 0x8fa9c1, kGround = 0xbfc5ca;
+const kHorizon = 0xdde4ea, kZenith = 0x8fa9c1, kGround = 0xb7bdc2;
 
 /// Sky as a large ball with a gradient along `up`.
 function sky(up) {
@@ -48,7 +48,7 @@ function ground(cell) {
                     return max(a.x, a.y);
                 }`)
             .replace('#include <color_fragment>', `#include <color_fragment>
-                float grid = max(0.5 * lines(onGround / cell, 0.008), lines(onGround / (5.0 * cell), 0.003));
+                float grid = max(0.36 * lines(onGround / cell, 0.008), lines(onGround / (5.0 * cell), 0.003));
                 diffuseColor.rgb *= 1.0 - 0.26 * grid;`)
             .replace('#include <tonemapping_fragment>', `#include <tonemapping_fragment>
                 float far = smoothstep(0.25, 1.0, distance(inWorld, focus) / reach);`)
@@ -87,12 +87,12 @@ export class Stage {
     addLight() {
         const maker = new THREE.PMREMGenerator(this.renderer);
         this.world.environment = maker.fromScene(new RoomEnvironment(), 0.04).texture;
-        this.world.environmentIntensity = 0.42;
+        this.world.environmentIntensity = 0.36;
         this.world.environmentRotation.setFromQuaternion(
             new THREE.Quaternion().setFromUnitVectors(new THREE.Vector3(0, 1, 0), this.up));
         const fill = new THREE.HemisphereLight(0xeaf2ff, 0xb8aea2, 0.75);
         fill.position.copy(this.up);
-        this.sun = new THREE.DirectionalLight(0xfff3e0, 2.6);
+        this.sun = new THREE.DirectionalLight(0xfff3e0, 2.8);
         this.sun.castShadow = true;
         this.sun.shadow.mapSize.set(2048, 2048);
         this.sun.shadow.radius = 3;

@@ -12,7 +12,7 @@ canvas { position: fixed; inset: 0; width: 100%; height: 100%; display: block; t
 #about h1 { margin: 0; font-size: 17px; font-weight: 650; overflow-wrap: anywhere; }
 #about p { margin: 2px 0 0; color: var(--soft); overflow-wrap: anywhere; }
 #about p:empty { display: none; }
-#numbers { top: 16px; right: 16px; min-width: 210px; display: grid; grid-template-columns: auto auto;
+#numbers { margin: 0; top: 16px; right: 16px; min-width: 210px; display: grid; grid-template-columns: auto auto;
     gap: 3px 18px; font-variant-numeric: tabular-nums; }
 #numbers dt { color: var(--soft); margin: 0; }
 #numbers dd { margin: 0; text-align: right; font-weight: 550; }
