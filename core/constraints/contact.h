@@ -13,13 +13,18 @@
 
 namespace plumb {
 
-/// Gap that one position iteration shall close [m] (§6, intersection resolution).
-///
-/// Overlap made since (c < d) goes in full, old overlap by s only, so a deep start cannot throw bodies apart.
-/// May be positive: the caller keeps the summed push from turning into a pull.
+/// What one position iteration shall close (§6, intersection resolution), in two parts [m].
 template <class T>
-inline T gap_to_solve(const T& c, const T& d, const T& s) {
-    return min(T(0), c - d) + s * max(c, d);
+struct GapParts {
+    T fresh;     ///< overlap made in this substep, at most 0: it goes in full
+    T recovery;  ///< share s of the old overlap: a deep start cannot throw bodies apart
+};
+
+/// c_modified = min(0, c − d) + s max(c, d). The recovery may be positive: the caller keeps the summed push from
+/// turning into a pull.
+template <class T>
+inline GapParts<T> gap_to_solve(const T& c, const T& d, const T& s) {
+    return {min(T(0), c - d), s * max(c, d)};
 }
 
 /// Part of an overlap that is left alone in this substep [m], at most 0: no more than `most` [m] is pushed out.
@@ -28,11 +33,11 @@ inline T overlap_left(const T& gap, const T& most) {
     return min(T(0), gap + most);
 }
 
-/// Adds to λ what takes the velocity u to `wanted`, keeps the sum repulsive (§6), and returns what was added.
+/// Adds an impulse to λ, keeps the sum at `least` or above (§6: the sum stays repulsive), and returns what was added.
 template <class T>
-inline T push(T& lambda, const T& u, const T& wanted, const T& effective_mass) {
+inline T push(T& lambda, const T& impulse, const T& least) {
     const T before = lambda;
-    lambda = max(T(0), before + effective_mass * (wanted - u));
+    lambda = max(least, before + impulse);
     return lambda - before;
 }
 

@@ -126,13 +126,11 @@ void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
             const Vector3<T> n = load_vector(row.normal);
             const Vector3<T> u =
                 velocity_at<T>(pair.a, load_vector(row.arm_a)) - velocity_at<T>(pair.b, load_vector(row.arm_b));
-            const T u_n = dot<T>(n, u);
-            store(row.velocity, u_n);
-            // the recovery of a collision's overlap adds no speed to bodies that part by themselves
-            store(row.stiffness, select_greater(u_n, T(pass.collision_speed), T(0), T(pass.stiffness)));
+            store(row.velocity, dot<T>(n, u));
             store(row.lambda_velocity,
                   carried_over<T>(load(row.lambda_velocity), load(row.lambda_position), pass.warm_start));
             store(row.lambda_position, T(0));
+            store(row.lambda_recovery, T(0));
             if constexpr (V != ContactVariant::frictionless) {
                 FrictionRow<Real, W>& across = arrays.frictions[k];
                 const Tangents<T> t = load_tangents(across, n);
@@ -185,20 +183,35 @@ void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodi
 /// Which unknown a pass solves for, and so which sums it adds to.
 enum class Pass { velocity, position };
 
-/// Velocity along n that this iteration shall reach [m/s], given the velocity u now.
-template <Pass P, class Real, int W, class T = Number<Real, W>>
-inline T wanted_velocity(const NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
+/// Push of one iteration of the velocity pass, given the velocity u along n now.
+template <class Real, int W, class T = Number<Real, W>>
+inline T push_velocity(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
+    // a separated contact may close by gap/h, no more; a collision rebounds
+    const T rebound = load(row.rebound);
+    const T closing = -max(load(row.gap), T(0)) / T(pass.h);
+    const T wanted = select_greater(rebound, T(0), rebound, closing);
+    T lambda = load(row.lambda_velocity);
+    const T change = push<T>(lambda, load(row.effective_mass) * (wanted - u), T(0));
+    store(row.lambda_velocity, lambda);
+    return change;
+}
+
+/// Push of one iteration of the position pass: a displacement as an impulse, m C / h (§3, end).
+template <class Real, int W, class T = Number<Real, W>>
+inline T push_position(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
     const T gap = load(row.gap), h(pass.h);
-    if constexpr (P == Pass::velocity) {
-        // a separated contact may close by gap/h, no more; a collision rebounds
-        const T rebound = load(row.rebound);
-        return select_greater(rebound, T(0), rebound, -max(gap, T(0)) / h);
-    } else {
-        const T left = overlap_left<T>(gap, T(pass.recovery));
-        const T c = (gap + h * u) - left;
-        const T d = min(gap, T(0)) - left;
-        return u - gap_to_solve<T>(c, d, load(row.stiffness)) / h;
-    }
+    const T left = overlap_left<T>(gap, T(pass.recovery));
+    const T c = (gap + h * u) - left, d = min(gap, T(0)) - left, s(pass.stiffness);
+    const GapParts<T> parts = pass.shared_push ? GapParts<T>{c - d, s * d} : gap_to_solve<T>(c, d, s);
+    const T per_gap = load(row.effective_mass) / h;
+    T lambda = load(row.lambda_position), recovery = load(row.lambda_recovery);
+    // with shared sums it is the push of both passes together that must not turn into a pull
+    const T least = pass.shared_push ? -load(row.lambda_velocity) : T(0);
+    const T change = push<T>(lambda, -(parts.fresh + parts.recovery) * per_gap, least);
+    recovery = max(T(0), min(recovery - parts.recovery * per_gap, lambda));
+    store(row.lambda_position, lambda);
+    store(row.lambda_recovery, recovery);
+    return change;
 }
 
 /// Friction of one point: returns its impulse and tells in `u_n` what that does along n.
@@ -208,18 +221,18 @@ inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& n
     const Tangents<T> t = load_tangents(row, n);
     const Planar<T> velocity{load(row.velocity_x) + dot<T>(t.x, u), load(row.velocity_y) + dot<T>(t.y, u)};
     const PlanarBlock<T> block{load(row.block_xx), load(row.block_xy), load(row.block_yy)};
-    const T push_velocity = load(normal.lambda_velocity), push_position = load(normal.lambda_position);
+    const T velocity_sum = load(normal.lambda_velocity), position_sum = load(normal.lambda_position);
 
     Planar<T> change;
     Planar<T> held{load(row.held_x), load(row.held_y)};
     if constexpr (P == Pass::velocity) {
-        const T bound = load(row.friction) * push_velocity;
+        const T bound = load(row.friction) * velocity_sum;
         change = rub<T>(held, {T(0), T(0)}, velocity, block, bound);
         store(row.held_x, held.x);
         store(row.held_y, held.y);
     } else {
         Planar<T> rubbed{load(row.rubbed_x), load(row.rubbed_y)};
-        const T push = pass.shared_cone ? push_velocity + push_position : push_position;
+        const T push = pass.shared_cone ? velocity_sum + position_sum : position_sum;
         if (!pass.shared_cone) held = {T(0), T(0)};
         change = rub<T>(rubbed, held, velocity, block, T(load(row.friction) * push));
         store(row.rubbed_x, rubbed.x);
@@ -265,11 +278,8 @@ inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, Pai
     if constexpr (V != ContactVariant::frictionless)
         impulse = rub_row<P, Real, W>(arrays.frictions[k], row, n, u, pass, u_n);
 
-    auto& sum = P == Pass::velocity ? row.lambda_velocity : row.lambda_position;
-    T lambda = load(sum);
-    const T wanted = wanted_velocity<P, Real, W>(row, pass, u_n);
-    impulse += n * push<T>(lambda, u_n, wanted, load(row.effective_mass));
-    store(sum, lambda);
+    if constexpr (P == Pass::velocity) impulse += n * push_velocity<Real, W>(row, pass, u_n);
+    else impulse += n * push_position<Real, W>(row, pass, u_n);
     apply<T>(pair, mass, r_a, r_b, impulse);
 }
 
@@ -289,10 +299,30 @@ void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
     }
 }
 
+/// Bodies have moved out of their old overlap; the speed that took them there is taken back, and does not count as
+/// an impulse that the next step begins with.
+template <class Real, int W>
+void release_recovery(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>&,
+                      std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const PairBlock<Real, W>& block = arrays.blocks[i];
+        const PairMass<T> mass = load_masses(block);
+        PairVelocity<T> pair = read_pair<Real, W>(bodies.change, block);
+        for (std::uint32_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
+            NormalRow<Real, W>& row = arrays.normals[k];
+            const T recovery = load(row.lambda_recovery);
+            apply<T>(pair, mass, load_vector(row.arm_a), load_vector(row.arm_b), load_vector(row.normal) * -recovery);
+            store(row.lambda_recovery, T(0));
+        }
+        write_pair(bodies, block, pair);
+    }
+}
+
 template <class Real, int W, ContactVariant V>
 constexpr ContactKernels<Real, W> kernels_of() {
     return {prepare<Real, W, V>, begin<Real, W, V>, warm_start<Real, W, V>, solve<Pass::velocity, Real, W, V>,
-            solve<Pass::position, Real, W, V>};
+            solve<Pass::position, Real, W, V>, release_recovery<Real, W>};
 }
 
 /// All variants of one precision and width, indexed by ContactVariant.

@@ -31,9 +31,9 @@ struct alignas(kRowAlignment<Real, W>) NormalRow {
     Real effective_mass[W];         // 1 / (nᵀ K n) [kg]
     Real gap[W];                    // at the start of the substep [m]
     Real rebound[W];                // separating speed that restitution asks for [m/s], 0 = none
-    Real stiffness[W];              // s of this substep
     Real velocity[W];               // along n, at the start of the substep, forces included [m/s]
     Real lambda_velocity[W], lambda_position[W];  // summed impulses of the two passes [N s]
+    Real lambda_recovery[W];  // the part of lambda_position that pushes out old overlap [N s]
 };
 
 /// Across the normal.
@@ -88,9 +88,9 @@ struct PassSettings {
     Real h;                // substep [s]
     Real stiffness;        // s of this substep
     Real recovery;         // greatest overlap pushed out in a substep [m]
-    Real collision_speed;  // bodies that part faster than this are left to part by themselves [m/s]
     bool warm_start;       // begin with the impulses of the substep before
     bool shared_cone;      // one friction bound for both passes
+    bool shared_push;      // the push of both passes together stays repulsive, not of each alone
     bool forwards;         // direction of this sweep
 };
 

@@ -79,6 +79,9 @@ public:
     void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
         run(kernels_.warm_start, bodies, pass);
     }
+    void release_recovery(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+        run(kernels_.release_recovery, bodies, pass);
+    }
     void velocity_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass, std::uint32_t worker) {
         sweep(kernels_.solve_velocities, bodies, pass, worker);
     }

@@ -19,38 +19,95 @@ std::size_t end_of_pair(const std::vector<Contact>& contacts, std::size_t i) {
     return end;
 }
 
+/// The contacts of one pair, now and in the step before.
+struct PairRuns {
+    std::size_t now, now_end, old, old_end;
+};
+
+std::size_t nearest(const std::vector<Contact>& contacts, std::size_t first, std::size_t last, const Vector3d& point) {
+    std::size_t best = first;
+    for (std::size_t i = first + 1; i < last; ++i)
+        if ((common_point(contacts[i]) - point).squaredNorm() < (common_point(contacts[best]) - point).squaredNorm())
+            best = i;
+    return best;
+}
+
+void match_by_feature(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>& used) {
+    for (std::size_t k = run.now; k < run.now_end; ++k)
+        for (std::size_t j = run.old; j < run.old_end; ++j)
+            if (c.found[k].feature != 0 && c.found[k].feature == c.found_before[j].feature && !used[j]) {
+                c.memory[k] = c.memory_before[j];
+                c.memory[k].matched = c.memory[k].known = true;
+                used[j] = 1;
+                break;
+            }
+}
+
+/// Where features came and went (a corner slid over an edge), the pair keeps its summed impulses: what no contact
+/// took over goes to the nearest one.
+void hand_on_impulses(ContactTable& c, const PairRuns& run, const std::vector<std::uint8_t>& used) {
+    for (std::size_t j = run.old; j < run.old_end; ++j) {
+        if (used[j]) continue;
+        ContactMemory& heir = c.memory[nearest(c.found, run.now, run.now_end, common_point(c.found_before[j]))];
+        heir.normal_impulse += c.memory_before[j].normal_impulse;
+        heir.friction_impulse += c.memory_before[j].friction_impulse;
+        heir.matched = true;
+    }
+}
+
+void match_pair(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>& used) {
+    match_by_feature(c, run, used);
+    hand_on_impulses(c, run, used);
+}
+
+/// New contacts begin to stick where they are; in a pair that stuck already they take over the drift of its nearest
+/// contact, or what the pair has crept would be forgotten with every feature that changes.
+void set_anchors(World& world, std::size_t i, const Vector3d& drift) {
+    const Bodies& b = world.bodies;
+    const Contact& contact = world.contacts.found[i];
+    ContactMemory& m = world.contacts.memory[i];
+    const Vector3d point = common_point(contact);
+    m.stick_a = b.orientation[contact.a].conjugate() * (point + 0.5 * drift - b.position[contact.a]);
+    m.stick_b = b.orientation[contact.b].conjugate() * (point - 0.5 * drift - b.position[contact.b]);
+}
+
+/// Distance of the points that met when an old contact began to stick, at the poses now.
+Vector3d drift_of(const World& world, const Contact& contact, const ContactMemory& m) {
+    const Bodies& b = world.bodies;
+    return (b.position[contact.a] + b.orientation[contact.a] * m.stick_a) -
+           (b.position[contact.b] + b.orientation[contact.b] * m.stick_b);
+}
+
+void anchor_pair(World& world, const PairRuns& run) {
+    ContactTable& c = world.contacts;
+    for (std::size_t i = run.now; i < run.now_end; ++i) {
+        if (c.memory[i].sticks || !is_sharp(c.found[i])) continue;
+        Vector3d drift = Vector3d::Zero();
+        if (run.old_end > run.old && !c.memory[i].known) {
+            const std::size_t j = nearest(c.found_before, run.old, run.old_end, common_point(c.found[i]));
+            if (c.memory_before[j].sticks) drift = drift_of(world, c.found_before[j], c.memory_before[j]);
+        }
+        set_anchors(world, i, drift);
+    }
+}
+
 }  // namespace
 
 void match_contacts(World& world, const Plan& plan) {
     ContactTable& c = world.contacts;
     c.memory.assign(c.found.size(), ContactMemory{});
+    c.used.assign(c.found_before.size(), 0);
+    const bool anchors = plan.runs(Effect::sticking_anchors);
     std::size_t old = 0;
     for (std::size_t i = 0; i < c.found.size();) {
-        const std::size_t end = end_of_pair(c.found, i);
+        PairRuns run{i, end_of_pair(c.found, i), 0, 0};
         while (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) < 0) ++old;
         if (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) == 0) {
-            const std::size_t old_end = end_of_pair(c.found_before, old);
-            for (std::size_t k = i; k < end; ++k)
-                for (std::size_t j = old; j < old_end; ++j)
-                    if (c.found[k].feature != 0 && c.found[k].feature == c.found_before[j].feature) {
-                        c.memory[k] = c.memory_before[j];
-                        c.memory[k].matched = true;
-                        break;
-                    }
-            old = old_end;
+            run.old = old, run.old_end = old = end_of_pair(c.found_before, old);
+            match_pair(c, run, c.used);
         }
-        i = end;
-    }
-
-    if (!plan.runs(Effect::sticking_anchors)) return;
-    const Bodies& b = world.bodies;
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        ContactMemory& m = c.memory[i];
-        const Contact& contact = c.found[i];
-        if (m.sticks || !is_sharp(contact)) continue;
-        const Vector3d point = common_point(contact);
-        m.stick_a = b.orientation[contact.a].conjugate() * (point - b.position[contact.a]);
-        m.stick_b = b.orientation[contact.b].conjugate() * (point - b.position[contact.b]);
+        if (anchors) anchor_pair(world, run);
+        i = run.now_end;
     }
 }
 

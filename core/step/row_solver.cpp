@@ -14,7 +14,7 @@ namespace {
 
 /// s′ = 1 − (1 − s)^(5/N): s is defined for five iterations of one substep, and N are made.
 double rescaled_stiffness(const Settings& s) {
-    const double n = double(s.position_iterations) * s.substeps;
+    const double n = double(s.shared_cone ? 1 : s.position_iterations) * s.substeps;
     return n > 0 ? 1 - std::pow(1 - s.stiffness, 5 / n) : 0;
 }
 
@@ -41,12 +41,10 @@ public:
         pass_.h = static_cast<Real>(h);
         pass_.stiffness = static_cast<Real>(rescaled_stiffness(settings_));
         pass_.recovery = static_cast<Real>(h * settings_.recovery_speed);
-        pass_.collision_speed =
-            static_cast<Real>(std::sqrt(2 * settings_.gravity.norm() * settings_.collision_depth));
         pass_.warm_start = settings_.warm_start;
-        pass_.shared_cone = settings_.shared_cone;
+        pass_.shared_cone = pass_.shared_push = settings_.shared_cone;
         pass_.forwards = true;
-        sweeps_ = 0;
+        sweeps_ = substeps_++;
         if (!contacts_.empty()) contacts_.begin(world, table_.rows(), pass_);
         if (shocks_) shock_->begin(world, table_.rows(), pass_);
         if (balls_) balls_->begin(world);
@@ -84,7 +82,14 @@ public:
         shock_->copy_impulses(contacts_);
         PassSettings<Real> pass = pass_;
         pass.shared_cone = true;
+        pass.shared_push = false;
         workers_.run([&](std::uint32_t worker) { shock_->position_iteration(table_.rows(), pass, worker); });
+    }
+
+    void release_recovery() override {
+        if (contacts_.empty() || !settings_.release_recovery) return;
+        if (shocks_) shock_->release_recovery(table_.rows(), pass_);
+        contacts_.release_recovery(table_.rows(), pass_);
     }
 
     Vector3d velocity_change(std::int32_t row) const override { return table_.velocity_change(row); }
@@ -106,7 +111,8 @@ private:
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<BallSolver<Real, W>> balls_;
     std::vector<std::uint32_t> levels_;
-    std::uint32_t sweeps_ = 0;  // made in this substep
+    std::uint32_t substeps_ = 0;  // since the start: each begins in the other direction
+    std::uint32_t sweeps_ = 0;
 };
 
 template <class Real>

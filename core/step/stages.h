@@ -43,6 +43,9 @@ void integrate_velocities(World& world, const Plan& plan, double h);
 /// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made.
 void move(World& world, const RowSolver& solver, double h);
 
+/// The bodies' velocities at the end of the substep; where it is carried, angular momentum decides them.
+void update_velocities(World& world, const RowSolver& solver);
+
 /// Keeps contacts and impulses for the next step.
 void remember_contacts(World& world);
 

@@ -18,7 +18,8 @@ struct ContactMemory {
     Vector3d stick_a = Vector3d::Zero();              ///< points of a and b that met when it began to stick,
     Vector3d stick_b = Vector3d::Zero();              ///< in the bodies' frames [m]
     bool sticks = false;
-    bool matched = false;  ///< whether the step before knew this contact
+    bool known = false;    ///< whether the step before had this very feature
+    bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
 
 /// Where the points of a contact ride, for following its gap through substeps; body frames.
@@ -39,6 +40,7 @@ struct ContactTable {
 
     std::vector<Contact> found_before;  ///< of the step before
     std::vector<ContactMemory> memory_before;
+    std::vector<std::uint8_t> used;  ///< of those before: whether a contact has taken over its memory
 
     std::uint64_t rejected = 0;  ///< contacts left out since the start: a number not finite, or an id unknown
 
