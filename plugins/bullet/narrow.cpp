@@ -106,6 +106,8 @@ bool Narrow::ask_closest(Witness& witness, const Part& a, const Part& b) {
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver penetration;
     btGjkPairDetector detector(sa.cushioned.get(), sb.cushioned.get(), &simplex, &penetration);
+    const Vec3 first_guess = unit_or(a.world.origin - b.world.origin, {0, 1, 0});
+    detector.setCachedSeparatingAxis(bt(first_guess));
     Deepest result;
     detector.getClosestPoints(input_of(a, b, margins + pair_margin(a, b) + cushions), result,
                               nullptr);

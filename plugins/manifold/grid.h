@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// A broad phase of equal cells, about twice as fast here as a sweep or ODE's hash space.
+/// A broad phase of equal cells.
 #pragma once
 
 #include "manifold/body_table.h"
