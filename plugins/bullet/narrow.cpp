@@ -167,7 +167,10 @@ void Narrow::run_algorithm(ContactList& contacts, DetectStats& stats, const Part
                                           -1, -1);
     const btCollisionObjectWrapper wrap_b(nullptr, shape_b, &object_b, object_b.getWorldTransform(),
                                           -1, -1);
-    const auto kind = exact_boxes ? BT_CONTACT_POINT_ALGORITHMS : BT_CLOSEST_POINT_ALGORITHMS;
+    // Two meshes have an algorithm for contacts only.
+    const bool meshes = is(a, ShapeKind::mesh) && is(b, ShapeKind::mesh);
+    const auto kind =
+        exact_boxes || meshes ? BT_CONTACT_POINT_ALGORITHMS : BT_CLOSEST_POINT_ALGORITHMS;
     btCollisionAlgorithm* algorithm = dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, kind);
     if (!algorithm) return;
     Everything result(&wrap_a, &wrap_b, pair_margin(a, b));

@@ -132,6 +132,28 @@ TEST_P(ClosedForm, MeetsClosedForms) {
         }
 }
 
+TEST_P(ClosedForm, LaysATorusMeshOnAFlatMesh) {
+    const std::uint32_t able = ability(GetParam(), ShapeKind::mesh, ShapeKind::mesh);
+    World world(GetParam());
+    const Status lower = world.add(1, grid_mesh(2, 4), {}, Mobility::fixed);
+    const Status upper =
+        world.add(2, torus_mesh(.5, .2, 48, 24), {V(.1, .195, .05), Q::Identity()});
+    EXPECT_EQ(lower.code, able ? Status::ok : Status::unsupported);
+    EXPECT_EQ(upper.code, able ? Status::ok : Status::unsupported);
+    const auto& contacts = world.detect(0.01);
+    EXPECT_EQ(contacts.empty(), able == 0);
+    if (contacts.empty()) return;
+    expect_sound(contacts, 0.01);
+    EXPECT_GE(contacts.size(), 4u);
+    EXPECT_LE(contacts.size(), 16u);
+    EXPECT_NEAR(deepest(contacts).gap, -.005, .002);
+    V mean = V::Zero();
+    for (const Contact& c : contacts) mean += v(c.normal);
+    EXPECT_LT(mean.normalized().y(), -std::cos(12 * M_PI / 180))
+        << "normals of meshes are good to 12 degrees";
+    EXPECT_GT(spanned_area(contacts), .5) << "the ring of radius 0.5 spans 0.78";
+}
+
 TEST_P(ClosedForm, ReportsNothingBeyondTheMargin) {
     for (const Case& c : cases()) {
         if (!ability(GetParam(), c.lower.kind, c.upper.kind)) continue;
