@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <memory>
 #include <set>
+#include <string>
 
 #include "reader/bad_shape.h"
 
@@ -19,6 +19,7 @@ namespace plumb::reader {
 namespace {
 
 using Eigen::Vector3d;
+using Faces = std::vector<std::vector<std::uint32_t>>;
 
 constexpr double kThinnest = 1e-9;  // least volume of a hull whose points span a box of diagonal 1
 
@@ -39,10 +40,9 @@ public:
     Qhull& operator=(const Qhull&) = delete;
 
     /// Runs qhull and returns its exit code. `coordinates` [3 × count] must outlive this object.
-    int run(std::vector<double>& coordinates) {
-        char options[] = "qhull C-1e-6";  // merge facets that lie in one plane within 1e-6
+    int run(std::vector<double>& coordinates, std::string options) {
         return qh_new_qhull(&state_, 3, static_cast<int>(coordinates.size() / 3),
-                            coordinates.data(), False, options, nullptr, messages_);
+                            coordinates.data(), False, options.data(), nullptr, messages_);
     }
 
     facetT* first_facet() const { return state_.facet_list; }
@@ -86,8 +86,9 @@ void refuse(int exit_code) {
             "the hull is flat: its points lie in one plane or on one line, within rounding");
     }
     if (exit_code == qh_ERRinput) throw BadShape("qhull cannot use the points of the hull");
-    throw BadShape("qhull gave up on the hull for lack of precision (its code " +
-                   std::to_string(exit_code) + "); give fewer points, or points further apart");
+    throw BadShape(
+        "qhull gave up on the hull for lack of precision; give fewer points, or points further "
+        "apart");
 }
 
 /// Sorts a facet's corners by angle about its normal: counter-clockwise seen from outside.
@@ -106,9 +107,8 @@ void sort_around(std::vector<std::uint32_t>& corners, const Vector3d& normal,
               [&](std::uint32_t i, std::uint32_t j) { return angle(i) < angle(j); });
 }
 
-std::vector<std::vector<std::uint32_t>> faces_of(Qhull& qhull,
-                                                 const std::vector<double>& coordinates) {
-    std::vector<std::vector<std::uint32_t>> faces;
+Faces faces_of(Qhull& qhull, const std::vector<double>& coordinates) {
+    Faces faces;
     // The list ends with a facet that has no successor and is none.
     for (const facetT* facet = qhull.first_facet(); facet && facet->next; facet = facet->next) {
         std::vector<std::uint32_t> corners;
@@ -121,7 +121,7 @@ std::vector<std::vector<std::uint32_t>> faces_of(Qhull& qhull,
 }
 
 /// Whether each edge stands once in each direction, so that the faces close up.
-bool closed(const std::vector<std::vector<std::uint32_t>>& faces) {
+bool closed(const Faces& faces) {
     std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
     for (const auto& face : faces) {
         for (std::size_t i = 0; i < face.size(); ++i) {
@@ -133,8 +133,7 @@ bool closed(const std::vector<std::vector<std::uint32_t>>& faces) {
     });
 }
 
-double volume(const std::vector<std::vector<std::uint32_t>>& faces,
-              const std::vector<double>& coordinates) {
+double volume(const Faces& faces, const std::vector<double>& coordinates) {
     double sixfold = 0;
     for (const auto& face : faces) {
         const Vector3d a = point_at(coordinates, face[0]);
@@ -147,8 +146,7 @@ double volume(const std::vector<std::vector<std::uint32_t>>& faces,
 }
 
 /// The hull over its own corners alone.
-Hull compact(const std::vector<std::vector<std::uint32_t>>& faces,
-             const std::vector<Vector3d>& points) {
+Hull compact(const Faces& faces, const std::vector<Vector3d>& points) {
     Hull hull;
     std::vector<std::uint32_t> corner(points.size(), UINT32_MAX);
     for (const auto& face : faces) {
@@ -164,20 +162,38 @@ Hull compact(const std::vector<std::vector<std::uint32_t>>& faces,
     return hull;
 }
 
+/// Exit code of qhull, and the faces if it is qh_ERRnone.
+struct Outcome {
+    int exit_code;
+    Faces faces;
+};
+
+/// Everything but bad input and flat points counts as a lack of precision.
+Outcome try_hull(std::vector<double>& coordinates, const std::string& options) {
+    Qhull qhull;
+    const int code = qhull.run(coordinates, options);
+    if (code == qh_ERRinput || code == qh_ERRsingular) return {code, {}};
+    if (code != qh_ERRnone) return {qh_ERRprec, {}};
+    Faces faces = faces_of(qhull, coordinates);
+    return {closed(faces) ? qh_ERRnone : qh_ERRprec, std::move(faces)};
+}
+
 }  // namespace
 
 Hull convex_hull(const std::vector<Vector3d>& points) {
-    if (points.size() < 4)
+    if (points.size() < 4) {
         throw BadShape("a hull needs at least 4 points, but there are " +
                        std::to_string(points.size()));
+    }
     std::vector<double> coordinates = normalized(points);
-    Qhull qhull;
-    refuse(qhull.run(coordinates));
 
-    const auto faces = faces_of(qhull, coordinates);
-    if (!closed(faces)) refuse(qh_ERRprec);
-    if (volume(faces, coordinates) < kThinnest) refuse(qh_ERRsingular);
-    return compact(faces, points);
+    // Facets that lie in one plane within 1e-6 are merged; of very thin hulls only those that must
+    // be.
+    Outcome outcome = try_hull(coordinates, "qhull C-1e-6");
+    if (outcome.exit_code == qh_ERRprec) outcome = try_hull(coordinates, "qhull");
+    refuse(outcome.exit_code);
+    if (volume(outcome.faces, coordinates) < kThinnest) refuse(qh_ERRsingular);
+    return compact(outcome.faces, points);
 }
 
 }  // namespace plumb::reader

@@ -58,8 +58,11 @@ TEST(Schema, NamesKeysThatTheReaderKnows) {
         {"joint", {R"({"joints": [{)", "}]}"}},
         {"view", {R"({"view": {)", "}}"}}};
 
-    for (const auto& [name, definition] : schema()["$defs"].items()) {
+    const Json definitions = schema()["$defs"];
+    std::size_t visited = 0;
+    for (const auto& [name, definition] : definitions.items()) {
         if (!definition.contains("properties")) continue;
+        ++visited;
         ASSERT_TRUE(places.contains(name)) << name;
         const auto& [before, after] = places.at(name);
         for (const auto& property : definition["properties"].items()) {
@@ -70,6 +73,7 @@ TEST(Schema, NamesKeysThatTheReaderKnows) {
         EXPECT_TRUE(key_is_unknown(before + "\"no_such_key\": null" + after)) << name;
         EXPECT_EQ(definition["additionalProperties"], false) << name;
     }
+    EXPECT_EQ(visited, places.size());
 }
 
 TEST(Schema, HasAKeyForEveryMemberOfSettings) {
