@@ -81,6 +81,8 @@ const Table<Settings>& settings_table() {
                  "begin from the impulses of the step before"),
         field<S>("alternate_sweeps", Flag{}, &S::alternate_sweeps,
                  "sweep forwards and backwards in turn"),
+        field<S>("release_recovery", Flag{}, &S::release_recovery,
+                 "pushing out old overlap moves bodies but leaves them no speed"),
         field<S>("shared_cone", Flag{}, &S::shared_cone,
                  "one bound of friction for the velocity and the position pass"),
         field<S>("require", TextList{}, &S::require,

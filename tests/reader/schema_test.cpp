@@ -77,8 +77,40 @@ TEST(Schema, NamesKeysThatTheReaderKnows) {
 }
 
 TEST(Schema, HasAKeyForEveryMemberOfSettings) {
-    // 19 values and 2 lists, and "preset".
-    EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), 22u);
+    // This does not compile when Settings has members that are not listed here. Add them, and give
+    // them a field in core/reader/settings.cpp.
+    const Settings settings;
+    [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
+                                  position_iterations, method, precision, threads, lanes, margin,
+                                  stiffness, recovery_speed, collision_depth, anchor_stiffness,
+                                  gyroscopic, warm_start, alternate_sweeps, release_recovery,
+                                  shared_cone, require, forbid] = settings;
+    constexpr std::size_t kMembers = 22, kPreset = 1;
+    EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
+    for (const char* name : {"gravity",
+                             "dt",
+                             "duration",
+                             "substeps",
+                             "velocity_iterations",
+                             "position_iterations",
+                             "method",
+                             "precision",
+                             "threads",
+                             "lanes",
+                             "margin",
+                             "stiffness",
+                             "recovery_speed",
+                             "collision_depth",
+                             "anchor_stiffness",
+                             "gyroscopic",
+                             "warm_start",
+                             "alternate_sweeps",
+                             "release_recovery",
+                             "shared_cone",
+                             "require",
+                             "forbid"}) {
+        EXPECT_TRUE(schema()["$defs"]["settings"]["properties"].contains(name)) << name;
+    }
 }
 
 }  // namespace plumb::test
