@@ -13,18 +13,22 @@
 
 namespace plumb {
 
-/// What one position iteration shall close (§6, intersection resolution), in two parts [m].
+/// Gap that one position iteration shall close [m] (§6, intersection resolution).
+///
+/// Overlap made since (c < d) goes in full, old overlap by s only, so a deep start cannot throw bodies apart.
+/// May be positive: the caller keeps the summed push from turning into a pull.
 template <class T>
-struct GapParts {
-    T fresh;     ///< overlap made in this substep, at most 0: it goes in full
-    T recovery;  ///< share s of the old overlap: a deep start cannot throw bodies apart
-};
+inline T gap_to_solve(const T& c, const T& d, const T& s) {
+    return min(T(0), c - d) + s * max(c, d);
+}
 
-/// c_modified = min(0, c − d) + s max(c, d). The recovery may be positive: the caller keeps the summed push from
-/// turning into a pull.
+/// The same where both passes share one push: the gap at the end of the substep shall be d (1 − s), from either side.
+///
+/// A departure from §6: whoever only ever pushes adds to the push that the velocity pass found, substep after
+/// substep, and tall stacks begin to jump. Here s is the share of a whole substep.
 template <class T>
-inline GapParts<T> gap_to_solve(const T& c, const T& d, const T& s) {
-    return {min(T(0), c - d), s * max(c, d)};
+inline T gap_below(const T& c, const T& d, const T& s) {
+    return (c - d) + s * d;
 }
 
 /// Part of an overlap that is left alone in this substep [m], at most 0: no more than `most` [m] is pushed out.

@@ -23,7 +23,6 @@ struct ContactKernels {
     ContactPass<Real, W> warm_start;       // applies the impulses that the rows already hold
     ContactPass<Real, W> solve_velocities;  // one iteration
     ContactPass<Real, W> solve_positions;   // one iteration
-    ContactPass<Real, W> release_recovery;  // after the move: takes back the velocity of the recovery
 };
 
 /// The kernels of one variant. Throws std::logic_error when this processor cannot run W lanes.

@@ -130,7 +130,6 @@ void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
             store(row.lambda_velocity,
                   carried_over<T>(load(row.lambda_velocity), load(row.lambda_position), pass.warm_start));
             store(row.lambda_position, T(0));
-            store(row.lambda_recovery, T(0));
             if constexpr (V != ContactVariant::frictionless) {
                 FrictionRow<Real, W>& across = arrays.frictions[k];
                 const Tangents<T> t = load_tangents(across, n);
@@ -183,35 +182,42 @@ void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodi
 /// Which unknown a pass solves for, and so which sums it adds to.
 enum class Pass { velocity, position };
 
-/// Push of one iteration of the velocity pass, given the velocity u along n now.
+/// Velocity along n that the velocity pass asks for: a separated contact may close by gap/h, no more; a collision
+/// rebounds.
 template <class Real, int W, class T = Number<Real, W>>
-inline T push_velocity(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
-    // a separated contact may close by gap/h, no more; a collision rebounds
+inline T wanted_velocity(const NormalRow<Real, W>& row, const PassSettings<Real>& pass) {
     const T rebound = load(row.rebound);
     const T closing = -max(load(row.gap), T(0)) / T(pass.h);
-    const T wanted = select_greater(rebound, T(0), rebound, closing);
-    T lambda = load(row.lambda_velocity);
-    const T change = push<T>(lambda, load(row.effective_mass) * (wanted - u), T(0));
-    store(row.lambda_velocity, lambda);
-    return change;
+    return select_greater(rebound, T(0), rebound, closing);
 }
 
-/// Push of one iteration of the position pass: a displacement as an impulse, m C / h (§3, end).
+/// Gap that the position pass closes in this iteration [m], given the velocity u along n now.
 template <class Real, int W, class T = Number<Real, W>>
-inline T push_position(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
-    const T gap = load(row.gap), h(pass.h);
+inline T remaining_gap(const NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
+    const T gap = load(row.gap), h(pass.h), s(pass.stiffness), rebound = load(row.rebound);
     const T left = overlap_left<T>(gap, T(pass.recovery));
-    const T c = (gap + h * u) - left, d = min(gap, T(0)) - left, s(pass.stiffness);
-    const GapParts<T> parts = pass.shared_push ? GapParts<T>{c - d, s * d} : gap_to_solve<T>(c, d, s);
-    const T per_gap = load(row.effective_mass) / h;
-    T lambda = load(row.lambda_position), recovery = load(row.lambda_recovery);
-    // with shared sums it is the push of both passes together that must not turn into a pull
-    const T least = pass.shared_push ? -load(row.lambda_velocity) : T(0);
-    const T change = push<T>(lambda, -(parts.fresh + parts.recovery) * per_gap, least);
-    recovery = max(T(0), min(recovery - parts.recovery * per_gap, lambda));
-    store(row.lambda_position, lambda);
-    store(row.lambda_recovery, recovery);
-    return change;
+    const T c = (gap + h * u) - left, d = min(gap, T(0)) - left;
+    const T resting = pass.shared_push ? gap_below(c, d, s) : gap_to_solve<T>(c, d, s);
+    // a rebound moves the bodies out of their overlap by itself, and the recovery adds nothing to it
+    return select_greater(rebound, T(0), h * (u - rebound), resting);
+}
+
+/// Push of one iteration: an impulse, of which a displacement is m C / h (§3, end).
+template <Pass P, class Real, int W, class T = Number<Real, W>>
+inline T push_row(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
+    const T mass = load(row.effective_mass);
+    if constexpr (P == Pass::velocity) {
+        T lambda = load(row.lambda_velocity);
+        const T change = push<T>(lambda, mass * (wanted_velocity<Real, W>(row, pass) - u), T(0));
+        store(row.lambda_velocity, lambda);
+        return change;
+    } else {
+        T lambda = load(row.lambda_position);
+        const T least = pass.shared_push ? -load(row.lambda_velocity) : T(0);
+        const T change = push<T>(lambda, -remaining_gap<Real, W>(row, pass, u) * mass / T(pass.h), least);
+        store(row.lambda_position, lambda);
+        return change;
+    }
 }
 
 /// Friction of one point: returns its impulse and tells in `u_n` what that does along n.
@@ -278,8 +284,7 @@ inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, Pai
     if constexpr (V != ContactVariant::frictionless)
         impulse = rub_row<P, Real, W>(arrays.frictions[k], row, n, u, pass, u_n);
 
-    if constexpr (P == Pass::velocity) impulse += n * push_velocity<Real, W>(row, pass, u_n);
-    else impulse += n * push_position<Real, W>(row, pass, u_n);
+    impulse += n * push_row<P, Real, W>(row, pass, u_n);
     apply<T>(pair, mass, r_a, r_b, impulse);
 }
 
@@ -299,30 +304,10 @@ void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
     }
 }
 
-/// Bodies have moved out of their old overlap; the speed that took them there is taken back, and does not count as
-/// an impulse that the next step begins with.
-template <class Real, int W>
-void release_recovery(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>&,
-                      std::uint32_t first, std::uint32_t last) {
-    using T = Number<Real, W>;
-    for (std::uint32_t i = first; i < last; ++i) {
-        const PairBlock<Real, W>& block = arrays.blocks[i];
-        const PairMass<T> mass = load_masses(block);
-        PairVelocity<T> pair = read_pair<Real, W>(bodies.change, block);
-        for (std::uint32_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
-            NormalRow<Real, W>& row = arrays.normals[k];
-            const T recovery = load(row.lambda_recovery);
-            apply<T>(pair, mass, load_vector(row.arm_a), load_vector(row.arm_b), load_vector(row.normal) * -recovery);
-            store(row.lambda_recovery, T(0));
-        }
-        write_pair(bodies, block, pair);
-    }
-}
-
 template <class Real, int W, ContactVariant V>
 constexpr ContactKernels<Real, W> kernels_of() {
     return {prepare<Real, W, V>, begin<Real, W, V>, warm_start<Real, W, V>, solve<Pass::velocity, Real, W, V>,
-            solve<Pass::position, Real, W, V>, release_recovery<Real, W>};
+            solve<Pass::position, Real, W, V>};
 }
 
 /// All variants of one precision and width, indexed by ContactVariant.

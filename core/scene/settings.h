@@ -34,7 +34,7 @@ struct Settings {
 
     bool warm_start = true;        ///< begin from the impulses of the step before
     bool alternate_sweeps = true;  ///< forwards and backwards in turn
-    bool release_recovery = true;  ///< pushing out old overlap moves bodies but leaves them no speed
+    bool shared_push = true;       ///< the push λ_velocity + λ_position stays repulsive as a whole, not each part
     bool shared_cone = true;       ///< one friction bound μ(λ_velocity + λ_position) for both passes
 
     std::vector<std::string> require;  ///< effects that run although nothing seems to call for them
@@ -42,9 +42,9 @@ struct Settings {
 };
 
 /// The paper's step to the letter: no warm start, no alternating sweeps, friction bounds of each pass apart, no
-/// anchors, recovery kept as velocity, explicit gyroscopic term.
+/// anchors, sums of each pass apart, explicit gyroscopic term.
 inline void apply_paper_preset(Settings& s) {
-    s.warm_start = s.alternate_sweeps = s.shared_cone = s.release_recovery = false;
+    s.warm_start = s.alternate_sweeps = s.shared_cone = s.shared_push = false;
     s.anchor_stiffness = 0;
     s.gyroscopic = Gyroscopic::explicit_;
 }

@@ -33,7 +33,6 @@ struct alignas(kRowAlignment<Real, W>) NormalRow {
     Real rebound[W];                // separating speed that restitution asks for [m/s], 0 = none
     Real velocity[W];               // along n, at the start of the substep, forces included [m/s]
     Real lambda_velocity[W], lambda_position[W];  // summed impulses of the two passes [N s]
-    Real lambda_recovery[W];  // the part of lambda_position that pushes out old overlap [N s]
 };
 
 /// Across the normal.

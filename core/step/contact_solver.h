@@ -79,14 +79,22 @@ public:
     void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
         run(kernels_.warm_start, bodies, pass);
     }
-    void release_recovery(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
-        run(kernels_.release_recovery, bodies, pass);
-    }
     void velocity_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass, std::uint32_t worker) {
         sweep(kernels_.solve_velocities, bodies, pass, worker);
     }
     void position_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass, std::uint32_t worker) {
         sweep(kernels_.solve_positions, bodies, pass, worker);
+    }
+
+    /// One sweep in which each batch is solved `rounds` times before the next.
+    void rounds_iteration(const BodyRows<Real>& bodies, PassSettings<Real> pass, std::uint32_t rounds,
+                          std::uint32_t worker) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        for (const BlockRange& range : batches_.ranges())
+            for (std::uint32_t r = 0; r < rounds; ++r) {
+                pass.forwards = r % 2 == 0;
+                solve_range(kernels_.solve_positions, rows, bodies, pass, range, worker);
+            }
     }
 
     /// Takes over another solver's summed impulses: what shock propagation adds to.
@@ -199,14 +207,20 @@ private:
         const std::vector<BlockRange>& ranges = batches_.ranges();
         for (std::size_t i = 0; i < ranges.size(); ++i) {
             const BlockRange& range = ranges[pass.forwards ? i : ranges.size() - 1 - i];
-            if (range.independent) {
-                const Range share = workers_.share(range.last - range.first, worker);
-                kernel(rows, bodies, pass, range.first + share.first, range.first + share.last);
-            } else if (worker == 0) {
-                sweep_in_order(kernel, rows, bodies, pass, range);
-            }
-            workers_.barrier();
+            solve_range(kernel, rows, bodies, pass, range, worker);
         }
+    }
+
+    /// One batch: every worker takes its share of blocks that are independent, and waits for the others.
+    void solve_range(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows, const BodyRows<Real>& bodies,
+                     const PassSettings<Real>& pass, const BlockRange& range, std::uint32_t worker) {
+        if (range.independent) {
+            const Range share = workers_.share(range.last - range.first, worker);
+            kernel(rows, bodies, pass, range.first + share.first, range.first + share.last);
+        } else if (worker == 0) {
+            sweep_in_order(kernel, rows, bodies, pass, range);
+        }
+        workers_.barrier();
     }
 
     static void sweep_in_order(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,

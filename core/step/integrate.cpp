@@ -82,30 +82,20 @@ void integrate_velocities(World& world, const Plan& plan, double h) {
 
 void move(World& world, const RowSolver& solver, double h) {
     Bodies& b = world.bodies;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        if (b.motion[i] == Motion::fixed) continue;
-        Vector3d v = b.velocity[i], w = b.angular_velocity[i];
-        if (b.motion[i] == Motion::dynamic) {
-            v += solver.velocity_change(b.row[i]);
-            w += solver.angular_velocity_change(b.row[i]);
-            // angular impulses act at the orientation of the substep's start, which is left behind here
-            b.start_orientation[i] = b.orientation[i];
-        }
-        b.position[i] += h * v;
-        b.orientation[i] = turned(b.orientation[i], h * w);
-    }
-}
-
-void update_velocities(World& world, const RowSolver& solver) {
-    Bodies& b = world.bodies;
     const bool carries_momentum = world.settings.gyroscopic == Gyroscopic::conserving;
     for (std::size_t i = 0; i < b.size(); ++i) {
-        if (b.motion[i] != Motion::dynamic) continue;
-        const Vector3d turn_change = solver.angular_velocity_change(b.row[i]);
-        b.velocity[i] += solver.velocity_change(b.row[i]);
-        b.angular_velocity[i] += turn_change;
+        if (b.motion[i] == Motion::fixed) continue;
+        const Quaterniond before = b.orientation[i];
+        Vector3d turn_change = Vector3d::Zero();
+        if (b.motion[i] == Motion::dynamic) {
+            turn_change = solver.angular_velocity_change(b.row[i]);
+            b.velocity[i] += solver.velocity_change(b.row[i]);
+            b.angular_velocity[i] += turn_change;
+        }
+        b.position[i] += h * b.velocity[i];
+        b.orientation[i] = turned(before, h * b.angular_velocity[i]);
         if (b.isotropic[i] || !carries_momentum) continue;
-        b.angular_momentum[i] += momentum_of(b.start_orientation[i], b.inertia[i], turn_change);
+        b.angular_momentum[i] += momentum_of(before, b.inertia[i], turn_change);
         b.angular_velocity[i] = momentum_of(b.orientation[i], b.inverse_inertia[i], b.angular_momentum[i]);
     }
 }

@@ -12,25 +12,30 @@
 namespace plumb {
 namespace {
 
-/// s′ = 1 − (1 − s)^(5/N): s is defined for five iterations of one substep, and N are made.
+/// s′ = 1 − (1 − s)^(5/N): s is defined for five iterations of one substep, and N are made. Where both passes share
+/// one push, s′ is the share of a substep.
 double rescaled_stiffness(const Settings& s) {
-    const double n = double(s.shared_cone ? 1 : s.position_iterations) * s.substeps;
+    const double n = double(s.shared_push ? 1 : s.position_iterations) * s.substeps;
     return n > 0 ? 1 - std::pow(1 - s.stiffness, 5 / n) : 0;
 }
+
+/// How often shock propagation solves a level before it goes on to the next: until the points of a pair agree, for
+/// the error that is left at one level tips over all that stands on it.
+constexpr std::uint32_t kShockRounds = 16;
 
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {
 public:
     RowSolverOf(const World& world, const Plan& plan, Workers& workers)
         : settings_(world.settings), workers_(workers), shocks_(plan.runs(Effect::shock_propagation)),
-          contacts_(plan, workers) {
+          warm_start_(settings_.warm_start && !shocks_), contacts_(plan, workers) {
         if (plan.runs(Effect::joints)) balls_.emplace(world, workers);
         if (shocks_) shock_.emplace(plan, workers);
     }
 
     void load_contacts(const World& world) override {
         contacts_.load(world, nullptr);
-        if (settings_.warm_start) contacts_.load_impulses(world);
+        if (warm_start_) contacts_.load_impulses(world);
         if (!shocks_) return;
         find_levels(world, levels_);
         shock_->load(world, &levels_);
@@ -41,8 +46,9 @@ public:
         pass_.h = static_cast<Real>(h);
         pass_.stiffness = static_cast<Real>(rescaled_stiffness(settings_));
         pass_.recovery = static_cast<Real>(h * settings_.recovery_speed);
-        pass_.warm_start = settings_.warm_start;
-        pass_.shared_cone = pass_.shared_push = settings_.shared_cone;
+        pass_.warm_start = warm_start_;
+        pass_.shared_cone = settings_.shared_cone;
+        pass_.shared_push = settings_.shared_push;
         pass_.forwards = true;
         sweeps_ = substeps_++;
         if (!contacts_.empty()) contacts_.begin(world, table_.rows(), pass_);
@@ -52,7 +58,7 @@ public:
 
     void solve_velocities() override {
         if (contacts_.empty()) return;
-        if (settings_.warm_start) contacts_.warm_start(table_.rows(), pass_);
+        if (warm_start_) contacts_.warm_start(table_.rows(), pass_);
         workers_.run([this](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.velocity_iterations; ++i) {
@@ -83,13 +89,7 @@ public:
         PassSettings<Real> pass = pass_;
         pass.shared_cone = true;
         pass.shared_push = false;
-        workers_.run([&](std::uint32_t worker) { shock_->position_iteration(table_.rows(), pass, worker); });
-    }
-
-    void release_recovery() override {
-        if (contacts_.empty() || !settings_.release_recovery) return;
-        if (shocks_) shock_->release_recovery(table_.rows(), pass_);
-        contacts_.release_recovery(table_.rows(), pass_);
+        workers_.run([&](std::uint32_t worker) { shock_->rounds_iteration(table_.rows(), pass, kShockRounds, worker); });
     }
 
     Vector3d velocity_change(std::int32_t row) const override { return table_.velocity_change(row); }
@@ -105,6 +105,8 @@ private:
     const Settings settings_;
     Workers& workers_;
     bool shocks_;
+    /// Shock propagation carries each level by itself; impulses of the step before would only stand in its way.
+    bool warm_start_;
     VelocityTable<Real> table_;
     PassSettings<Real> pass_{};
     ContactSolver<Real, W> contacts_;

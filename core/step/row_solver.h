@@ -26,9 +26,6 @@ public:
     virtual void solve_positions() = 0;
     virtual void propagate_shock() = 0;
 
-    /// After the move: takes back the velocity of what was pushed out of old overlap.
-    virtual void release_recovery() = 0;
-
     /// What the substep changed of a dynamic body's velocity [m/s] and angular velocity [rad/s].
     virtual Vector3d velocity_change(std::int32_t row) const = 0;
     virtual Vector3d angular_velocity_change(std::int32_t row) const = 0;

@@ -40,11 +40,9 @@ void choose_rebounds(World& world, bool first_substep);
 /// v ← v + h F/m, ω ← ω + h I⁻¹(τ − ω × Iω) (§3).
 void integrate_velocities(World& world, const Plan& plan, double h);
 
-/// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made.
+/// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made; where angular momentum is carried, it
+/// decides the velocity that is left.
 void move(World& world, const RowSolver& solver, double h);
-
-/// The bodies' velocities at the end of the substep; where it is carried, angular momentum decides them.
-void update_velocities(World& world, const RowSolver& solver);
 
 /// Keeps contacts and impulses for the next step.
 void remember_contacts(World& world);

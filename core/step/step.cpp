@@ -46,8 +46,6 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         timed(Stage::positions, [&] { solver.solve_positions(); });
         if (plan.runs(Effect::shock_propagation)) timed(Stage::shock, [&] { solver.propagate_shock(); });
         timed(Stage::move, [&] { move(world, solver, h); });
-        timed(Stage::positions, [&] { solver.release_recovery(); });
-        timed(Stage::move, [&] { update_velocities(world, solver); });
         world.time += h;
     }
     timed(Stage::remember, [&] {

@@ -33,7 +33,6 @@ struct Bodies {
     // The substep's own columns.
     std::vector<std::int32_t> row;                         ///< row in the solver's velocity table
     std::vector<Symmetric3<double>> world_inverse_inertia;  ///< at the start of the substep
-    std::vector<Quaterniond> start_orientation;  ///< orientation at the start of the substep
     std::vector<Vector3d> angular_momentum;  ///< carried through the substep where `isotropic` is 0 [kg m²/s]
 
     std::size_t size() const { return motion.size(); }

@@ -120,7 +120,6 @@ void add_body(World& world, const Scene& scene, std::size_t i) {
     b.material.push_back(spec.material);
     b.script.push_back(spec.script);
     b.world_inverse_inertia.push_back(Symmetric3<double>{});
-    b.start_orientation.push_back(body.rotation);
     b.angular_momentum.push_back(Vector3d::Zero());
 }
 

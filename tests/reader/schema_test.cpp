@@ -83,7 +83,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
     [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
                                   position_iterations, method, precision, threads, lanes, margin,
                                   stiffness, recovery_speed, collision_depth, anchor_stiffness,
-                                  gyroscopic, warm_start, alternate_sweeps, release_recovery,
+                                  gyroscopic, warm_start, alternate_sweeps, shared_push,
                                   shared_cone, require, forbid] = settings;
     constexpr std::size_t kMembers = 22, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
@@ -105,7 +105,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "gyroscopic",
                              "warm_start",
                              "alternate_sweeps",
-                             "release_recovery",
+                             "shared_push",
                              "shared_cone",
                              "require",
                              "forbid"}) {
