@@ -24,13 +24,14 @@ Workers::~Workers() {
     for (std::thread& t : threads_) t.join();
 }
 
-void Workers::run(const std::function<void(std::uint32_t)>& task) {
-    if (count_ == 1) return task(0);
-    task_ = &task;
+void Workers::run_all(Call call, void* context) {
+    if (count_ == 1) return call(context, 0);
+    call_ = call;
+    context_ = context;
     running_ = count_ - 1;
     ++round_;
     round_.notify_all();
-    task(0);
+    call(context, 0);
     wait_until([this] { return running_ == 0; });
 }
 
@@ -51,7 +52,7 @@ void Workers::wait_for_tasks(std::uint32_t worker) {
             if (spins > 20000) round_.wait(seen);
         ++seen;
         if (stop_) return;
-        (*task_)(worker);
+        call_(context_, worker);
         --running_;
     }
 }

@@ -4,9 +4,8 @@
 
 #include <atomic>
 #include <cstdint>
-#include <functional>
-#include <memory>
 #include <thread>
+#include <type_traits>
 #include <vector>
 
 namespace plumb {
@@ -27,8 +26,12 @@ public:
 
     std::uint32_t count() const { return count_; }
 
-    /// Calls task(worker) once on every worker and returns when all have returned.
-    void run(const std::function<void(std::uint32_t worker)>& task);
+    /// Calls task(worker) once on every worker and returns when all have returned. Allocates nothing.
+    template <class Task>
+    void run(Task&& task) {
+        run_all([](void* context, std::uint32_t worker) { (*static_cast<std::remove_reference_t<Task>*>(context))(worker); },
+                &task);
+    }
 
     /// Inside of a task: waits until every worker has come here.
     void barrier();
@@ -40,10 +43,13 @@ public:
     }
 
 private:
+    using Call = void (*)(void* context, std::uint32_t worker);
+    void run_all(Call call, void* context);
     void wait_for_tasks(std::uint32_t worker);
 
     std::uint32_t count_;
-    const std::function<void(std::uint32_t)>* task_ = nullptr;
+    Call call_ = nullptr;
+    void* context_ = nullptr;
     std::atomic<std::uint64_t> round_{0};
     std::atomic<std::uint32_t> running_{0};
     std::atomic<bool> stop_{false};

@@ -55,13 +55,16 @@ public:
     }
 
     /// Gaps, rebounds and drifts of the substep; sums of the pass before become the start of this one.
-    void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+    /// Returns how many overlaps are deeper than the substep may push out.
+    std::uint32_t begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
+        std::uint32_t clamped = 0;
         const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             NormalRow<Real, W>& row = rows.normals[k];
             row.gap[lane] = static_cast<Real>(c.gap[contact]);
+            clamped += -row.gap[lane] > pass.recovery;
             if (!c.rebound.empty()) {
                 const bool passing = c.rebound[contact] == ContactTable::kPassing;
                 row.rebound[lane] = passing ? Real(0) : static_cast<Real>(c.rebound[contact]);
@@ -74,6 +77,7 @@ public:
             across.drift_y[lane] = static_cast<Real>(pull * y.dot(c.drift[contact]));
         });
         run(kernels_.begin, bodies, pass);
+        return clamped;
     }
 
     void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {

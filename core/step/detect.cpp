@@ -19,7 +19,7 @@ double sweep(const World& world, std::size_t i, double dt) {
     const Bodies& b = world.bodies;
     if (b.motion[i] == Motion::fixed || !(b.reach[i] > 0)) return 0;
     const double turn = std::min(b.angular_velocity[i].norm() * dt, 2.0);
-    const double spin = b.isotropic[i] && b.reach[i] == 0 ? 0 : turn * b.reach[i];
+    const double spin = turn * b.reach[i];
     const double travel = b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
     return std::max(0.0, travel - world.settings.margin / 2);
 }
@@ -51,15 +51,15 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
         buffers.poses[i] = {to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
         buffers.sweeps[i] = sweep(world, i, dt);
     }
-    buffers.sinks.resize(std::max<std::size_t>(1, world.settings.threads));
-    std::vector<ContactSink> sinks;
-    for (auto& contacts : buffers.sinks) {
+    buffers.contacts.resize(std::max<std::size_t>(1, world.settings.threads));
+    buffers.sinks.clear();
+    for (auto& contacts : buffers.contacts) {
         contacts.clear();
-        sinks.push_back({&contacts, grow});
+        buffers.sinks.push_back({&contacts, grow});
     }
     const DetectRequest request{buffers.poses.data(), buffers.sweeps.data(), static_cast<std::uint32_t>(n), 0,
                                 world.settings.margin};
-    const Status status = proximity.detect(request, sinks.data(), static_cast<std::uint32_t>(sinks.size()));
+    const Status status = proximity.detect(request, buffers.sinks.data(), static_cast<std::uint32_t>(buffers.sinks.size()));
     if (status.code != Status::ok) {
         report.collider_failed = true;
         report.message = status.message ? status.message : "the collider failed without a message";
@@ -67,7 +67,7 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
 
     std::vector<Contact>& found = world.contacts.found;
     found.clear();
-    for (const auto& contacts : buffers.sinks)
+    for (const auto& contacts : buffers.contacts)
         for (const Contact& c : contacts) {
             if (usable(c, world)) found.push_back(c);
             else ++report.rejected_contacts;

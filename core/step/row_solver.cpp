@@ -41,7 +41,7 @@ public:
         shock_->load(world, &levels_);
     }
 
-    void begin_substep(const World& world, double h) override {
+    std::uint32_t begin_substep(const World& world, double h) override {
         table_.begin(world);
         pass_.h = static_cast<Real>(h);
         pass_.stiffness = static_cast<Real>(rescaled_stiffness(settings_));
@@ -51,9 +51,11 @@ public:
         pass_.shared_push = settings_.shared_push;
         pass_.forwards = true;
         sweeps_ = substeps_++;
-        if (!contacts_.empty()) contacts_.begin(world, table_.rows(), pass_);
+        std::uint32_t clamped = 0;
+        if (!contacts_.empty()) clamped = contacts_.begin(world, table_.rows(), pass_);
         if (shocks_) shock_->begin(world, table_.rows(), pass_);
         if (balls_) balls_->begin(world);
+        return clamped;
     }
 
     void solve_velocities() override {

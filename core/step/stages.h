@@ -17,7 +17,8 @@ namespace plumb {
 struct DetectBuffers {
     std::vector<Pose> poses;
     std::vector<double> sweeps;
-    std::vector<std::vector<Contact>> sinks;
+    std::vector<std::vector<Contact>> contacts;  ///< [worker]
+    std::vector<ContactSink> sinks;              ///< [worker]
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far they may move in

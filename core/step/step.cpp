@@ -41,7 +41,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::restitution)) timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, h); });
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
-        timed(Stage::begin, [&] { solver.begin_substep(world, h); });
+        timed(Stage::begin, [&] { report.clamped_recoveries += solver.begin_substep(world, h); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
         timed(Stage::positions, [&] { solver.solve_positions(); });
         if (plan.runs(Effect::shock_propagation)) timed(Stage::shock, [&] { solver.propagate_shock(); });
