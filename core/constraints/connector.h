@@ -5,8 +5,8 @@
 ///   r     arm: from the centre of mass to the point, world frame [m]
 ///   P     impulse on the body at the point [N s]
 ///
-/// A body point moves by the connector [E, −[r]ₓ]. A constraint is written once, in terms of its points, and so
-/// works between any two bodies; immovable ones have zero inverse mass.
+/// A body point moves by the connector [E, −[r]ₓ]. A constraint is written once, in terms of its
+/// points, and so works between any two bodies; immovable ones have zero inverse mass.
 #pragma once
 
 #include "math/symmetric.h"
@@ -41,7 +41,8 @@ inline void apply_impulse(Velocity<T>& body, const InverseMass<T>& inverse, cons
 
 /// dᵀ J M⁻¹ Jᵀ e: how fast the point moves along d per unit of impulse along e, for one body.
 template <class T>
-inline T response(const InverseMass<T>& inverse, const Vector3<T>& r, const Vector3<T>& d, const Vector3<T>& e) {
+inline T response(const InverseMass<T>& inverse, const Vector3<T>& r, const Vector3<T>& d,
+                  const Vector3<T>& e) {
     return inverse.mass * dot(d, e) + dot(cross(r, d), Vector3<T>(inverse.inertia * cross(r, e)));
 }
 
@@ -50,13 +51,19 @@ template <class T>
 inline Symmetric3<T> point_response(const InverseMass<T>& inverse, const Vector3<T>& r) {
     const Symmetric3<T>& i = inverse.inertia;
     // columns of I⁻¹ [r]ₓ
-    const Vector3<T> cx(i.xy * r[2] - i.xz * r[1], i.yy * r[2] - i.yz * r[1], i.yz * r[2] - i.zz * r[1]);
-    const Vector3<T> cy(i.xz * r[0] - i.xx * r[2], i.yz * r[0] - i.xy * r[2], i.zz * r[0] - i.xz * r[2]);
-    const Vector3<T> cz(i.xx * r[1] - i.xy * r[0], i.xy * r[1] - i.yy * r[0], i.xz * r[1] - i.yz * r[0]);
+    const Vector3<T> cx(i.xy * r[2] - i.xz * r[1], i.yy * r[2] - i.yz * r[1],
+                        i.yz * r[2] - i.zz * r[1]);
+    const Vector3<T> cy(i.xz * r[0] - i.xx * r[2], i.yz * r[0] - i.xy * r[2],
+                        i.zz * r[0] - i.xz * r[2]);
+    const Vector3<T> cz(i.xx * r[1] - i.xy * r[0], i.xy * r[1] - i.yy * r[0],
+                        i.xz * r[1] - i.yz * r[0]);
     // minus [r]ₓ times those columns
-    return {inverse.mass + (r[2] * cx[1] - r[1] * cx[2]), inverse.mass + (r[0] * cy[2] - r[2] * cy[0]),
-            inverse.mass + (r[1] * cz[0] - r[0] * cz[1]), r[2] * cy[1] - r[1] * cy[2],
-            r[2] * cz[1] - r[1] * cz[2],                  r[0] * cz[2] - r[2] * cz[0]};
+    return {inverse.mass + (r[2] * cx[1] - r[1] * cx[2]),
+            inverse.mass + (r[0] * cy[2] - r[2] * cy[0]),
+            inverse.mass + (r[1] * cz[0] - r[0] * cz[1]),
+            r[2] * cy[1] - r[1] * cy[2],
+            r[2] * cz[1] - r[1] * cz[2],
+            r[0] * cz[2] - r[2] * cz[0]};
 }
 
 }  // namespace plumb

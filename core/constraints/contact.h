@@ -15,29 +15,32 @@ namespace plumb {
 
 /// Gap that one position iteration shall close [m] (§6, intersection resolution).
 ///
-/// Overlap made since (c < d) goes in full, old overlap by s only, so a deep start cannot throw bodies apart.
-/// May be positive: the caller keeps the summed push from turning into a pull.
+/// Overlap made since (c < d) goes in full, old overlap by s only, so a deep start cannot throw
+/// bodies apart. May be positive: the caller keeps the summed push from turning into a pull.
 template <class T>
 inline T gap_to_solve(const T& c, const T& d, const T& s) {
     return min(T(0), c - d) + s * max(c, d);
 }
 
-/// The same where both passes share one push: the gap at the end of the substep shall be d (1 − s), from either side.
+/// The same where both passes share one push: the gap at the end of the substep shall be d (1 − s),
+/// from either side.
 ///
-/// A departure from §6: whoever only ever pushes adds to the push that the velocity pass found, substep after
-/// substep, and tall stacks begin to jump. Here s is the share of a whole substep.
+/// A departure from §6: whoever only ever pushes adds to the push that the velocity pass found,
+/// substep after substep, and tall stacks begin to jump. Here s is the share of a whole substep.
 template <class T>
 inline T gap_below(const T& c, const T& d, const T& s) {
     return (c - d) + s * d;
 }
 
-/// Part of an overlap that is left alone in this substep [m], at most 0: no more than `most` [m] is pushed out.
+/// Part of an overlap that is left alone in this substep [m], at most 0: no more than `most` [m] is
+/// pushed out.
 template <class T>
 inline T overlap_left(const T& gap, const T& most) {
     return min(T(0), gap + most);
 }
 
-/// Adds an impulse to λ, keeps the sum at `least` or above (§6: the sum stays repulsive), and returns what was added.
+/// Adds an impulse to λ, keeps the sum at `least` or above (§6: the sum stays repulsive), and
+/// returns what was added.
 template <class T>
 inline T push(T& lambda, const T& impulse, const T& least) {
     const T before = lambda;

@@ -20,7 +20,9 @@ struct Planar {
 template <class T>
 struct PlanarBlock {
     T xx, xy, yy;
-    Planar<T> operator*(const Planar<T>& v) const { return {xx * v.x + xy * v.y, xy * v.x + yy * v.y}; }
+    Planar<T> operator*(const Planar<T>& v) const {
+        return {xx * v.x + xy * v.y, xy * v.x + yy * v.y};
+    }
 };
 
 /// A unit vector across n, without a branch (any lane): the axis least along n, made orthogonal.
@@ -28,7 +30,8 @@ template <class T>
 inline Vector3<T> tangent_of(const Vector3<T>& n) {
     // two candidates, n × z and n × x; each is safe where the other is not
     const T use_z = select_greater(T(0.5), n[2] * n[2], T(1), T(0));
-    const Vector3<T> candidate(use_z * n[1], (T(1) - use_z) * n[2] - use_z * n[0], (use_z - T(1)) * n[1]);
+    const Vector3<T> candidate(use_z * n[1], (T(1) - use_z) * n[2] - use_z * n[0],
+                               (use_z - T(1)) * n[1]);
     const T squared = dot(candidate, candidate);
     const T scale = T(1) / sqrt(max(squared, T(1e-20)));
     return candidate * scale;
@@ -42,14 +45,16 @@ inline Planar<T> project_on_disc(const Planar<T>& f, const T& radius) {
     return {f.x * scale, f.y * scale};
 }
 
-/// Adds to f what stops the velocity u, keeps `held` + f inside of the cone, and returns what was added.
+/// Adds to f what stops the velocity u, keeps `held` + f inside of the cone, and returns what was
+/// added.
 ///
 /// `held` is friction of the other pass that shares the same cone, or zero.
 template <class T>
-inline Planar<T> rub(Planar<T>& f, const Planar<T>& held, const Planar<T>& u, const PlanarBlock<T>& effective_mass,
-                     const T& bound) {
+inline Planar<T> rub(Planar<T>& f, const Planar<T>& held, const Planar<T>& u,
+                     const PlanarBlock<T>& effective_mass, const T& bound) {
     const Planar<T> wish = effective_mass * u;
-    const Planar<T> total = project_on_disc<T>({(held.x + f.x) - wish.x, (held.y + f.y) - wish.y}, bound);
+    const Planar<T> total =
+        project_on_disc<T>({(held.x + f.x) - wish.x, (held.y + f.y) - wish.y}, bound);
     const Planar<T> before = f;
     f = {total.x - held.x, total.y - held.y};
     return {f.x - before.x, f.y - before.y};

@@ -4,8 +4,8 @@
 ///   r  arm of the point at the start of the substep, world frame [m]
 ///   h  substep [s]
 ///
-/// Rotation is not linear, so the points are taken at each iteration from the turn of the whole substep,
-/// p = x₀ + h v + exp(h ω) r, and Eq. 6 uses the arms as they are now.
+/// Rotation is not linear, so the points are taken at each iteration from the turn of the whole
+/// substep, p = x₀ + h v + exp(h ω) r, and Eq. 6 uses the arms as they are now.
 #pragma once
 
 #include "constraints/connector.h"
@@ -13,7 +13,8 @@
 
 namespace plumb {
 
-/// Takes the points of two bodies together by Eq. 6: Δ = −M⁻¹Jᵀ (J M⁻¹ Jᵀ)⁻¹ C, as velocities Δ/h (§3, end).
+/// Takes the points of two bodies together by Eq. 6: Δ = −M⁻¹Jᵀ (J M⁻¹ Jᵀ)⁻¹ C, as velocities Δ/h
+/// (§3, end).
 ///
 ///   total_*     whole velocity of the body in this substep
 ///   change_*    its change since the start of the substep, which is what is corrected
@@ -21,8 +22,9 @@ namespace plumb {
 /// Returns the impulse on a [N s].
 template <class T>
 inline Vector3<T> join(Velocity<T>& change_a, Velocity<T>& change_b, const Velocity<T>& total_a,
-                       const Velocity<T>& total_b, const InverseMass<T>& inverse_a, const InverseMass<T>& inverse_b,
-                       const Vector3<T>& r_a, const Vector3<T>& r_b, const Vector3<T>& gap_before, const T& h) {
+                       const Velocity<T>& total_b, const InverseMass<T>& inverse_a,
+                       const InverseMass<T>& inverse_b, const Vector3<T>& r_a,
+                       const Vector3<T>& r_b, const Vector3<T>& gap_before, const T& h) {
     const Vector3<T> turn_a = turn_of<T>(total_a.w * h, r_a);
     const Vector3<T> turn_b = turn_of<T>(total_b.w * h, r_b);
     const Vector3<T> c = gap_before + (total_a.v - total_b.v) * h + (turn_a - turn_b);

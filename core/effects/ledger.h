@@ -10,18 +10,18 @@
 namespace plumb {
 
 enum class Stage : std::uint32_t {
-    detect,        ///< inside the collider's calls
-    match,         ///< contacts checked and matched with those of the step before
-    schedule,      ///< colouring, lanes, effective masses
-    kinematics,    ///< scripts of moved bodies
-    restitution,   ///< which contacts bounce
-    integrate,     ///< forces and gyroscopic term
-    begin,         ///< gaps, drifts and velocities at the start of the substep
-    velocities,    ///< velocity pass
-    positions,     ///< position pass
-    shock,         ///< shock propagation
-    move,          ///< new poses
-    remember,      ///< impulses kept for the next step
+    detect,       ///< inside the collider's calls
+    match,        ///< contacts checked and matched with those of the step before
+    schedule,     ///< colouring, lanes, effective masses
+    kinematics,   ///< scripts of moved bodies
+    restitution,  ///< which contacts bounce
+    integrate,    ///< forces and gyroscopic term
+    begin,        ///< gaps, drifts and velocities at the start of the substep
+    velocities,   ///< velocity pass
+    positions,    ///< position pass
+    shock,        ///< shock propagation
+    move,         ///< new poses
+    remember,     ///< impulses kept for the next step
 };
 inline constexpr std::size_t kStageCount = 12;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
@@ -44,8 +44,10 @@ public:
     StageTimer(Ledger& ledger, Stage stage) : ledger_(ledger), stage_(stage) {}
     ~StageTimer() {
         const auto i = static_cast<std::size_t>(stage_);
-        ledger_.nanoseconds[i] += static_cast<std::uint64_t>(
-            std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start_).count());
+        ledger_.nanoseconds[i] +=
+            static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
+                                           std::chrono::steady_clock::now() - start_)
+                                           .count());
         ++ledger_.calls[i];
     }
     StageTimer(const StageTimer&) = delete;

@@ -22,7 +22,8 @@ std::size_t count_bodies(const World& w, Test test) {
 }
 template <class Test>
 std::size_t count_surface_pairs(const World& w, Test test) {
-    return static_cast<std::size_t>(std::count_if(w.surface_pairs.begin(), w.surface_pairs.end(), test));
+    return static_cast<std::size_t>(
+        std::count_if(w.surface_pairs.begin(), w.surface_pairs.end(), test));
 }
 Wish counted(std::size_t n, const std::string& some, const std::string& none) {
     return n > 0 ? Wish{true, std::to_string(n) + " " + some} : Wish{false, none};
@@ -34,20 +35,26 @@ std::size_t colliding_bodies(const World& w) {
 
 Wish contacts(const World& w) {
     if (w.dynamic_count == 0) return {false, "nothing moves by itself"};
-    return counted(colliding_bodies(w) > 1 ? colliding_bodies(w) : 0, "bodies have shapes", "fewer than two bodies have shapes");
+    return counted(colliding_bodies(w) > 1 ? colliding_bodies(w) : 0, "bodies have shapes",
+                   "fewer than two bodies have shapes");
 }
 Wish friction(const World& w) {
-    const std::size_t n = count_surface_pairs(w, [](const SurfacePair& s) { return s.friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials rub (μ > 0)", "no pair of materials that can touch rubs");
+    const std::size_t n =
+        count_surface_pairs(w, [](const SurfacePair& s) { return s.friction > 0; });
+    return counted(contacts(w).wanted ? n : 0, "pairs of materials rub (μ > 0)",
+                   "no pair of materials that can touch rubs");
 }
 Wish turning_friction(const World& w) {
     const std::size_t n = count_surface_pairs(
         w, [](const SurfacePair& s) { return s.rolling_friction > 0 || s.spinning_friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials resist turning", "no pair of materials resists rolling or spinning");
+    return counted(contacts(w).wanted ? n : 0, "pairs of materials resist turning",
+                   "no pair of materials resists rolling or spinning");
 }
 Wish restitution(const World& w) {
-    const std::size_t n = count_surface_pairs(w, [](const SurfacePair& s) { return s.restitution > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials bounce (e > 0)", "no pair of materials bounces");
+    const std::size_t n =
+        count_surface_pairs(w, [](const SurfacePair& s) { return s.restitution > 0; });
+    return counted(contacts(w).wanted ? n : 0, "pairs of materials bounce (e > 0)",
+                   "no pair of materials bounces");
 }
 Wish sticking_anchors(const World& w) {
     if (!friction(w).wanted) return {false, "nothing rubs"};
@@ -56,13 +63,17 @@ Wish sticking_anchors(const World& w) {
 }
 Wish gyroscopic(const World& w) {
     return counted(count_bodies(w, [&](std::size_t i) { return !w.bodies.isotropic[i]; }),
-                   "dynamic bodies have unequal moments of inertia", "all moments of inertia are equal");
+                   "dynamic bodies have unequal moments of inertia",
+                   "all moments of inertia are equal");
 }
 Wish joints(const World& w) { return counted(w.balls.size(), "joints", "no joints"); }
 Wish kinematics(const World& w) {
-    return counted(static_cast<std::size_t>(w.kinematic_count), "bodies are moved by a script or a given velocity", "no kinematic bodies");
+    return counted(static_cast<std::size_t>(w.kinematic_count),
+                   "bodies are moved by a script or a given velocity", "no kinematic bodies");
 }
-Wish shock_propagation(const World&) { return {false, "breaks the balance of momentum, so it runs only when required"}; }
+Wish shock_propagation(const World&) {
+    return {false, "breaks the balance of momentum, so it runs only when required"};
+}
 
 struct Registered {
     std::string_view name;
@@ -86,8 +97,10 @@ std::size_t effect_named(const std::string& name, const char* key) {
     for (std::size_t i = 0; i < kEffectCount; ++i)
         if (kEffects[i].name == name) return i;
     std::string allowed;
-    for (const Registered& e : kEffects) allowed += (allowed.empty() ? "" : ", ") + std::string(e.name);
-    throw SceneError("", std::string("/settings/") + key, "there is no effect \"" + name + "\"; effects are " + allowed);
+    for (const Registered& e : kEffects)
+        allowed += (allowed.empty() ? "" : ", ") + std::string(e.name);
+    throw SceneError("", std::string("/settings/") + key,
+                     "there is no effect \"" + name + "\"; effects are " + allowed);
 }
 
 }  // namespace
@@ -105,7 +118,9 @@ Plan make_plan(const World& world) {
     }
     for (const std::string& name : world.settings.forbid) {
         Decision& d = plan.decisions[effect_named(name, "forbid")];
-        if (d.runs) plan.warnings.push_back("\"" + name + "\" is forbidden, but the scene calls for it: " + d.why);
+        if (d.runs)
+            plan.warnings.push_back("\"" + name +
+                                    "\" is forbidden, but the scene calls for it: " + d.why);
         d.why = "forbidden" + (d.runs ? ", although: " + d.why : std::string());
         d.runs = false;
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// What a scene calls for, and why: the plan of a run.
 ///
-/// An effect that is not called for costs no call, no allocation and no memory. The plan says what may run; a step
-/// still skips what nothing moves, such as joints' iterations in a world without contacts.
+/// An effect that is not called for costs no call, no allocation and no memory. The plan says what
+/// may run; a step still skips what nothing moves, such as joints' iterations in a world without
+/// contacts.
 #pragma once
 
 #include "world/world.h"
@@ -41,8 +42,8 @@ struct Plan {
     bool runs(Effect e) const { return decisions[static_cast<std::size_t>(e)].runs; }
 };
 
-/// Asks every effect whether the world wants it, and applies Settings::require and Settings::forbid.
-/// Throws SceneError for an effect that does not exist.
+/// Asks every effect whether the world wants it, and applies Settings::require and
+/// Settings::forbid. Throws SceneError for an effect that does not exist.
 Plan make_plan(const World& world);
 
 }  // namespace plumb

@@ -44,12 +44,15 @@ std::string name_of_file(const fs::path& file) {
 std::string refusal_of(const PluginTable& t) {
     if (t.magic != kPluginMagic) return "its table does not begin with Plumb's magic number";
     if (t.abi_major != kAbiMajor)
-        return "it was built for version " + std::to_string(t.abi_major) + " of the plugin interface, and this is version " +
-               std::to_string(kAbiMajor) + "; rebuild it against the installed headers";
-    if (t.table_size < sizeof(PluginTable)) return "its table is smaller than this version's; rebuild it";
+        return "it was built for version " + std::to_string(t.abi_major) +
+               " of the plugin interface, and this is version " + std::to_string(kAbiMajor) +
+               "; rebuild it against the installed headers";
+    if (t.table_size < sizeof(PluginTable))
+        return "its table is smaller than this version's; rebuild it";
     const AbiSizes mine = abi_sizes();
     if (std::memcmp(&t.sizes, &mine, sizeof mine) != 0)
-        return "its structs have other sizes than this host's; rebuild it against the installed headers";
+        return "its structs have other sizes than this host's; rebuild it against the installed "
+               "headers";
     if (!t.name || !t.create || !t.destroy) return "its table lacks a name or a function";
     return {};
 }
@@ -64,8 +67,10 @@ ColliderInfo load(const fs::path& file) {
     }
     const auto entry = reinterpret_cast<PluginEntry>(dlsym(handle, kPluginSymbol));
     const PluginTable* table = entry ? entry() : nullptr;
-    if (!table) info.refusal = std::string("it does not export ") + kPluginSymbol;
-    else info.refusal = refusal_of(*table);
+    if (!table)
+        info.refusal = std::string("it does not export ") + kPluginSymbol;
+    else
+        info.refusal = refusal_of(*table);
     if (!info.refusal.empty()) {
         dlclose(handle);
         return info;
@@ -83,7 +88,8 @@ std::string names_of(const std::vector<ColliderInfo>& colliders) {
 }
 
 bool supports(const ColliderInfo& c, const ShapePairNeed& need) {
-    const std::uint32_t ability = c.table->pairs[static_cast<std::size_t>(need.a)][static_cast<std::size_t>(need.b)];
+    const std::uint32_t ability =
+        c.table->pairs[static_cast<std::size_t>(need.a)][static_cast<std::size_t>(need.b)];
     if (need.moving_mesh && !(ability & kPairMovingMesh)) return false;
     return (ability & (kPairPoint | kPairManifold)) != 0;
 }
@@ -101,13 +107,14 @@ ColliderLibrary::ColliderLibrary(const std::string& extra_path) {
         std::error_code ignored;
         std::vector<fs::path> files;
         for (const auto& entry : fs::directory_iterator(directory, ignored))
-            if (entry.path().extension() == ".so" && entry.path().filename().string().rfind(kFilePrefix, 0) == 0)
+            if (entry.path().extension() == ".so" &&
+                entry.path().filename().string().rfind(kFilePrefix, 0) == 0)
                 files.push_back(entry.path());
         std::sort(files.begin(), files.end());
         for (const fs::path& file : files) {
-            const bool known = std::any_of(colliders_.begin(), colliders_.end(), [&](const ColliderInfo& c) {
-                return c.table && c.name == name_of_file(file);
-            });
+            const bool known = std::any_of(
+                colliders_.begin(), colliders_.end(),
+                [&](const ColliderInfo& c) { return c.table && c.name == name_of_file(file); });
             if (!known) colliders_.push_back(load(file));
         }
     }
@@ -121,11 +128,12 @@ const ColliderInfo& ColliderLibrary::find(const std::string& name) const {
         refused = &c;
     }
     if (refused)
-        throw ColliderError("collider \"" + name + "\" (" + refused->file.string() + ") was refused: " + refused->refusal);
+        throw ColliderError("collider \"" + name + "\" (" + refused->file.string() +
+                            ") was refused: " + refused->refusal);
     std::string searched;
     for (const std::string& d : searched_) searched += (searched.empty() ? "" : ", ") + d;
-    throw ColliderError("there is no collider \"" + name + "\"; installed are: " + names_of(colliders_) +
-                        " (searched " + searched + ")");
+    throw ColliderError("there is no collider \"" + name + "\"; installed are: " +
+                        names_of(colliders_) + " (searched " + searched + ")");
 }
 
 const ColliderInfo& ColliderLibrary::choose(const Scene& scene) const {
@@ -133,13 +141,16 @@ const ColliderInfo& ColliderLibrary::choose(const Scene& scene) const {
     for (const char* preferred : {"ode", "bullet", "reference"})
         for (const ColliderInfo& c : colliders_)
             if (c.table && c.name == preferred &&
-                std::all_of(needs.begin(), needs.end(), [&](const ShapePairNeed& n) { return supports(c, n); }))
+                std::all_of(needs.begin(), needs.end(),
+                            [&](const ShapePairNeed& n) { return supports(c, n); }))
                 return c;
     for (const ColliderInfo& c : colliders_)
-        if (c.table && std::all_of(needs.begin(), needs.end(), [&](const ShapePairNeed& n) { return supports(c, n); }))
+        if (c.table && std::all_of(needs.begin(), needs.end(),
+                                   [&](const ShapePairNeed& n) { return supports(c, n); }))
             return c;
-    throw ColliderError("no installed collider supports every pair of shapes of the scene; installed are: " +
-                        names_of(colliders_));
+    throw ColliderError(
+        "no installed collider supports every pair of shapes of the scene; installed are: " +
+        names_of(colliders_));
 }
 
 void ColliderLibrary::check_abilities(const ColliderInfo& collider, const Scene& scene) const {
@@ -148,9 +159,9 @@ void ColliderLibrary::check_abilities(const ColliderInfo& collider, const Scene&
         std::string able;
         for (const ColliderInfo& c : colliders_)
             if (c.table && supports(c, need)) able += (able.empty() ? "" : ", ") + c.name;
-        throw ColliderError("collider \"" + collider.name + "\" cannot detect " + (need.moving_mesh ? "moving " : "") +
-                            name_of(need.a) + " against " + name_of(need.b) + ", which the scene needs (" +
-                            need.example + "); " +
+        throw ColliderError("collider \"" + collider.name + "\" cannot detect " +
+                            (need.moving_mesh ? "moving " : "") + name_of(need.a) + " against " +
+                            name_of(need.b) + ", which the scene needs (" + need.example + "); " +
                             (able.empty() ? "no installed collider can" : "able are: " + able));
     }
 }
@@ -160,8 +171,8 @@ ProximityPtr ColliderLibrary::create(const ColliderInfo& collider, std::uint32_t
     const char* message = nullptr;
     Proximity* p = collider.table->create(&request, &message);
     if (!p)
-        throw ColliderError("collider \"" + collider.name + "\" could not be made: " +
-                            (message ? message : "it gave no reason"));
+        throw ColliderError("collider \"" + collider.name +
+                            "\" could not be made: " + (message ? message : "it gave no reason"));
     return ProximityPtr(p, ProximityDeleter{collider.table->destroy});
 }
 

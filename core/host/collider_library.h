@@ -29,23 +29,25 @@ struct ProximityDeleter {
 };
 using ProximityPtr = std::unique_ptr<Proximity, ProximityDeleter>;
 
-/// All plugins of the search path: `extra_path` (directories separated by ':'), then PLUMB_PLUGIN_PATH, then
-/// plumb/plugins beside the library or the program. A file that cannot be loaded stays listed with its reason and is
-/// never fatal to the others; of two of one name the first counts. Plugins stay loaded until the process ends.
+/// All plugins of the search path: `extra_path` (directories separated by ':'), then
+/// PLUMB_PLUGIN_PATH, then plumb/plugins beside the library or the program. A file that cannot be
+/// loaded stays listed with its reason and is never fatal to the others; of two of one name the
+/// first counts. Plugins stay loaded until the process ends.
 class ColliderLibrary {
 public:
     explicit ColliderLibrary(const std::string& extra_path = {});
 
     const std::vector<ColliderInfo>& all() const { return colliders_; }
 
-    /// Throws ColliderError when there is none of this name, or it was refused; the sentence lists those there are.
+    /// Throws ColliderError when there is none of this name, or it was refused; the sentence lists
+    /// those there are.
     const ColliderInfo& find(const std::string& name) const;
 
     /// The first usable plugin that supports every pair of the scene, in the order of `preference`.
     const ColliderInfo& choose(const Scene& scene) const;
 
-    /// Throws ColliderError when the plugin lacks a pair of shapes that the scene needs: with the shape, the pair and
-    /// the plugins that could do it.
+    /// Throws ColliderError when the plugin lacks a pair of shapes that the scene needs: with the
+    /// shape, the pair and the plugins that could do it.
     void check_abilities(const ColliderInfo& collider, const Scene& scene) const;
 
     /// Throws ColliderError when the plugin cannot make one.

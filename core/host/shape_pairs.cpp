@@ -40,7 +40,9 @@ std::vector<ShapePairNeed> shape_pair_needs(const Scene& scene) {
         kinds.erase(std::unique(kinds.begin(), kinds.end()), kinds.end());
         for (ShapeKind kind : kinds) {
             auto& entry = classes[{kind, b.motion, b.group, b.mask}];
-            if (entry.second++ == 0) entry.first = b.name.empty() ? "body " + std::to_string(i) : "body \"" + b.name + "\"";
+            if (entry.second++ == 0)
+                entry.first =
+                    b.name.empty() ? "body " + std::to_string(i) : "body \"" + b.name + "\"";
         }
     }
 
@@ -52,7 +54,8 @@ std::vector<ShapePairNeed> shape_pair_needs(const Scene& scene) {
             if (same && about_x.second < 2) continue;
             if (x.motion != Motion::dynamic && y.motion != Motion::dynamic) continue;
             if (!(x.group & y.mask) || !(y.group & x.mask)) continue;
-            const bool moving = (is_mesh(x.kind) && x.motion != Motion::fixed) || (is_mesh(y.kind) && y.motion != Motion::fixed);
+            const bool moving = (is_mesh(x.kind) && x.motion != Motion::fixed) ||
+                                (is_mesh(y.kind) && y.motion != Motion::fixed);
             needs.try_emplace({std::min(x.kind, y.kind), std::max(x.kind, y.kind), moving},
                               about_x.first + " and " + (same ? "another" : about_y.first));
         }

@@ -15,7 +15,8 @@ struct ShapePairNeed {
     std::string example;  ///< "body \"crate\" and body \"floor\""
 };
 
-/// Each pair of kinds once. Compounds count as their parts; pairs that filters keep apart do not count.
+/// Each pair of kinds once. Compounds count as their parts; pairs that filters keep apart do not
+/// count.
 std::vector<ShapePairNeed> shape_pair_needs(const Scene& scene);
 
 }  // namespace plumb

@@ -24,7 +24,8 @@ namespace plumb {
 
 class Simulation {
 public:
-    /// Runs on a collider of yours, which must outlive the simulation. Throws SceneError or ColliderError.
+    /// Runs on a collider of yours, which must outlive the simulation. Throws SceneError or
+    /// ColliderError.
     Simulation(const Scene& scene, Proximity& proximity, std::string collider_name = "custom");
 
     /// Runs on a plugin by name; "auto" takes the first that supports all pairs of the scene.
@@ -37,8 +38,8 @@ public:
     /// Advances by Settings::dt.
     StepReport step();
 
-    double time() const;           ///< [s]
-    std::uint64_t steps() const;   ///< made so far
+    double time() const;          ///< [s]
+    std::uint64_t steps() const;  ///< made so far
     const World& world() const;
     const Plan& plan() const;
     const Ledger& ledger() const;  ///< of the last step
@@ -49,7 +50,8 @@ public:
     void capture(Frame& frame) const;
 
     /// Sets the velocity of the centre of mass [m/s] and the angular velocity [rad/s] of a body.
-    void set_velocity(std::uint32_t body, const Eigen::Vector3d& velocity, const Eigen::Vector3d& angular_velocity);
+    void set_velocity(std::uint32_t body, const Eigen::Vector3d& velocity,
+                      const Eigen::Vector3d& angular_velocity);
 
     /// Replaces the constant force [N] and torque [N m] on a body.
     void set_force(std::uint32_t body, const Eigen::Vector3d& force, const Eigen::Vector3d& torque);

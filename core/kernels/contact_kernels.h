@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The contact kernels' entry tables: one a precision, a lane width and a variant of rows.
 ///
-/// A table is built by a translation unit of its own instruction set, and reached only through `contact_kernels`,
-/// which hands out none that this processor could not run.
+/// A table is built by a translation unit of its own instruction set, and reached only through
+/// `contact_kernels`, which hands out none that this processor could not run.
 #pragma once
 
 #include "schedule/contact_rows.h"
@@ -14,13 +14,14 @@ namespace plumb {
 /// A loop over the blocks [first, last). The blocks of one call share no dynamic body.
 template <class Real, int W>
 using ContactPass = void (*)(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
-                             const PassSettings<Real>& pass, std::uint32_t first, std::uint32_t last);
+                             const PassSettings<Real>& pass, std::uint32_t first,
+                             std::uint32_t last);
 
 template <class Real, int W>
 struct ContactKernels {
-    ContactPass<Real, W> prepare;          // once a step: tangents, effective masses
-    ContactPass<Real, W> begin;            // once a substep: velocities at its start
-    ContactPass<Real, W> warm_start;       // applies the impulses that the rows already hold
+    ContactPass<Real, W> prepare;           // once a step: tangents, effective masses
+    ContactPass<Real, W> begin;             // once a substep: velocities at its start
+    ContactPass<Real, W> warm_start;        // applies the impulses that the rows already hold
     ContactPass<Real, W> solve_velocities;  // one iteration
     ContactPass<Real, W> solve_positions;   // one iteration
 };

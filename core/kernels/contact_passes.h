@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// The loops behind the contact kernels. Included by the units of each instruction set and by nothing else.
+/// The loops behind the contact kernels. Included by the units of each instruction set and by
+/// nothing else.
 ///
-/// A block's bodies are gathered once, its points are solved one after another, and the bodies are written back.
+/// A block's bodies are gathered once, its points are solved one after another, and the bodies are
+/// written back.
 #pragma once
 
 #include "constraints/contact.h"
@@ -34,19 +36,21 @@ inline PairMass<T> load_masses(const PairBlock<Real, W>& block) {
 
 template <class Real, int W, class T = Number<Real, W>>
 inline PairVelocity<T> read_pair(const Real* rows, const PairBlock<Real, W>& block) {
-    return {read_velocities<Real, W>(rows, block.row_a), read_velocities<Real, W>(rows, block.row_b)};
+    return {read_velocities<Real, W>(rows, block.row_a),
+            read_velocities<Real, W>(rows, block.row_b)};
 }
 
 template <class Real, int W, class T = Number<Real, W>>
-inline void write_pair(const BodyRows<Real>& bodies, const PairBlock<Real, W>& block, const PairVelocity<T>& pair) {
+inline void write_pair(const BodyRows<Real>& bodies, const PairBlock<Real, W>& block,
+                       const PairVelocity<T>& pair) {
     write_velocities<Real, W>(bodies.change, block.row_a, bodies.dynamic_count, pair.a);
     write_velocities<Real, W>(bodies.change, block.row_b, bodies.dynamic_count, pair.b);
 }
 
 /// Opposite impulses at one common point.
 template <class T>
-inline void apply(PairVelocity<T>& pair, const PairMass<T>& mass, const Vector3<T>& r_a, const Vector3<T>& r_b,
-                  const Vector3<T>& impulse) {
+inline void apply(PairVelocity<T>& pair, const PairMass<T>& mass, const Vector3<T>& r_a,
+                  const Vector3<T>& r_b, const Vector3<T>& impulse) {
     apply_impulse<T>(pair.a, mass.a, r_a, impulse);
     apply_impulse<T>(pair.b, mass.b, r_b, -impulse);
 }
@@ -79,7 +83,8 @@ void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const 
         const PairMass<T> mass = load_masses(block);
         for (std::uint32_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
             NormalRow<Real, W>& row = arrays.normals[k];
-            const Vector3<T> n = load_vector(row.normal), r_a = load_vector(row.arm_a), r_b = load_vector(row.arm_b);
+            const Vector3<T> n = load_vector(row.normal), r_a = load_vector(row.arm_a),
+                             r_b = load_vector(row.arm_b);
             auto k_of = [&](const Vector3<T>& d, const Vector3<T>& e) {
                 return response<T>(mass.a, r_a, d, e) + response<T>(mass.b, r_b, d, e);
             };
@@ -97,9 +102,12 @@ void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const 
                 store(across.coupling_y, k_of(y, n));
                 if constexpr (V == ContactVariant::turning) {
                     TurningRow<Real, W>& turning = arrays.turnings[k];
-                    store(turning.inertia_x, inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, x)));
-                    store(turning.inertia_y, inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, y)));
-                    store(turning.inertia_n, inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, n)));
+                    store(turning.inertia_x,
+                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, x)));
+                    store(turning.inertia_y,
+                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, y)));
+                    store(turning.inertia_n,
+                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, n)));
                 }
             }
         }
@@ -115,8 +123,8 @@ inline T carried_over(const T& velocity_pass, const T& position_pass, bool warm_
 }
 
 template <class Real, int W, ContactVariant V>
-void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-           std::uint32_t first, std::uint32_t last) {
+void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
+           const PassSettings<Real>& pass, std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     for (std::uint32_t i = first; i < last; ++i) {
         const PairBlock<Real, W>& block = arrays.blocks[i];
@@ -124,19 +132,21 @@ void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
         for (std::uint32_t k = block.first_row; k < block.first_row + block.row_count; ++k) {
             NormalRow<Real, W>& row = arrays.normals[k];
             const Vector3<T> n = load_vector(row.normal);
-            const Vector3<T> u =
-                velocity_at<T>(pair.a, load_vector(row.arm_a)) - velocity_at<T>(pair.b, load_vector(row.arm_b));
+            const Vector3<T> u = velocity_at<T>(pair.a, load_vector(row.arm_a)) -
+                                 velocity_at<T>(pair.b, load_vector(row.arm_b));
             store(row.velocity, dot<T>(n, u));
-            store(row.lambda_velocity,
-                  carried_over<T>(load(row.lambda_velocity), load(row.lambda_position), pass.warm_start));
+            store(row.lambda_velocity, carried_over<T>(load(row.lambda_velocity),
+                                                       load(row.lambda_position), pass.warm_start));
             store(row.lambda_position, T(0));
             if constexpr (V != ContactVariant::frictionless) {
                 FrictionRow<Real, W>& across = arrays.frictions[k];
                 const Tangents<T> t = load_tangents(across, n);
                 store(across.velocity_x, T(dot<T>(t.x, u) + load(across.drift_x)));
                 store(across.velocity_y, T(dot<T>(t.y, u) + load(across.drift_y)));
-                store(across.held_x, carried_over<T>(load(across.held_x), load(across.rubbed_x), pass.warm_start));
-                store(across.held_y, carried_over<T>(load(across.held_y), load(across.rubbed_y), pass.warm_start));
+                store(across.held_x,
+                      carried_over<T>(load(across.held_x), load(across.rubbed_x), pass.warm_start));
+                store(across.held_y,
+                      carried_over<T>(load(across.held_y), load(across.rubbed_y), pass.warm_start));
                 store(across.rubbed_x, T(0));
                 store(across.rubbed_y, T(0));
                 if constexpr (V == ContactVariant::turning) {
@@ -155,8 +165,8 @@ void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
 }
 
 template <class Real, int W, ContactVariant V>
-void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>&,
-                std::uint32_t first, std::uint32_t last) {
+void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
+                const PassSettings<Real>&, std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     for (std::uint32_t i = first; i < last; ++i) {
         const PairBlock<Real, W>& block = arrays.blocks[i];
@@ -182,8 +192,8 @@ void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodi
 /// Which unknown a pass solves for, and so which sums it adds to.
 enum class Pass { velocity, position };
 
-/// Velocity along n that the velocity pass asks for: a separated contact may close by gap/h, no more; a collision
-/// rebounds.
+/// Velocity along n that the velocity pass asks for: a separated contact may close by gap/h, no
+/// more; a collision rebounds.
 template <class Real, int W, class T = Number<Real, W>>
 inline T wanted_velocity(const NormalRow<Real, W>& row, const PassSettings<Real>& pass) {
     const T rebound = load(row.rebound);
@@ -198,7 +208,8 @@ inline T remaining_gap(const NormalRow<Real, W>& row, const PassSettings<Real>& 
     const T left = overlap_left<T>(gap, T(pass.recovery));
     const T c = (gap + h * u) - left, d = min(gap, T(0)) - left;
     const T resting = pass.shared_push ? gap_below(c, d, s) : gap_to_solve<T>(c, d, s);
-    // a rebound moves the bodies out of their overlap by itself, and the recovery adds nothing to it
+    // a rebound moves the bodies out of their overlap by itself, and the recovery adds nothing to
+    // it
     return select_greater(rebound, T(0), h * (u - rebound), resting);
 }
 
@@ -214,7 +225,8 @@ inline T push_row(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const
     } else {
         T lambda = load(row.lambda_position);
         const T least = pass.shared_push ? -load(row.lambda_velocity) : T(0);
-        const T change = push<T>(lambda, -remaining_gap<Real, W>(row, pass, u) * mass / T(pass.h), least);
+        const T change =
+            push<T>(lambda, -remaining_gap<Real, W>(row, pass, u) * mass / T(pass.h), least);
         store(row.lambda_position, lambda);
         return change;
     }
@@ -222,12 +234,15 @@ inline T push_row(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const
 
 /// Friction of one point: returns its impulse and tells in `u_n` what that does along n.
 template <Pass P, class Real, int W, class T = Number<Real, W>>
-inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& normal, const Vector3<T>& n,
-                          const Vector3<T>& u, const PassSettings<Real>& pass, T& u_n) {
+inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& normal,
+                          const Vector3<T>& n, const Vector3<T>& u, const PassSettings<Real>& pass,
+                          T& u_n) {
     const Tangents<T> t = load_tangents(row, n);
-    const Planar<T> velocity{load(row.velocity_x) + dot<T>(t.x, u), load(row.velocity_y) + dot<T>(t.y, u)};
+    const Planar<T> velocity{load(row.velocity_x) + dot<T>(t.x, u),
+                             load(row.velocity_y) + dot<T>(t.y, u)};
     const PlanarBlock<T> block{load(row.block_xx), load(row.block_xy), load(row.block_yy)};
-    const T velocity_sum = load(normal.lambda_velocity), position_sum = load(normal.lambda_position);
+    const T velocity_sum = load(normal.lambda_velocity),
+            position_sum = load(normal.lambda_position);
 
     Planar<T> change;
     Planar<T> held{load(row.held_x), load(row.held_y)};
@@ -250,14 +265,15 @@ inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& n
 
 /// Rolling and spinning friction of one point: torques, applied at once.
 template <class Real, int W, class T = Number<Real, W>>
-inline void resist_turning(TurningRow<Real, W>& row, const NormalRow<Real, W>& normal, const FrictionRow<Real, W>& across,
-                           const Vector3<T>& n, PairVelocity<T>& pair, const PairMass<T>& mass) {
+inline void resist_turning(TurningRow<Real, W>& row, const NormalRow<Real, W>& normal,
+                           const FrictionRow<Real, W>& across, const Vector3<T>& n,
+                           PairVelocity<T>& pair, const PairMass<T>& mass) {
     const Tangents<T> t = load_tangents(across, n);
     const Vector3<T> w = pair.a.w - pair.b.w;
     const T push = load(normal.lambda_velocity) + load(normal.lambda_position);
     const T rolling = load(row.rolling) * push, spinning = load(row.spinning) * push;
-    auto resist = [&](Real(&torque)[W], const Real(&rate)[W], const Real(&inertia)[W], const Vector3<T>& axis,
-                      const T& bound) {
+    auto resist = [&](Real(&torque)[W], const Real(&rate)[W], const Real(&inertia)[W],
+                      const Vector3<T>& axis, const T& bound) {
         T sum = load(torque);
         const T change = resist_spin<T>(sum, load(rate) + dot<T>(axis, w), load(inertia), bound);
         store(torque, sum);
@@ -274,7 +290,8 @@ template <Pass P, class Real, int W, ContactVariant V, class T = Number<Real, W>
 inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, PairVelocity<T>& pair,
                       const PairMass<T>& mass, const PassSettings<Real>& pass) {
     NormalRow<Real, W>& row = arrays.normals[k];
-    const Vector3<T> n = load_vector(row.normal), r_a = load_vector(row.arm_a), r_b = load_vector(row.arm_b);
+    const Vector3<T> n = load_vector(row.normal), r_a = load_vector(row.arm_a),
+                     r_b = load_vector(row.arm_b);
     if constexpr (V == ContactVariant::turning)
         resist_turning<Real, W>(arrays.turnings[k], row, arrays.frictions[k], n, pair, mass);
 
@@ -289,8 +306,8 @@ inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, Pai
 }
 
 template <Pass P, class Real, int W, ContactVariant V>
-void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-           std::uint32_t first, std::uint32_t last) {
+void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
+           const PassSettings<Real>& pass, std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     for (std::uint32_t i = first; i < last; ++i) {
         const PairBlock<Real, W>& block = arrays.blocks[i];
@@ -306,14 +323,15 @@ void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies, c
 
 template <class Real, int W, ContactVariant V>
 constexpr ContactKernels<Real, W> kernels_of() {
-    return {prepare<Real, W, V>, begin<Real, W, V>, warm_start<Real, W, V>, solve<Pass::velocity, Real, W, V>,
-            solve<Pass::position, Real, W, V>};
+    return {prepare<Real, W, V>, begin<Real, W, V>, warm_start<Real, W, V>,
+            solve<Pass::velocity, Real, W, V>, solve<Pass::position, Real, W, V>};
 }
 
 /// All variants of one precision and width, indexed by ContactVariant.
 template <class Real, int W>
 inline constexpr ContactKernels<Real, W> kVariants[kContactVariants] = {
-    kernels_of<Real, W, ContactVariant::frictionless>(), kernels_of<Real, W, ContactVariant::friction>(),
+    kernels_of<Real, W, ContactVariant::frictionless>(),
+    kernels_of<Real, W, ContactVariant::friction>(),
     kernels_of<Real, W, ContactVariant::turning>()};
 
 }  // namespace plumb::kernels

@@ -13,8 +13,9 @@ int widest_lanes() {
 #if defined(__x86_64__)
     static const int widest = [] {
         __builtin_cpu_init();
-        const bool avx512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-                            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+        const bool avx512 =
+            __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+            __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
         return avx512 ? 16 : __builtin_cpu_supports("avx2") ? 8 : 4;
     }();
     return widest;
@@ -44,7 +45,7 @@ const BallKernels<Real, W>& ball_kernels() {
     return *checked_table<BallKernels<Real, W>, W>();
 }
 
-#define PLUMB_INSTANTIATE(Real, W)                                                \
+#define PLUMB_INSTANTIATE(Real, W)                                                    \
     template const ContactKernels<Real, W>& contact_kernels<Real, W>(ContactVariant); \
     template const BallKernels<Real, W>& ball_kernels<Real, W>();
 PLUMB_INSTANTIATE(float, 1)

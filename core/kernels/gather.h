@@ -16,11 +16,14 @@ namespace plumb::kernels {
 template <int D, bool Upper, class Register, std::size_t... K>
 inline Register exchange(Register a, Register b, std::index_sequence<K...>) {
     constexpr int n = sizeof...(K);
-    if constexpr (Upper) return __builtin_shufflevector(a, b, (K & D ? n + int(K) : int(K) + D)...);
-    else return __builtin_shufflevector(a, b, (K & D ? n + int(K) - D : int(K))...);
+    if constexpr (Upper)
+        return __builtin_shufflevector(a, b, (K & D ? n + int(K) : int(K) + D)...);
+    else
+        return __builtin_shufflevector(a, b, (K & D ? n + int(K) - D : int(K))...);
 }
 
-/// Transposes the first Rows × Rows elements (and, in wider registers, each further group of Rows alike).
+/// Transposes the first Rows × Rows elements (and, in wider registers, each further group of Rows
+/// alike).
 template <int Rows, class Register, int D = 1>
 inline void transpose(Register (&m)[Rows]) {
     if constexpr (D < Rows) {
@@ -96,7 +99,8 @@ inline void write_rows(Real* rows, const std::int32_t* index, std::int32_t dynam
                 for (int i = 0; i < n; ++i) m[i] = in.component[chunk * n + i].part[part];
                 transpose<n>(m);
                 for (int i = 0; i < n; ++i)
-                    if (at[i] < dynamic_count) store_register(rows + at[i] * kBodyRowSize + chunk * n, m[i]);
+                    if (at[i] < dynamic_count)
+                        store_register(rows + at[i] * kBodyRowSize + chunk * n, m[i]);
             }
         } else {
             Register m[kBodyRowSize];
@@ -105,7 +109,8 @@ inline void write_rows(Real* rows, const std::int32_t* index, std::int32_t dynam
             for (int i = 0; i < n; ++i) {
                 const Real* half = reinterpret_cast<const Real*>(&m[i % kBodyRowSize]);
                 if (at[i] < dynamic_count)
-                    __builtin_memcpy(rows + at[i] * kBodyRowSize, half + (i / kBodyRowSize) * kBodyRowSize,
+                    __builtin_memcpy(rows + at[i] * kBodyRowSize,
+                                     half + (i / kBodyRowSize) * kBodyRowSize,
                                      kBodyRowSize * sizeof(Real));
             }
         }

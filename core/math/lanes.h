@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// N numbers side by side, with the operators of one number.
 ///
-/// A formula written over a number type T runs on a float, a double, or Lanes<T, N>, and gives the same bits in
-/// each lane as on the scalar: there is no fused multiply-add, no reciprocal estimate and no reordering. Lanes are
-/// kept in the widest registers that the translation unit is compiled for; N may be a multiple of those.
+/// A formula written over a number type T runs on a float, a double, or Lanes<T, N>, and gives the
+/// same bits in each lane as on the scalar: there is no fused multiply-add, no reciprocal estimate
+/// and no reordering. Lanes are kept in the widest registers that the translation unit is compiled
+/// for; N may be a multiple of those.
 #pragma once
 
 #include "math/types.h"
@@ -30,8 +31,9 @@ inline constexpr std::size_t kRegisterBytes = 16;
 
 /// Number of T in one register that holds part of N lanes.
 template <class T, int N>
-inline constexpr int kPartSize =
-    N * sizeof(T) < kRegisterBytes ? N : static_cast<int>(kRegisterBytes / sizeof(T));
+inline constexpr int kPartSize = N * sizeof(T) < kRegisterBytes
+                                     ? N
+                                     : static_cast<int>(kRegisterBytes / sizeof(T));
 
 template <class T, int N>
 struct Lanes {
@@ -102,15 +104,21 @@ struct Lanes {
 
 private:
     static Register sqrt_register(Register x) {
-        if constexpr (sizeof(Register) == 16 && sizeof(T) == 4) return (Register)_mm_sqrt_ps((__m128)x);
-        else if constexpr (sizeof(Register) == 16 && sizeof(T) == 8) return (Register)_mm_sqrt_pd((__m128d)x);
+        if constexpr (sizeof(Register) == 16 && sizeof(T) == 4)
+            return (Register)_mm_sqrt_ps((__m128)x);
+        else if constexpr (sizeof(Register) == 16 && sizeof(T) == 8)
+            return (Register)_mm_sqrt_pd((__m128d)x);
 #if defined(__AVX2__)
-        else if constexpr (sizeof(Register) == 32 && sizeof(T) == 4) return (Register)_mm256_sqrt_ps((__m256)x);
-        else if constexpr (sizeof(Register) == 32 && sizeof(T) == 8) return (Register)_mm256_sqrt_pd((__m256d)x);
+        else if constexpr (sizeof(Register) == 32 && sizeof(T) == 4)
+            return (Register)_mm256_sqrt_ps((__m256)x);
+        else if constexpr (sizeof(Register) == 32 && sizeof(T) == 8)
+            return (Register)_mm256_sqrt_pd((__m256d)x);
 #endif
 #if defined(__AVX512F__)
-        else if constexpr (sizeof(Register) == 64 && sizeof(T) == 4) return (Register)_mm512_maskz_sqrt_ps(0xffff, (__m512)x);
-        else if constexpr (sizeof(Register) == 64 && sizeof(T) == 8) return (Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)x);
+        else if constexpr (sizeof(Register) == 64 && sizeof(T) == 4)
+            return (Register)_mm512_maskz_sqrt_ps(0xffff, (__m512)x);
+        else if constexpr (sizeof(Register) == 64 && sizeof(T) == 8)
+            return (Register)_mm512_maskz_sqrt_pd(0xff, (__m512d)x);
 #endif
         else {
             for (int i = 0; i < kPart; ++i) x[i] = std::sqrt(x[i]);
@@ -144,8 +152,10 @@ using Number = typename NumberOf<T, N>::type;
 /// Reads N numbers that stand side by side.
 template <class T, int N>
 inline Number<T, N> load(const T (&from)[N]) {
-    if constexpr (N == 1) return from[0];
-    else return Lanes<T, N>::load(from);
+    if constexpr (N == 1)
+        return from[0];
+    else
+        return Lanes<T, N>::load(from);
 }
 template <class T, int N>
 inline Vector3<Number<T, N>> load_vector(const T (&from)[3][N]) {
@@ -153,8 +163,10 @@ inline Vector3<Number<T, N>> load_vector(const T (&from)[3][N]) {
 }
 template <class T, int N>
 inline void store(T (&to)[N], const Number<T, N>& x) {
-    if constexpr (N == 1) to[0] = x;
-    else x.store(to);
+    if constexpr (N == 1)
+        to[0] = x;
+    else
+        x.store(to);
 }
 template <class T, int N>
 inline void store_vector(T (&to)[3][N], const Vector3<Number<T, N>>& x) {
@@ -170,6 +182,14 @@ struct NumTraits<plumb::Lanes<T, N>> : GenericNumTraits<plumb::Lanes<T, N>> {
     using NonInteger = plumb::Lanes<T, N>;
     using Nested = plumb::Lanes<T, N>;
     using Literal = T;
-    enum { IsComplex = 0, IsInteger = 0, IsSigned = 1, RequireInitialization = 0, ReadCost = 1, AddCost = 1, MulCost = 1 };
+    enum {
+        IsComplex = 0,
+        IsInteger = 0,
+        IsSigned = 1,
+        RequireInitialization = 0,
+        ReadCost = 1,
+        AddCost = 1,
+        MulCost = 1
+    };
 };
 }  // namespace Eigen

@@ -29,9 +29,11 @@ inline Quaterniond turned(const Quaterniond& q, const Vector3d& theta) {
     return (exponential_map(theta) * q).normalized();
 }
 
-/// exp(ϑ) r − r over any number type, by Rodrigues' formula with the series of sin(x)/x and (1 − cos x)/x².
+/// exp(ϑ) r − r over any number type, by Rodrigues' formula with the series of sin(x)/x and (1 −
+/// cos x)/x².
 ///
-/// Good to 1e-7 of |r| in single and to 1e-13 in double precision while |ϑ| ≤ 1.5 rad, a step's turn.
+/// Good to 1e-7 of |r| in single and to 1e-13 in double precision while |ϑ| ≤ 1.5 rad, a step's
+/// turn.
 template <class T>
 inline Vector3<T> turn_of(const Vector3<T>& theta, const Vector3<T>& r) {
     const T x = dot(theta, theta);

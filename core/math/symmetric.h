@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Symmetric 3 × 3 matrices over any number type: inverse inertia, and the constraint-space K of Eq. 6.
+/// Symmetric 3 × 3 matrices over any number type: inverse inertia, and the constraint-space K of
+/// Eq. 6.
 #pragma once
 
 #include "math/types.h"

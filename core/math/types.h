@@ -22,7 +22,8 @@ inline T dot(const Vector3<T>& a, const Vector3<T>& b) {
 }
 template <class T>
 inline Vector3<T> cross(const Vector3<T>& a, const Vector3<T>& b) {
-    return Vector3<T>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
+    return Vector3<T>(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
+                      a[0] * b[1] - a[1] * b[0]);
 }
 
 inline Vector3d to_eigen(const Vec3& v) { return {v.x, v.y, v.z}; }

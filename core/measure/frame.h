@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a run hands to whoever watches it: the bodies at one moment, and a few numbers about the step.
+/// What a run hands to whoever watches it: the bodies at one moment, and a few numbers about the
+/// step.
 #pragma once
 
 #include "scene/geometry.h"
@@ -12,8 +13,8 @@ namespace plumb {
 
 /// One body at one moment, world frame.
 struct BodyState {
-    Placement placement;              ///< of the geometry's frame, not of the centre of mass
-    Eigen::Vector3d velocity;         ///< of the centre of mass [m/s]
+    Placement placement;               ///< of the geometry's frame, not of the centre of mass
+    Eigen::Vector3d velocity;          ///< of the centre of mass [m/s]
     Eigen::Vector3d angular_velocity;  ///< [rad/s]
 };
 

@@ -13,7 +13,9 @@ Vector3d spin_momentum(const Bodies& b, std::size_t i) {
 }
 
 /// The contacts of the last detection: kept as those "before" once a step is done.
-const std::vector<Contact>& last_contacts(const World& world) { return world.contacts.found_before; }
+const std::vector<Contact>& last_contacts(const World& world) {
+    return world.contacts.found_before;
+}
 
 }  // namespace
 
@@ -21,7 +23,8 @@ double kinetic_energy(const World& world) {
     const Bodies& b = world.bodies;
     double sum = 0;
     for (std::size_t i = 0; i < b.size(); ++i)
-        sum += 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() + b.angular_velocity[i].dot(spin_momentum(b, i)));
+        sum += 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() +
+                      b.angular_velocity[i].dot(spin_momentum(b, i)));
     return sum;
 }
 
@@ -36,7 +39,8 @@ double potential_energy(const World& world) {
 
 Vector3d linear_momentum(const World& world) {
     Vector3d sum = Vector3d::Zero();
-    for (std::size_t i = 0; i < world.bodies.size(); ++i) sum += world.bodies.mass[i] * world.bodies.velocity[i];
+    for (std::size_t i = 0; i < world.bodies.size(); ++i)
+        sum += world.bodies.mass[i] * world.bodies.velocity[i];
     return sum;
 }
 
@@ -65,11 +69,13 @@ std::vector<double> joint_errors(const World& world) {
     const Bodies& b = world.bodies;
     std::vector<double> errors;
     auto point = [&](std::uint32_t body, const Vector3d& anchor) -> Vector3d {
-        return body == kNoIndex ? anchor : Vector3d(b.position[body] + b.orientation[body] * anchor);
+        return body == kNoIndex ? anchor
+                                : Vector3d(b.position[body] + b.orientation[body] * anchor);
     };
     for (std::size_t i = 0; i < world.balls.size(); ++i)
         errors.push_back((point(world.balls.a[i], world.balls.anchor_a[i]) -
-                          point(world.balls.b[i], world.balls.anchor_b[i])).norm());
+                          point(world.balls.b[i], world.balls.anchor_b[i]))
+                             .norm());
     return errors;
 }
 
@@ -112,7 +118,8 @@ void capture(const World& world, Frame& frame) {
 
 double percentile(std::vector<double> values, double p) {
     if (values.empty()) return 0;
-    const auto k = std::min(values.size() - 1, static_cast<std::size_t>(p * static_cast<double>(values.size())));
+    const auto k = std::min(values.size() - 1,
+                            static_cast<std::size_t>(p * static_cast<double>(values.size())));
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(k), values.end());
     return values[k];
 }

@@ -10,12 +10,14 @@
 
 namespace plumb {
 
-double kinetic_energy(const World& world);    ///< [J]
-double potential_energy(const World& world);  ///< of gravity and constant forces, against the origin [J]
+double kinetic_energy(const World& world);  ///< [J]
+double potential_energy(
+    const World& world);  ///< of gravity and constant forces, against the origin [J]
 Vector3d linear_momentum(const World& world);   ///< [kg m/s]
 Vector3d angular_momentum(const World& world);  ///< about the origin [kg m²/s]
 
-/// Depth of the deepest point of each pair that penetrates [m], from the contacts of the last detection.
+/// Depth of the deepest point of each pair that penetrates [m], from the contacts of the last
+/// detection.
 std::vector<double> penetrations(const World& world);
 
 /// Distance between the two points of each joint [m].

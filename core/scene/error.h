@@ -10,10 +10,13 @@ namespace plumb {
 /// A scene, mesh or setting that cannot be used (exit code 3).
 class SceneError : public std::runtime_error {
 public:
-    /// `file` and `pointer` (a JSON pointer, "/bodies/3/mass") may be empty when the scene was made by a program.
+    /// `file` and `pointer` (a JSON pointer, "/bodies/3/mass") may be empty when the scene was made
+    /// by a program.
     SceneError(std::string file, std::string pointer, const std::string& sentence)
-        : std::runtime_error((file.empty() ? "" : file + ": ") + (pointer.empty() ? "" : pointer + ": ") + sentence),
-          file_(std::move(file)), pointer_(std::move(pointer)) {}
+        : std::runtime_error((file.empty() ? "" : file + ": ") +
+                             (pointer.empty() ? "" : pointer + ": ") + sentence),
+          file_(std::move(file)),
+          pointer_(std::move(pointer)) {}
 
     const std::string& file() const { return file_; }
     const std::string& pointer() const { return pointer_; }

@@ -29,8 +29,9 @@ struct Geometry {
     double radius = 0;                                       ///< [m]
     double half_height = 0;                                  ///< [m]
 
-    std::vector<Eigen::Vector3d> vertices;              ///< hull, mesh [m]
-    std::vector<std::vector<std::uint32_t>> faces;      ///< hull: convex polygons, counter-clockwise from outside
+    std::vector<Eigen::Vector3d> vertices;  ///< hull, mesh [m]
+    std::vector<std::vector<std::uint32_t>>
+        faces;  ///< hull: convex polygons, counter-clockwise from outside
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< mesh
 
     std::vector<double> heights;  ///< height field, [rows × columns] [m]

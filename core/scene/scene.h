@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// A scene: what the user wrote, as plain values. SI units, y up by default, world frame.
 ///
-/// The reader fills it from JSON; a program may fill it by hand. Nothing here is checked: `build_world` checks.
+/// The reader fills it from JSON; a program may fill it by hand. Nothing here is checked:
+/// `build_world` checks.
 #pragma once
 
 #include "scene/geometry.h"
@@ -27,7 +28,8 @@ struct Material {
     double spinning_friction = 0;  ///< lever of the torque about the normal [m]
 };
 
-/// Overrides of the rules of combination (friction √(μ_a μ_b), restitution max) for one pair of materials.
+/// Overrides of the rules of combination (friction √(μ_a μ_b), restitution max) for one pair of
+/// materials.
 struct MaterialPair {
     std::uint32_t a = 0, b = 0;  ///< indices into Scene::materials
     std::optional<double> friction, restitution, rolling_friction, spinning_friction;
@@ -35,13 +37,15 @@ struct MaterialPair {
 
 enum class Motion : std::uint32_t { fixed, kinematic, dynamic };
 
-/// Where a kinematic body is at a time; between keyframes position is linear and rotation turns evenly.
+/// Where a kinematic body is at a time; between keyframes position is linear and rotation turns
+/// evenly.
 struct Keyframe {
     double time = 0;  ///< [s]
     Placement placement;
 };
 
-/// Motion of a kinematic body: keyframes, repeated when `loop` is set; without keyframes its constant velocities.
+/// Motion of a kinematic body: keyframes, repeated when `loop` is set; without keyframes its
+/// constant velocities.
 struct MotionScript {
     std::vector<Keyframe> keyframes;
     bool loop = false;
@@ -50,19 +54,21 @@ struct MotionScript {
 struct BodySpec {
     std::string name;
     Motion motion = Motion::dynamic;
-    std::uint32_t geometry = kNoIndex;  ///< index into Scene::geometries; kNoIndex: no shape, mass and inertia required
-    std::uint32_t material = 0;         ///< index into Scene::materials
-    Placement placement;                ///< of the geometry's frame at the start
-    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();          ///< of the centre of mass [m/s]
+    std::uint32_t geometry =
+        kNoIndex;  ///< index into Scene::geometries; kNoIndex: no shape, mass and inertia required
+    std::uint32_t material = 0;                          ///< index into Scene::materials
+    Placement placement;                                 ///< of the geometry's frame at the start
+    Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< of the centre of mass [m/s]
     Eigen::Vector3d angular_velocity = Eigen::Vector3d::Zero();  ///< [rad/s]
-    std::optional<double> mass;                ///< [kg]; else density × volume
-    std::optional<Eigen::Vector3d> inertia;    ///< principal moments in the geometry's frame [kg m²]; else from the shape
+    std::optional<double> mass;                                  ///< [kg]; else density × volume
+    std::optional<Eigen::Vector3d>
+        inertia;  ///< principal moments in the geometry's frame [kg m²]; else from the shape
     Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< constant, at the centre of mass [N]
     Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< constant [N m]
-    std::uint32_t group = 1;            ///< collides if (group_a & mask_b) and (group_b & mask_a)
+    std::uint32_t group = 1;  ///< collides if (group_a & mask_b) and (group_b & mask_a)
     std::uint32_t mask = ~0u;
-    MotionScript script;                ///< kinematic bodies only
-    std::uint32_t color = 0;            ///< 0xRRGGBB, 0 = chosen by the viewer
+    MotionScript script;      ///< kinematic bodies only
+    std::uint32_t color = 0;  ///< 0xRRGGBB, 0 = chosen by the viewer
 };
 
 enum class JointKind : std::uint32_t { ball };
@@ -72,13 +78,14 @@ struct JointSpec {
     std::string name;
     JointKind kind = JointKind::ball;
     std::uint32_t body_a = kNoIndex, body_b = kNoIndex;  ///< indices into Scene::bodies
-    Eigen::Vector3d anchor = Eigen::Vector3d::Zero();    ///< common point at the start, world frame [m]
-    bool collide = false;                                ///< whether the linked bodies collide with each other
+    Eigen::Vector3d anchor =
+        Eigen::Vector3d::Zero();  ///< common point at the start, world frame [m]
+    bool collide = false;         ///< whether the linked bodies collide with each other
 };
 
 /// Where the picture is taken from.
 struct View {
-    Eigen::Vector3d eye{9, 6, 12};     ///< [m]
+    Eigen::Vector3d eye{9, 6, 12};      ///< [m]
     Eigen::Vector3d target{0, 1.5, 0};  ///< [m]
     double field_of_view = 40;          ///< vertical [degrees]
 };

@@ -21,28 +21,34 @@ struct Settings {
     std::uint32_t position_iterations = 5;
 
     std::string method = "pbd";
-    Precision precision = Precision::single;  ///< of the solver's iterations; states and poses are always double
+    Precision precision =
+        Precision::single;  ///< of the solver's iterations; states and poses are always double
     std::uint32_t threads = 1;
-    std::uint32_t lanes = 0;  ///< constraints solved side by side: 1, 4, 8, 16; 0 = widest that the processor runs
+    std::uint32_t lanes =
+        0;  ///< constraints solved side by side: 1, 4, 8, 16; 0 = widest that the processor runs
 
-    double margin = 0.005;          ///< distance of detection [m]
-    double stiffness = 0.2;         ///< s of §6: share of an old overlap removed an iteration, of five a step
-    double recovery_speed = 1.0;    ///< greatest speed at which old overlap is pushed out [m/s]
-    double collision_depth = 1e-4;  ///< ε: a pair collides when it approaches faster than √(2 g ε) [m]
-    double anchor_stiffness = 0.04; ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
+    double margin = 0.005;  ///< distance of detection [m]
+    double stiffness =
+        0.2;  ///< s of §6: share of an old overlap removed an iteration, of five a step
+    double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out [m/s]
+    double collision_depth =
+        1e-4;  ///< ε: a pair collides when it approaches faster than √(2 g ε) [m]
+    double anchor_stiffness =
+        0.04;  ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
     Gyroscopic gyroscopic = Gyroscopic::conserving;
 
     bool warm_start = true;        ///< begin from the impulses of the step before
     bool alternate_sweeps = true;  ///< forwards and backwards in turn
-    bool shared_push = true;       ///< the push λ_velocity + λ_position stays repulsive as a whole, not each part
-    bool shared_cone = true;       ///< one friction bound μ(λ_velocity + λ_position) for both passes
+    bool shared_push =
+        true;  ///< the push λ_velocity + λ_position stays repulsive as a whole, not each part
+    bool shared_cone = true;  ///< one friction bound μ(λ_velocity + λ_position) for both passes
 
     std::vector<std::string> require;  ///< effects that run although nothing seems to call for them
     std::vector<std::string> forbid;   ///< effects that never run
 };
 
-/// The paper's step to the letter: no warm start, no alternating sweeps, friction bounds of each pass apart, no
-/// anchors, sums of each pass apart, explicit gyroscopic term.
+/// The paper's step to the letter: no warm start, no alternating sweeps, friction bounds of each
+/// pass apart, no anchors, sums of each pass apart, explicit gyroscopic term.
 inline void apply_paper_preset(Settings& s) {
     s.warm_start = s.alternate_sweeps = s.shared_cone = s.shared_push = false;
     s.anchor_stiffness = 0;

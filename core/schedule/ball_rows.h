@@ -12,8 +12,8 @@ struct alignas(64) BallBlock {
     Real inverse_inertia_a[6][W], inverse_inertia_b[6][W];  // xx yy zz xy xz yz, world frame
     std::int32_t row_a[W], row_b[W];                        // row of the body in the velocity table
     Real arm_a[3][W], arm_b[3][W];                          // at the start of the substep [m]
-    Real gap[3][W];                                         // a − b at the start of the substep [m]
-    Real used[W];                                           // 1 where a joint sits, 0 in an empty lane
+    Real gap[3][W];  // a − b at the start of the substep [m]
+    Real used[W];    // 1 where a joint sits, 0 in an empty lane
 };
 
 }  // namespace plumb

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Which pairs of bodies may be solved at the same time.
 ///
-/// Two pairs of one colour share no dynamic body; immovable bodies do not count, or 500 bodies on one floor would
-/// take 500 colours. Colours are capped: what finds none free goes to an overflow that is solved one pair after
-/// another. The result depends on the pairs and their order alone, not on lanes or threads.
+/// Two pairs of one colour share no dynamic body; immovable bodies do not count, or 500 bodies on
+/// one floor would take 500 colours. Colours are capped: what finds none free goes to an overflow
+/// that is solved one pair after another. The result depends on the pairs and their order alone,
+/// not on lanes or threads.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ namespace plumb {
 
 /// A pair of bodies and how many rows it has.
 struct BodyPair {
-    std::int32_t row_a, row_b;  ///< rows in the velocity table
+    std::int32_t row_a, row_b;   ///< rows in the velocity table
     std::uint32_t first, count;  ///< its constraints
     std::uint32_t level = 0;     ///< levels are solved one after another, lowest first
 };
@@ -33,7 +34,8 @@ struct BlockRange {
 /// Reusable memory of a colouring.
 class Colouring {
 public:
-    /// Colours the pairs. Within a batch, pairs with more rows come first; `order` lists pairs batch by batch.
+    /// Colours the pairs. Within a batch, pairs with more rows come first; `order` lists pairs
+    /// batch by batch.
     void colour(const std::vector<BodyPair>& pairs, std::int32_t dynamic_count);
 
     const std::vector<std::uint32_t>& order() const { return order_; }

@@ -19,8 +19,8 @@ public:
     };
 
     /// Lays out zeroed blocks and rows for pairs that `colouring` has coloured.
-    void lay_out(const std::vector<BodyPair>& pairs, const Colouring& colouring, ContactVariant variant,
-                 std::int32_t zero_row) {
+    void lay_out(const std::vector<BodyPair>& pairs, const Colouring& colouring,
+                 ContactVariant variant, std::int32_t zero_row) {
         ranges_.clear();
         slots_.resize(pairs.size());
         std::uint32_t block_count = 0;
@@ -33,7 +33,8 @@ public:
         clear(blocks_, block_count);
         std::uint32_t rows = 0;
         for (std::size_t i = 0; i < ranges_.size(); ++i)
-            rows = fill_range(ranges_[i], colouring.batches()[i], colouring.order(), pairs, zero_row, rows);
+            rows = fill_range(ranges_[i], colouring.batches()[i], colouring.order(), pairs,
+                              zero_row, rows);
         clear(normals_, rows);
         clear(frictions_, variant != ContactVariant::frictionless ? rows : 0);
         clear(turnings_, variant == ContactVariant::turning ? rows : 0);
@@ -54,8 +55,10 @@ private:
     }
 
     /// Gives the pairs of one batch their blocks and returns the number of rows so far.
-    std::uint32_t fill_range(const BlockRange& range, const Batch& batch, const std::vector<std::uint32_t>& order,
-                             const std::vector<BodyPair>& pairs, std::int32_t zero_row, std::uint32_t rows) {
+    std::uint32_t fill_range(const BlockRange& range, const Batch& batch,
+                             const std::vector<std::uint32_t>& order,
+                             const std::vector<BodyPair>& pairs, std::int32_t zero_row,
+                             std::uint32_t rows) {
         const std::uint32_t width = range.independent ? W : 1;
         for (std::uint32_t b = range.first; b < range.last; ++b) {
             PairBlock<Real, W>& block = blocks_[b];

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// Memory of the contact solver: W pairs of bodies side by side, and a row for each of their points.
+/// Memory of the contact solver: W pairs of bodies side by side, and a row for each of their
+/// points.
 ///
-/// Lane i of a block is one pair of bodies; row k of the block holds the k-th point of each pair. Lanes without a
-/// pair, and rows beyond a pair's last point, are zero and therefore push nothing. Tangents exist in memory only
-/// where a scene has friction, turning rows only where it has rolling or spinning friction.
+/// Lane i of a block is one pair of bodies; row k of the block holds the k-th point of each pair.
+/// Lanes without a pair, and rows beyond a pair's last point, are zero and therefore push nothing.
+/// Tangents exist in memory only where a scene has friction, turning rows only where it has rolling
+/// or spinning friction.
 #pragma once
 
 #include <cstddef>
@@ -17,9 +19,9 @@ inline constexpr std::size_t kRowAlignment = sizeof(Real) * W < 64 ? sizeof(Real
 /// The bodies of W pairs.
 template <class Real, int W>
 struct alignas(64) PairBlock {
-    Real inverse_mass_a[W], inverse_mass_b[W];               // [1/kg]
-    Real inverse_inertia_a[6][W], inverse_inertia_b[6][W];   // xx yy zz xy xz yz, world frame
-    std::int32_t row_a[W], row_b[W];                         // row of the body in the velocity table
+    Real inverse_mass_a[W], inverse_mass_b[W];              // [1/kg]
+    Real inverse_inertia_a[6][W], inverse_inertia_b[6][W];  // xx yy zz xy xz yz, world frame
+    std::int32_t row_a[W], row_b[W];                        // row of the body in the velocity table
     std::uint32_t first_row, row_count;
 };
 
@@ -38,20 +40,21 @@ struct alignas(kRowAlignment<Real, W>) NormalRow {
 /// Across the normal.
 template <class Real, int W>
 struct alignas(kRowAlignment<Real, W>) FrictionRow {
-    Real tangent[3][W];                // t₁; t₂ = n × t₁
+    Real tangent[3][W];                          // t₁; t₂ = n × t₁
     Real block_xx[W], block_xy[W], block_yy[W];  // inverse of the tangents' K [kg]
-    Real coupling_x[W], coupling_y[W];  // t₁ᵀ K n, t₂ᵀ K n [1/kg]
-    Real friction[W];                  // μ
-    Real drift_x[W], drift_y[W];       // velocity that brings a sticking contact back to its anchors [m/s]
+    Real coupling_x[W], coupling_y[W];           // t₁ᵀ K n, t₂ᵀ K n [1/kg]
+    Real friction[W];                            // μ
+    Real drift_x[W],
+        drift_y[W];  // velocity that brings a sticking contact back to its anchors [m/s]
     Real velocity_x[W], velocity_y[W];  // at the start of the substep, forces included [m/s]
-    Real held_x[W], held_y[W];         // summed impulse of the velocity pass [N s]
-    Real rubbed_x[W], rubbed_y[W];     // summed impulse of the position pass [N s]
+    Real held_x[W], held_y[W];          // summed impulse of the velocity pass [N s]
+    Real rubbed_x[W], rubbed_y[W];      // summed impulse of the position pass [N s]
 };
 
 /// Against turning.
 template <class Real, int W>
 struct alignas(kRowAlignment<Real, W>) TurningRow {
-    Real rolling[W], spinning[W];   // levers ρ, σ [m]
+    Real rolling[W], spinning[W];                   // levers ρ, σ [m]
     Real inertia_x[W], inertia_y[W], inertia_n[W];  // effective inertia about t₁, t₂, n [kg m²]
     Real rate_x[W], rate_y[W], rate_n[W];           // at the start of the substep [rad/s]
     Real torque_x[W], torque_y[W], torque_n[W];     // summed torque impulses of both passes [N m s]
@@ -73,7 +76,8 @@ struct ContactArrays {
 /// One body in the velocity table: v, 0, ω, 0.
 inline constexpr int kBodyRowSize = 8;
 
-/// Velocities by body row: the dynamic bodies first, then kinematic ones, then one row of zeros for all that is fixed.
+/// Velocities by body row: the dynamic bodies first, then kinematic ones, then one row of zeros for
+/// all that is fixed.
 template <class Real>
 struct BodyRows {
     Real* change;       // since the start of the substep; only dynamic bodies ever change
@@ -84,13 +88,13 @@ struct BodyRows {
 /// What a pass needs to know besides the rows.
 template <class Real>
 struct PassSettings {
-    Real h;                // substep [s]
-    Real stiffness;        // s of this substep
-    Real recovery;         // greatest overlap pushed out in a substep [m]
-    bool warm_start;       // begin with the impulses of the substep before
-    bool shared_cone;      // one friction bound for both passes
-    bool shared_push;      // the push of both passes together stays repulsive, not of each alone
-    bool forwards;         // direction of this sweep
+    Real h;            // substep [s]
+    Real stiffness;    // s of this substep
+    Real recovery;     // greatest overlap pushed out in a substep [m]
+    bool warm_start;   // begin with the impulses of the substep before
+    bool shared_cone;  // one friction bound for both passes
+    bool shared_push;  // the push of both passes together stays repulsive, not of each alone
+    bool forwards;     // direction of this sweep
 };
 
 }  // namespace plumb

@@ -14,7 +14,8 @@ void wait_until(Condition reached) {
 }  // namespace
 
 Workers::Workers(std::uint32_t count) : count_(count > 0 ? count : 1) {
-    for (std::uint32_t w = 1; w < count_; ++w) threads_.emplace_back([this, w] { wait_for_tasks(w); });
+    for (std::uint32_t w = 1; w < count_; ++w)
+        threads_.emplace_back([this, w] { wait_for_tasks(w); });
 }
 
 Workers::~Workers() {

@@ -15,8 +15,9 @@ struct Range {
     std::uint32_t first, last;
 };
 
-/// A team of n workers, of which the caller is the first. Shares depend on n and the item count alone, and the
-/// solver gives the same bits for any n because items of one share never touch those of another.
+/// A team of n workers, of which the caller is the first. Shares depend on n and the item count
+/// alone, and the solver gives the same bits for any n because items of one share never touch those
+/// of another.
 class Workers {
 public:
     explicit Workers(std::uint32_t count);
@@ -26,11 +27,15 @@ public:
 
     std::uint32_t count() const { return count_; }
 
-    /// Calls task(worker) once on every worker and returns when all have returned. Allocates nothing.
+    /// Calls task(worker) once on every worker and returns when all have returned. Allocates
+    /// nothing.
     template <class Task>
     void run(Task&& task) {
-        run_all([](void* context, std::uint32_t worker) { (*static_cast<std::remove_reference_t<Task>*>(context))(worker); },
-                &task);
+        run_all(
+            [](void* context, std::uint32_t worker) {
+                (*static_cast<std::remove_reference_t<Task>*>(context))(worker);
+            },
+            &task);
     }
 
     /// Inside of a task: waits until every worker has come here.

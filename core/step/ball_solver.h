@@ -16,7 +16,8 @@ namespace plumb {
 template <class Real, int W>
 class BallSolver {
 public:
-    BallSolver(const World& world, Workers& workers) : kernels_(ball_kernels<Real, W>()), workers_(workers) {
+    BallSolver(const World& world, Workers& workers)
+        : kernels_(ball_kernels<Real, W>()), workers_(workers) {
         std::vector<BodyPair> pairs;
         for (std::uint32_t i = 0; i < world.balls.size(); ++i)
             pairs.push_back({world.bodies.row[world.balls.a[i]], row_b(world, i), i, 1, 0});
@@ -49,12 +50,15 @@ public:
         }
     }
 
-    void position_iteration(const BodyRows<Real>& bodies, Real h, bool forwards, std::uint32_t worker) {
+    void position_iteration(const BodyRows<Real>& bodies, Real h, bool forwards,
+                            std::uint32_t worker) {
         for (std::size_t i = 0; i < ranges_.size(); ++i) {
             const BlockRange& range = ranges_[forwards ? i : ranges_.size() - 1 - i];
             Range share = workers_.share(range.last - range.first, worker);
-            if (!range.independent) share = worker == 0 ? Range{0, range.last - range.first} : Range{0, 0};
-            kernels_.solve_positions(blocks_.data(), bodies, h, range.first + share.first, range.first + share.last);
+            if (!range.independent)
+                share = worker == 0 ? Range{0, range.last - range.first} : Range{0, 0};
+            kernels_.solve_positions(blocks_.data(), bodies, h, range.first + share.first,
+                                     range.first + share.last);
             workers_.barrier();
         }
     }
@@ -77,7 +81,8 @@ private:
             for (std::uint32_t i = batch.first; i < batch.last; i += width) {
                 blocks_.push_back({});
                 BallBlock<Real, W>& block = blocks_.back();
-                for (int lane = 0; lane < W; ++lane) block.row_a[lane] = block.row_b[lane] = world.zero_row();
+                for (int lane = 0; lane < W; ++lane)
+                    block.row_a[lane] = block.row_b[lane] = world.zero_row();
                 for (std::uint32_t lane = 0; lane < width && i + lane < batch.last; ++lane) {
                     const std::uint32_t joint = colouring_.order()[i + lane];
                     places_[joint] = {static_cast<std::uint32_t>(blocks_.size()) - 1, lane};
@@ -86,7 +91,8 @@ private:
                     block.used[lane] = 1;
                 }
             }
-            ranges_.push_back({first, static_cast<std::uint32_t>(blocks_.size()), batch.independent});
+            ranges_.push_back(
+                {first, static_cast<std::uint32_t>(blocks_.size()), batch.independent});
         }
     }
 

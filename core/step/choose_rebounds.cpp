@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// Collision or contact? A pair collides when it approaches faster than √(2 g ε) (§6, after Mirtich).
+/// Collision or contact? A pair collides when it approaches faster than √(2 g ε) (§6, after
+/// Mirtich).
 ///
-/// Restitution is consumed once a contact and step, in the first substep that begins with the surfaces touching: a
-/// collision that is still open is let through, or it would rebound early and from too high. The recovery of the
-/// overlap that this makes adds no speed (the kernels leave parting bodies alone).
+/// Restitution is consumed once a contact and step, in the first substep that begins with the
+/// surfaces touching: a collision that is still open is let through, or it would rebound early and
+/// from too high. The recovery of the overlap that this makes adds no speed (the kernels leave
+/// parting bodies alone).
 #include "step/stages.h"
 
 #include <cmath>
@@ -24,7 +26,8 @@ double closing_velocity(const Bodies& b, const Contact& c) {
 
 void choose_rebounds(World& world, bool first_substep) {
     ContactTable& c = world.contacts;
-    const double threshold = std::sqrt(2 * world.settings.gravity.norm() * world.settings.collision_depth);
+    const double threshold =
+        std::sqrt(2 * world.settings.gravity.norm() * world.settings.collision_depth);
     c.rebound.assign(c.found.size(), 0);
     if (first_substep) c.bounced.assign(c.found.size(), 0);
     for (std::size_t i = 0; i < c.found.size(); ++i) {

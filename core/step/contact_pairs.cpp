@@ -5,7 +5,8 @@
 
 namespace plumb {
 
-void find_pairs(const World& world, const std::vector<std::uint32_t>* levels, std::vector<BodyPair>& pairs) {
+void find_pairs(const World& world, const std::vector<std::uint32_t>* levels,
+                std::vector<BodyPair>& pairs) {
     pairs.clear();
     const std::vector<Contact>& found = world.contacts.found;
     for (std::uint32_t i = 0; i < found.size(); ++i) {
@@ -27,7 +28,8 @@ void find_levels(const World& world, std::vector<std::uint32_t>& levels) {
     for (std::uint32_t i = 0; i < n; ++i)
         if (bodies.motion[i] != Motion::dynamic) levels[i] = 0;
 
-    // contacts relax the levels until none falls: few rounds, since a round runs forwards and backwards
+    // contacts relax the levels until none falls: few rounds, since a round runs forwards and
+    // backwards
     const std::vector<Contact>& found = world.contacts.found;
     auto relax = [&](const Contact& c) {
         const std::uint32_t via = std::min(levels[c.a], levels[c.b]) + 1;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Contacts of one precision and lane width: from the world's columns to rows, iterations, and back.
+/// Contacts of one precision and lane width: from the world's columns to rows, iterations, and
+/// back.
 #pragma once
 
 #include "effects/plan.h"
@@ -26,7 +27,9 @@ template <class Real, int W>
 class ContactSolver {
 public:
     ContactSolver(const Plan& plan, Workers& workers)
-        : variant_(contact_variant(plan)), kernels_(contact_kernels<Real, W>(variant_)), workers_(workers) {}
+        : variant_(contact_variant(plan)),
+          kernels_(contact_kernels<Real, W>(variant_)),
+          workers_(workers) {}
 
     bool empty() const { return pairs_.empty(); }
 
@@ -54,9 +57,10 @@ public:
         });
     }
 
-    /// Gaps, rebounds and drifts of the substep; sums of the pass before become the start of this one.
-    /// Returns how many overlaps are deeper than the substep may push out.
-    std::uint32_t begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+    /// Gaps, rebounds and drifts of the substep; sums of the pass before become the start of this
+    /// one. Returns how many overlaps are deeper than the substep may push out.
+    std::uint32_t begin(const World& world, const BodyRows<Real>& bodies,
+                        const PassSettings<Real>& pass) {
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
         std::uint32_t clamped = 0;
@@ -83,16 +87,18 @@ public:
     void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
         run(kernels_.warm_start, bodies, pass);
     }
-    void velocity_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass, std::uint32_t worker) {
+    void velocity_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                            std::uint32_t worker) {
         sweep(kernels_.solve_velocities, bodies, pass, worker);
     }
-    void position_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass, std::uint32_t worker) {
+    void position_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                            std::uint32_t worker) {
         sweep(kernels_.solve_positions, bodies, pass, worker);
     }
 
     /// One sweep in which each batch is solved `rounds` times before the next.
-    void rounds_iteration(const BodyRows<Real>& bodies, PassSettings<Real> pass, std::uint32_t rounds,
-                          std::uint32_t worker) {
+    void rounds_iteration(const BodyRows<Real>& bodies, PassSettings<Real> pass,
+                          std::uint32_t rounds, std::uint32_t worker) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         for (const BlockRange& range : batches_.ranges())
             for (std::uint32_t r = 0; r < rounds; ++r) {
@@ -107,7 +113,8 @@ public:
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
             const auto to = batches_.slot(p), at = from.batches_.slot(p);
             for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-                copy_row(rows, row_of(to.block, i), to.lane, source, from.row_of(at.block, i), at.lane);
+                copy_row(rows, row_of(to.block, i), to.lane, source, from.row_of(at.block, i),
+                         at.lane);
         }
     }
 
@@ -116,7 +123,8 @@ public:
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             ContactMemory& memory = contacts.memory[contact];
             const NormalRow<Real, W>& row = rows.normals[k];
-            memory.normal_impulse = double(row.lambda_velocity[lane]) + double(row.lambda_position[lane]);
+            memory.normal_impulse =
+                double(row.lambda_velocity[lane]) + double(row.lambda_position[lane]);
             memory.sticks = false;
             if (!rows.frictions) return;
             const FrictionRow<Real, W>& across = rows.frictions[k];
@@ -124,7 +132,8 @@ public:
             const double fx = double(across.held_x[lane]) + double(across.rubbed_x[lane]);
             const double fy = double(across.held_y[lane]) + double(across.rubbed_y[lane]);
             memory.friction_impulse = fx * x + fy * y;
-            memory.sticks = std::hypot(fx, fy) < (1 - 1e-5) * double(across.friction[lane]) * memory.normal_impulse;
+            memory.sticks = std::hypot(fx, fy) <
+                            (1 - 1e-5) * double(across.friction[lane]) * memory.normal_impulse;
         });
     }
 
@@ -134,7 +143,8 @@ private:
     struct TangentPair {
         Vector3d x, y;
     };
-    static TangentPair tangents(const NormalRow<Real, W>& row, const FrictionRow<Real, W>& across, std::uint32_t lane) {
+    static TangentPair tangents(const NormalRow<Real, W>& row, const FrictionRow<Real, W>& across,
+                                std::uint32_t lane) {
         const Vector3d n(row.normal[0][lane], row.normal[1][lane], row.normal[2][lane]);
         const Vector3d x(across.tangent[0][lane], across.tangent[1][lane], across.tangent[2][lane]);
         return {x, n.cross(x)};
@@ -150,7 +160,8 @@ private:
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
             const auto slot = batches_.slot(p);
             const std::uint32_t first = row_of(slot.block, 0);
-            for (std::uint32_t i = 0; i < pairs_[p].count; ++i) visit(pairs_[p].first + i, first + i, slot.lane);
+            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
+                visit(pairs_[p].first + i, first + i, slot.lane);
         }
     }
 
@@ -162,19 +173,24 @@ private:
             const bool hold_a = levels && (*levels)[first.a] < (*levels)[first.b];
             const bool hold_b = levels && (*levels)[first.b] < (*levels)[first.a];
             PairBlock<Real, W>& block = rows.blocks[slot.block];
-            if (!hold_a) fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a, slot.lane);
-            if (!hold_b) fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b, slot.lane);
+            if (!hold_a)
+                fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
+                          slot.lane);
+            if (!hold_b)
+                fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
+                          slot.lane);
             const SurfacePair& surface = world.surface_pair(first.a, first.b);
             for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
                 fill_row(world, rows, pairs_[p].first + i, block.first_row + i, slot.lane, surface);
         }
     }
 
-    void fill_row(const World& world, const ContactArrays<Real, W>& rows, std::size_t contact, std::uint32_t k,
-                  std::uint32_t lane, const SurfacePair& surface) {
+    void fill_row(const World& world, const ContactArrays<Real, W>& rows, std::size_t contact,
+                  std::uint32_t k, std::uint32_t lane, const SurfacePair& surface) {
         const Contact& c = world.contacts.found[contact];
         const Vector3d n = to_eigen(c.normal), point = common_point(c);
-        const Vector3d arm_a = point - world.bodies.position[c.a], arm_b = point - world.bodies.position[c.b];
+        const Vector3d arm_a = point - world.bodies.position[c.a],
+                       arm_b = point - world.bodies.position[c.b];
         NormalRow<Real, W>& row = rows.normals[k];
         for (int i = 0; i < 3; ++i) {
             row.normal[i][lane] = static_cast<Real>(n[i]);
@@ -188,9 +204,11 @@ private:
     }
 
     static void copy_row(const ContactArrays<Real, W>& to, std::uint32_t k, std::uint32_t lane,
-                         const ContactArrays<Real, W>& from, std::uint32_t j, std::uint32_t from_lane) {
+                         const ContactArrays<Real, W>& from, std::uint32_t j,
+                         std::uint32_t from_lane) {
         const NormalRow<Real, W>& source = from.normals[j];
-        to.normals[k].lambda_velocity[lane] = source.lambda_velocity[from_lane] + source.lambda_position[from_lane];
+        to.normals[k].lambda_velocity[lane] =
+            source.lambda_velocity[from_lane] + source.lambda_position[from_lane];
         to.normals[k].lambda_position[lane] = 0;
         if (!to.frictions) return;
         const FrictionRow<Real, W>& across = from.frictions[j];
@@ -200,13 +218,15 @@ private:
     }
 
     /// Runs a kernel over all blocks in one go each batch, all workers together.
-    void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+    void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
+             const PassSettings<Real>& pass) {
         workers_.run([&](std::uint32_t worker) { sweep(kernel, bodies, pass, worker); });
     }
 
-    /// One pass over the batches in order (or backwards); inside of a batch every worker takes its share of blocks.
-    void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-               std::uint32_t worker) {
+    /// One pass over the batches in order (or backwards); inside of a batch every worker takes its
+    /// share of blocks.
+    void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
+               const PassSettings<Real>& pass, std::uint32_t worker) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         const std::vector<BlockRange>& ranges = batches_.ranges();
         for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -215,9 +235,11 @@ private:
         }
     }
 
-    /// One batch: every worker takes its share of blocks that are independent, and waits for the others.
-    void solve_range(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows, const BodyRows<Real>& bodies,
-                     const PassSettings<Real>& pass, const BlockRange& range, std::uint32_t worker) {
+    /// One batch: every worker takes its share of blocks that are independent, and waits for the
+    /// others.
+    void solve_range(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,
+                     const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                     const BlockRange& range, std::uint32_t worker) {
         if (range.independent) {
             const Range share = workers_.share(range.last - range.first, worker);
             kernel(rows, bodies, pass, range.first + share.first, range.first + share.last);
@@ -228,9 +250,11 @@ private:
     }
 
     static void sweep_in_order(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,
-                               const BodyRows<Real>& bodies, const PassSettings<Real>& pass, const BlockRange& range) {
+                               const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                               const BlockRange& range) {
         if (pass.forwards) return kernel(rows, bodies, pass, range.first, range.last);
-        for (std::uint32_t b = range.last; b > range.first; --b) kernel(rows, bodies, pass, b - 1, b);
+        for (std::uint32_t b = range.last; b > range.first; --b)
+            kernel(rows, bodies, pass, b - 1, b);
     }
 
     ContactVariant variant_;

@@ -27,9 +27,10 @@ double sweep(const World& world, std::size_t i, double dt) {
 bool usable(const Contact& c, const World& world) {
     const auto n = world.bodies.size();
     if (c.a >= n || c.b >= n || c.a >= c.b) return false;
-    if (world.bodies.motion[c.a] != Motion::dynamic && world.bodies.motion[c.b] != Motion::dynamic) return false;
-    const double sum = c.gap + c.radius_a + c.radius_b + c.point_a.x + c.point_a.y + c.point_a.z + c.point_b.x +
-                       c.point_b.y + c.point_b.z;
+    if (world.bodies.motion[c.a] != Motion::dynamic && world.bodies.motion[c.b] != Motion::dynamic)
+        return false;
+    const double sum = c.gap + c.radius_a + c.radius_b + c.point_a.x + c.point_a.y + c.point_a.z +
+                       c.point_b.x + c.point_b.y + c.point_b.z;
     const double length = to_eigen(c.normal).squaredNorm();
     return std::isfinite(sum) && std::abs(length - 1) < 1e-6;
 }
@@ -42,7 +43,8 @@ bool before(const Contact& x, const Contact& y) {
 
 }  // namespace
 
-void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt, StepReport& report) {
+void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt,
+            StepReport& report) {
     const Bodies& bodies = world.bodies;
     const std::size_t n = bodies.size();
     buffers.poses.resize(n);
@@ -57,9 +59,10 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
         contacts.clear();
         buffers.sinks.push_back({&contacts, grow});
     }
-    const DetectRequest request{buffers.poses.data(), buffers.sweeps.data(), static_cast<std::uint32_t>(n), 0,
-                                world.settings.margin};
-    const Status status = proximity.detect(request, buffers.sinks.data(), static_cast<std::uint32_t>(buffers.sinks.size()));
+    const DetectRequest request{buffers.poses.data(), buffers.sweeps.data(),
+                                static_cast<std::uint32_t>(n), 0, world.settings.margin};
+    const Status status = proximity.detect(request, buffers.sinks.data(),
+                                           static_cast<std::uint32_t>(buffers.sinks.size()));
     if (status.code != Status::ok) {
         report.collider_failed = true;
         report.message = status.message ? status.message : "the collider failed without a message";
@@ -69,11 +72,14 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
     found.clear();
     for (const auto& contacts : buffers.contacts)
         for (const Contact& c : contacts) {
-            if (usable(c, world)) found.push_back(c);
-            else ++report.rejected_contacts;
+            if (usable(c, world))
+                found.push_back(c);
+            else
+                ++report.rejected_contacts;
         }
     world.contacts.rejected += report.rejected_contacts;
-    if (!std::is_sorted(found.begin(), found.end(), before)) std::stable_sort(found.begin(), found.end(), before);
+    if (!std::is_sorted(found.begin(), found.end(), before))
+        std::stable_sort(found.begin(), found.end(), before);
     report.contacts = static_cast<std::uint32_t>(found.size());
 }
 

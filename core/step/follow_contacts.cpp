@@ -51,8 +51,10 @@ void measure_drifts(World& world) {
 }  // namespace
 
 void follow_contacts(World& world, const Plan& plan, bool first_substep) {
-    if (first_substep) take_gaps_as_found(world);
-    else measure_gaps(world);
+    if (first_substep)
+        take_gaps_as_found(world);
+    else
+        measure_gaps(world);
     if (plan.runs(Effect::sticking_anchors)) measure_drifts(world);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Symplectic Euler with the gyroscopic term in three forms (§3).
 ///
-/// The paper's explicit form gains energy; the implicit one loses some; the conserving one carries the angular
-/// momentum L from step to step and turns with the rate of the step's middle, ω_m = R_m I⁻¹ R_mᵀ L with
-/// R_m = exp(h ω_m / 2) R, found by a few fixed-point rounds.
+/// The paper's explicit form gains energy; the implicit one loses some; the conserving one carries
+/// the angular momentum L from step to step and turns with the rate of the step's middle, ω_m = R_m
+/// I⁻¹ R_mᵀ L with R_m = exp(h ω_m / 2) R, found by a few fixed-point rounds.
 #include "math/rotation.h"
 #include "step/stages.h"
 
@@ -96,7 +96,8 @@ void move(World& world, const RowSolver& solver, double h) {
         b.orientation[i] = turned(before, h * b.angular_velocity[i]);
         if (b.isotropic[i] || !carries_momentum) continue;
         b.angular_momentum[i] += momentum_of(before, b.inertia[i], turn_change);
-        b.angular_velocity[i] = momentum_of(b.orientation[i], b.inverse_inertia[i], b.angular_momentum[i]);
+        b.angular_velocity[i] =
+            momentum_of(b.orientation[i], b.inverse_inertia[i], b.angular_momentum[i]);
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Contacts of this step and of the step before are both sorted, so one walk along both finds what stayed.
+/// Contacts of this step and of the step before are both sorted, so one walk along both finds what
+/// stayed.
 #include "step/stages.h"
 
 namespace plumb {
@@ -24,10 +25,12 @@ struct PairRuns {
     std::size_t now, now_end, old, old_end;
 };
 
-std::size_t nearest(const std::vector<Contact>& contacts, std::size_t first, std::size_t last, const Vector3d& point) {
+std::size_t nearest(const std::vector<Contact>& contacts, std::size_t first, std::size_t last,
+                    const Vector3d& point) {
     std::size_t best = first;
     for (std::size_t i = first + 1; i < last; ++i)
-        if ((common_point(contacts[i]) - point).squaredNorm() < (common_point(contacts[best]) - point).squaredNorm())
+        if ((common_point(contacts[i]) - point).squaredNorm() <
+            (common_point(contacts[best]) - point).squaredNorm())
             best = i;
     return best;
 }
@@ -35,7 +38,8 @@ std::size_t nearest(const std::vector<Contact>& contacts, std::size_t first, std
 void match_by_feature(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>& used) {
     for (std::size_t k = run.now; k < run.now_end; ++k)
         for (std::size_t j = run.old; j < run.old_end; ++j)
-            if (c.found[k].feature != 0 && c.found[k].feature == c.found_before[j].feature && !used[j]) {
+            if (c.found[k].feature != 0 && c.found[k].feature == c.found_before[j].feature &&
+                !used[j]) {
                 c.memory[k] = c.memory_before[j];
                 c.memory[k].matched = c.memory[k].known = true;
                 used[j] = 1;
@@ -43,12 +47,13 @@ void match_by_feature(ContactTable& c, const PairRuns& run, std::vector<std::uin
             }
 }
 
-/// Where features came and went (a corner slid over an edge), the pair keeps its summed impulses: what no contact
-/// took over goes to the nearest one.
+/// Where features came and went (a corner slid over an edge), the pair keeps its summed impulses:
+/// what no contact took over goes to the nearest one.
 void hand_on_impulses(ContactTable& c, const PairRuns& run, const std::vector<std::uint8_t>& used) {
     for (std::size_t j = run.old; j < run.old_end; ++j) {
         if (used[j]) continue;
-        ContactMemory& heir = c.memory[nearest(c.found, run.now, run.now_end, common_point(c.found_before[j]))];
+        ContactMemory& heir =
+            c.memory[nearest(c.found, run.now, run.now_end, common_point(c.found_before[j]))];
         heir.normal_impulse += c.memory_before[j].normal_impulse;
         heir.friction_impulse += c.memory_before[j].friction_impulse;
         heir.matched = true;
@@ -60,15 +65,18 @@ void match_pair(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>&
     hand_on_impulses(c, run, used);
 }
 
-/// New contacts begin to stick where they are; in a pair that stuck already they take over the drift of its nearest
-/// contact, or what the pair has crept would be forgotten with every feature that changes.
+/// New contacts begin to stick where they are; in a pair that stuck already they take over the
+/// drift of its nearest contact, or what the pair has crept would be forgotten with every feature
+/// that changes.
 void set_anchors(World& world, std::size_t i, const Vector3d& drift) {
     const Bodies& b = world.bodies;
     const Contact& contact = world.contacts.found[i];
     ContactMemory& m = world.contacts.memory[i];
     const Vector3d point = common_point(contact);
-    m.stick_a = b.orientation[contact.a].conjugate() * (point + 0.5 * drift - b.position[contact.a]);
-    m.stick_b = b.orientation[contact.b].conjugate() * (point - 0.5 * drift - b.position[contact.b]);
+    m.stick_a =
+        b.orientation[contact.a].conjugate() * (point + 0.5 * drift - b.position[contact.a]);
+    m.stick_b =
+        b.orientation[contact.b].conjugate() * (point - 0.5 * drift - b.position[contact.b]);
 }
 
 /// Distance of the points that met when an old contact began to stick, at the poses now.
@@ -84,8 +92,10 @@ void anchor_pair(World& world, const PairRuns& run) {
         if (c.memory[i].sticks || !is_sharp(c.found[i])) continue;
         Vector3d drift = Vector3d::Zero();
         if (run.old_end > run.old && !c.memory[i].known) {
-            const std::size_t j = nearest(c.found_before, run.old, run.old_end, common_point(c.found[i]));
-            if (c.memory_before[j].sticks) drift = drift_of(world, c.found_before[j], c.memory_before[j]);
+            const std::size_t j =
+                nearest(c.found_before, run.old, run.old_end, common_point(c.found[i]));
+            if (c.memory_before[j].sticks)
+                drift = drift_of(world, c.found_before[j], c.memory_before[j]);
         }
         set_anchors(world, i, drift);
     }
@@ -101,7 +111,8 @@ void match_contacts(World& world, const Plan& plan) {
     std::size_t old = 0;
     for (std::size_t i = 0; i < c.found.size();) {
         PairRuns run{i, end_of_pair(c.found, i), 0, 0};
-        while (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) < 0) ++old;
+        while (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) < 0)
+            ++old;
         if (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) == 0) {
             run.old = old, run.old_end = old = end_of_pair(c.found_before, old);
             match_pair(c, run, c.used);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Kinematic bodies follow keyframes; between two of them position is linear and rotation turns evenly.
+/// Kinematic bodies follow keyframes; between two of them position is linear and rotation turns
+/// evenly.
 #include "math/rotation.h"
 #include "step/stages.h"
 
@@ -31,7 +32,8 @@ void move_scripted(World& world, double h) {
         if (b.motion[i] != Motion::kinematic || b.script[i].keyframes.empty()) continue;
         const Placement target = placement_at(b.script[i], world.time + h);
         b.velocity[i] = (target.position - b.position[i]) / h;
-        b.angular_velocity[i] = rotation_vector(target.rotation.normalized() * b.orientation[i].conjugate()) / h;
+        b.angular_velocity[i] =
+            rotation_vector(target.rotation.normalized() * b.orientation[i].conjugate()) / h;
     }
 }
 

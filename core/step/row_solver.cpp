@@ -12,23 +12,26 @@
 namespace plumb {
 namespace {
 
-/// s′ = 1 − (1 − s)^(5/N): s is defined for five iterations of one substep, and N are made. Where both passes share
-/// one push, s′ is the share of a substep.
+/// s′ = 1 − (1 − s)^(5/N): s is defined for five iterations of one substep, and N are made. Where
+/// both passes share one push, s′ is the share of a substep.
 double rescaled_stiffness(const Settings& s) {
     const double n = double(s.shared_push ? 1 : s.position_iterations) * s.substeps;
     return n > 0 ? 1 - std::pow(1 - s.stiffness, 5 / n) : 0;
 }
 
-/// How often shock propagation solves a level before it goes on to the next: until the points of a pair agree, for
-/// the error that is left at one level tips over all that stands on it.
+/// How often shock propagation solves a level before it goes on to the next: until the points of a
+/// pair agree, for the error that is left at one level tips over all that stands on it.
 constexpr std::uint32_t kShockRounds = 16;
 
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {
 public:
     RowSolverOf(const World& world, const Plan& plan, Workers& workers)
-        : settings_(world.settings), workers_(workers), shocks_(plan.runs(Effect::shock_propagation)),
-          warm_start_(settings_.warm_start && !shocks_), contacts_(plan, workers) {
+        : settings_(world.settings),
+          workers_(workers),
+          shocks_(plan.runs(Effect::shock_propagation)),
+          warm_start_(settings_.warm_start && !shocks_),
+          contacts_(plan, workers) {
         if (plan.runs(Effect::joints)) balls_.emplace(world, workers);
         if (shocks_) shock_.emplace(plan, workers);
     }
@@ -77,24 +80,30 @@ public:
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.position_iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
-                if (balls_) balls_->position_iteration(table_.rows(), pass.h, pass.forwards, worker);
+                if (balls_)
+                    balls_->position_iteration(table_.rows(), pass.h, pass.forwards, worker);
                 if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
             }
         });
         sweeps_ += settings_.position_iterations;
     }
 
-    /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman et al.).
+    /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman
+    /// et al.).
     void propagate_shock() override {
         if (contacts_.empty()) return;
         shock_->copy_impulses(contacts_);
         PassSettings<Real> pass = pass_;
         pass.shared_cone = true;
         pass.shared_push = false;
-        workers_.run([&](std::uint32_t worker) { shock_->rounds_iteration(table_.rows(), pass, kShockRounds, worker); });
+        workers_.run([&](std::uint32_t worker) {
+            shock_->rounds_iteration(table_.rows(), pass, kShockRounds, worker);
+        });
     }
 
-    Vector3d velocity_change(std::int32_t row) const override { return table_.velocity_change(row); }
+    Vector3d velocity_change(std::int32_t row) const override {
+        return table_.velocity_change(row);
+    }
     Vector3d angular_velocity_change(std::int32_t row) const override {
         return table_.angular_velocity_change(row);
     }
@@ -102,12 +111,15 @@ public:
     void store_impulses(World& world) override { contacts_.store_impulses(world.contacts); }
 
 private:
-    bool forwards(std::uint32_t sweep) const { return !settings_.alternate_sweeps || sweep % 2 == 0; }
+    bool forwards(std::uint32_t sweep) const {
+        return !settings_.alternate_sweeps || sweep % 2 == 0;
+    }
 
     const Settings settings_;
     Workers& workers_;
     bool shocks_;
-    /// Shock propagation carries each level by itself; impulses of the step before would only stand in its way.
+    /// Shock propagation carries each level by itself; impulses of the step before would only stand
+    /// in its way.
     bool warm_start_;
     VelocityTable<Real> table_;
     PassSettings<Real> pass_{};
@@ -125,23 +137,30 @@ std::unique_ptr<RowSolver> make_with_lanes(const World& world, const Plan& plan,
     const int lanes = world.settings.lanes == 0 ? widest : static_cast<int>(world.settings.lanes);
     if (lanes <= widest) {
         switch (lanes) {
-            case 1: return std::make_unique<RowSolverOf<Real, 1>>(world, plan, workers);
-            case 4: return std::make_unique<RowSolverOf<Real, 4>>(world, plan, workers);
-            case 8: return std::make_unique<RowSolverOf<Real, 8>>(world, plan, workers);
-            case 16: return std::make_unique<RowSolverOf<Real, 16>>(world, plan, workers);
-            default: break;
+            case 1:
+                return std::make_unique<RowSolverOf<Real, 1>>(world, plan, workers);
+            case 4:
+                return std::make_unique<RowSolverOf<Real, 4>>(world, plan, workers);
+            case 8:
+                return std::make_unique<RowSolverOf<Real, 8>>(world, plan, workers);
+            case 16:
+                return std::make_unique<RowSolverOf<Real, 16>>(world, plan, workers);
+            default:
+                break;
         }
     }
     throw SceneError("", "/settings/lanes",
                      std::to_string(lanes) + " lanes cannot be run here; this processor runs 1, 4" +
-                         (widest >= 8 ? ", 8" : "") + (widest >= 16 ? ", 16" : "") + ", or 0 for the widest");
+                         (widest >= 8 ? ", 8" : "") + (widest >= 16 ? ", 16" : "") +
+                         ", or 0 for the widest");
 }
 
 }  // namespace
 
 std::unique_ptr<RowSolver> make_row_solver(const World& world, const Plan& plan, Workers& workers) {
-    return world.settings.precision == Precision::single ? make_with_lanes<float>(world, plan, workers)
-                                                         : make_with_lanes<double>(world, plan, workers);
+    return world.settings.precision == Precision::single
+               ? make_with_lanes<float>(world, plan, workers)
+               : make_with_lanes<double>(world, plan, workers);
 }
 
 }  // namespace plumb

@@ -16,11 +16,12 @@ class RowSolver {
 public:
     virtual ~RowSolver() = default;
 
-    /// Once a step: colours the contacts, fills their rows, and takes over the impulses they remember.
+    /// Once a step: colours the contacts, fills their rows, and takes over the impulses they
+    /// remember.
     virtual void load_contacts(const World& world) = 0;
 
-    /// Once a substep of length h [s]: velocities, gaps and drifts at its start. Returns how many contacts overlap
-    /// deeper than the substep may push out.
+    /// Once a substep of length h [s]: velocities, gaps and drifts at its start. Returns how many
+    /// contacts overlap deeper than the substep may push out.
     virtual std::uint32_t begin_substep(const World& world, double h) = 0;
 
     virtual void solve_velocities() = 0;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The stages of a step that work on the world's tables. Each does one thing; step.cpp puts them in order.
+/// The stages of a step that work on the world's tables. Each does one thing; step.cpp puts them in
+/// order.
 #pragma once
 
 #include "effects/plan.h"
@@ -21,11 +22,13 @@ struct DetectBuffers {
     std::vector<ContactSink> sinks;              ///< [worker]
 };
 
-/// Asks the collider for all contacts at the present poses, bodies growing their margin by how far they may move in
-/// dt [s]. Its status and message go into the report.
-void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt, StepReport& report);
+/// Asks the collider for all contacts at the present poses, bodies growing their margin by how far
+/// they may move in dt [s]. Its status and message go into the report.
+void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt,
+            StepReport& report);
 
-/// Checks and sorts what was found, and hands each contact the memory of the same contact of the step before.
+/// Checks and sorts what was found, and hands each contact the memory of the same contact of the
+/// step before.
 void match_contacts(World& world, const Plan& plan);
 
 /// Gaps and drifts at the start of a substep, from points that ride on the bodies.
@@ -34,15 +37,16 @@ void follow_contacts(World& world, const Plan& plan, bool first_substep);
 /// Kinematic bodies' velocities over the coming substep of length h [s], from their scripts.
 void move_scripted(World& world, double h);
 
-/// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich). Speeds are those
-/// before forces are added, so that a resting body does not bounce, whatever its e.
+/// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich).
+/// Speeds are those before forces are added, so that a resting body does not bounce, whatever its
+/// e.
 void choose_rebounds(World& world, bool first_substep);
 
 /// v ← v + h F/m, ω ← ω + h I⁻¹(τ − ω × Iω) (§3).
 void integrate_velocities(World& world, const Plan& plan, double h);
 
-/// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made; where angular momentum is carried, it
-/// decides the velocity that is left.
+/// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made; where angular
+/// momentum is carried, it decides the velocity that is left.
 void move(World& world, const RowSolver& solver, double h);
 
 /// Keeps contacts and impulses for the next step.

@@ -9,15 +9,17 @@ namespace {
 bool is_finite(const World& world) {
     Vector3d sum = Vector3d::Zero();
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
-        sum += world.bodies.position[i] + world.bodies.velocity[i] + world.bodies.angular_velocity[i];
+        sum +=
+            world.bodies.position[i] + world.bodies.velocity[i] + world.bodies.angular_velocity[i];
     return sum.allFinite();
 }
 
 }  // namespace
 
-/// Contacts are found once (§6: one discrete detection). Each substep of length h then makes velocities admissible
-/// and repairs positions, where x₀ + h v is the preview position all along, and moves. The order matters: friction
-/// solved before positions is what keeps a resting body from sliding.
+/// Contacts are found once (§6: one discrete detection). Each substep of length h then makes
+/// velocities admissible and repairs positions, where x₀ + h v is the preview position all along,
+/// and moves. The order matters: friction solved before positions is what keeps a resting body from
+/// sliding.
 StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     StepReport report;
     Ledger& ledger = stepper.ledger = {};
@@ -36,15 +38,18 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     }
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {
         const bool first = i == 0;
-        if (plan.runs(Effect::kinematics)) timed(Stage::kinematics, [&] { move_scripted(world, h); });
+        if (plan.runs(Effect::kinematics))
+            timed(Stage::kinematics, [&] { move_scripted(world, h); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
-        if (plan.runs(Effect::restitution)) timed(Stage::restitution, [&] { choose_rebounds(world, first); });
+        if (plan.runs(Effect::restitution))
+            timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, h); });
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
         timed(Stage::begin, [&] { report.clamped_recoveries += solver.begin_substep(world, h); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
         timed(Stage::positions, [&] { solver.solve_positions(); });
-        if (plan.runs(Effect::shock_propagation)) timed(Stage::shock, [&] { solver.propagate_shock(); });
+        if (plan.runs(Effect::shock_propagation))
+            timed(Stage::shock, [&] { solver.propagate_shock(); });
         timed(Stage::move, [&] { move(world, solver, h); });
         world.time += h;
     }
@@ -55,7 +60,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
 
     world.time = static_cast<double>(++world.steps) * dt;
     report.finite = is_finite(world);
-    ledger.step_nanoseconds = static_cast<std::uint64_t>((std::chrono::steady_clock::now() - start).count());
+    ledger.step_nanoseconds =
+        static_cast<std::uint64_t>((std::chrono::steady_clock::now() - start).count());
     return report;
 }
 

@@ -19,7 +19,9 @@ namespace plumb {
 /// What steps need besides the world: the plan, the threads, and reused memory.
 struct Stepper {
     explicit Stepper(const World& world)
-        : plan(make_plan(world)), workers(world.settings.threads), solver(make_row_solver(world, plan, workers)) {}
+        : plan(make_plan(world)),
+          workers(world.settings.threads),
+          solver(make_row_solver(world, plan, workers)) {}
 
     Plan plan;
     Workers workers;

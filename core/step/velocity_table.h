@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// The solver's unknowns: one row a body, 32 bytes in single and 64 in double precision.
 ///
-/// Because every displacement is followed at once by its velocity (§3, end), x = x₀ + h v holds throughout the
-/// iterations, and velocity and preview position are one unknown. Rows hold the change since the start of the
-/// substep, so that single precision loses nothing of gravity at tiny steps.
+/// Because every displacement is followed at once by its velocity (§3, end), x = x₀ + h v holds
+/// throughout the iterations, and velocity and preview position are one unknown. Rows hold the
+/// change since the start of the substep, so that single precision loses nothing of gravity at tiny
+/// steps.
 #pragma once
 
 #include "schedule/contact_rows.h"

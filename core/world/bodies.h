@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The bodies' state as tables, one column a quantity, indexed by body.
 ///
-/// A body's own frame has its origin in the centre of mass and its axes along the principal axes of inertia.
+/// A body's own frame has its origin in the centre of mass and its axes along the principal axes of
+/// inertia.
 #pragma once
 
 #include "math/symmetric.h"
@@ -20,20 +21,24 @@ struct Bodies {
     std::vector<Vector3d> velocity;          ///< of the centre of mass [m/s]
     std::vector<Vector3d> angular_velocity;  ///< [rad/s], world frame
 
-    std::vector<double> mass, inverse_mass;             ///< [kg], [1/kg]; 0 and 0 unless dynamic
-    std::vector<Vector3d> inertia, inverse_inertia;     ///< principal moments, body frame [kg m²]; 0 unless dynamic
-    std::vector<std::uint8_t> isotropic;                ///< 1: all moments equal, so there is no gyroscopic term
-    std::vector<Vector3d> force, torque;                ///< constant, world frame [N], [N m]
+    std::vector<double> mass, inverse_mass;  ///< [kg], [1/kg]; 0 and 0 unless dynamic
+    std::vector<Vector3d> inertia,
+        inverse_inertia;  ///< principal moments, body frame [kg m²]; 0 unless dynamic
+    std::vector<std::uint8_t> isotropic;  ///< 1: all moments equal, so there is no gyroscopic term
+    std::vector<Vector3d> force, torque;  ///< constant, world frame [N], [N m]
 
-    std::vector<Placement> geometry_in_body;  ///< where the geometry's frame sits in the body's frame
-    std::vector<double> reach;                ///< radius about the centre of mass that holds the geometry [m]
+    std::vector<Placement>
+        geometry_in_body;       ///< where the geometry's frame sits in the body's frame
+    std::vector<double> reach;  ///< radius about the centre of mass that holds the geometry [m]
     std::vector<std::uint32_t> material;
-    std::vector<MotionScript> script;  ///< of kinematic bodies: where the centre of mass and principal axes are
+    std::vector<MotionScript>
+        script;  ///< of kinematic bodies: where the centre of mass and principal axes are
 
     // The substep's own columns.
-    std::vector<std::int32_t> row;                         ///< row in the solver's velocity table
+    std::vector<std::int32_t> row;                          ///< row in the solver's velocity table
     std::vector<Symmetric3<double>> world_inverse_inertia;  ///< at the start of the substep
-    std::vector<Vector3d> angular_momentum;  ///< carried through the substep where `isotropic` is 0 [kg m²/s]
+    std::vector<Vector3d>
+        angular_momentum;  ///< carried through the substep where `isotropic` is 0 [kg m²/s]
 
     std::size_t size() const { return motion.size(); }
 };
@@ -41,7 +46,8 @@ struct Bodies {
 /// Where the body's geometry is in the world.
 inline Placement geometry_placement(const Bodies& bodies, std::size_t i) {
     const Placement& local = bodies.geometry_in_body[i];
-    return {bodies.position[i] + bodies.orientation[i] * local.position, bodies.orientation[i] * local.rotation};
+    return {bodies.position[i] + bodies.orientation[i] * local.position,
+            bodies.orientation[i] * local.rotation};
 }
 
 }  // namespace plumb

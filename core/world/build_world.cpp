@@ -13,10 +13,12 @@ namespace plumb {
 namespace {
 
 [[noreturn]] void refuse(std::size_t body, const char* key, const std::string& sentence) {
-    throw SceneError("", "/bodies/" + std::to_string(body) + (*key ? std::string("/") + key : ""), sentence);
+    throw SceneError("", "/bodies/" + std::to_string(body) + (*key ? std::string("/") + key : ""),
+                     sentence);
 }
 
-/// Principal moments and axes of a symmetric tensor; axes are left alone where it is diagonal already.
+/// Principal moments and axes of a symmetric tensor; axes are left alone where it is diagonal
+/// already.
 struct Principal {
     Vector3d moments;
     Quaterniond axes;
@@ -41,14 +43,16 @@ BodyMass body_mass(const Scene& scene, std::size_t i) {
     const BodySpec& spec = scene.bodies[i];
     BodyMass result;
     if (spec.geometry == kNoIndex) {
-        if (!spec.mass || !spec.inertia) refuse(i, "", "a body without a shape needs both mass and inertia");
+        if (!spec.mass || !spec.inertia)
+            refuse(i, "", "a body without a shape needs both mass and inertia");
         result.mass = *spec.mass, result.moments = *spec.inertia;
         return result;
     }
     const MassProperties m = mass_properties(scene.geometries[spec.geometry]);
     if (!(m.volume > 0) && !(spec.mass && spec.inertia))
-        refuse(i, "shape", std::string("a ") + name_of(scene.geometries[spec.geometry].kind) +
-                               " that encloses no volume cannot be dynamic unless mass and inertia are given");
+        refuse(i, "shape",
+               std::string("a ") + name_of(scene.geometries[spec.geometry].kind) +
+                   " that encloses no volume cannot be dynamic unless mass and inertia are given");
     result.mass = spec.mass.value_or(scene.materials[spec.material].density * m.volume);
     result.body_in_geometry.position = m.centre;
     if (spec.inertia) {
@@ -61,21 +65,26 @@ BodyMass body_mass(const Scene& scene, std::size_t i) {
 }
 
 void check_mass(std::size_t i, const BodyMass& m) {
-    if (!(m.mass > 0) || !std::isfinite(m.mass)) refuse(i, "mass", "the mass of a dynamic body must be a positive number");
+    if (!(m.mass > 0) || !std::isfinite(m.mass))
+        refuse(i, "mass", "the mass of a dynamic body must be a positive number");
     const Vector3d& j = m.moments;
-    if (!j.allFinite() || !(j.minCoeff() > 0)) refuse(i, "inertia", "principal moments must be positive numbers");
+    if (!j.allFinite() || !(j.minCoeff() > 0))
+        refuse(i, "inertia", "principal moments must be positive numbers");
     if (2 * j.maxCoeff() > j.sum() * (1 + 1e-6))
-        refuse(i, "inertia", "no body has such principal moments: each is at most the sum of the other two");
+        refuse(i, "inertia",
+               "no body has such principal moments: each is at most the sum of the other two");
 }
 
 void check_spec(const Scene& scene, std::size_t i) {
     const BodySpec& s = scene.bodies[i];
-    if (s.geometry != kNoIndex && s.geometry >= scene.geometries.size()) refuse(i, "shape", "no such shape");
+    if (s.geometry != kNoIndex && s.geometry >= scene.geometries.size())
+        refuse(i, "shape", "no such shape");
     if (s.material >= scene.materials.size()) refuse(i, "material", "no such material");
     if (!s.placement.position.allFinite()) refuse(i, "position", "must be finite numbers");
     if (!s.placement.rotation.coeffs().allFinite() || s.placement.rotation.norm() < 1e-9)
         refuse(i, "rotation", "must be a rotation");
-    if (!s.velocity.allFinite() || !s.angular_velocity.allFinite()) refuse(i, "velocity", "must be finite numbers");
+    if (!s.velocity.allFinite() || !s.angular_velocity.allFinite())
+        refuse(i, "velocity", "must be finite numbers");
     if (!s.force.allFinite() || !s.torque.allFinite()) refuse(i, "force", "must be finite numbers");
 }
 
@@ -84,7 +93,8 @@ Placement inverse(const Placement& p) {
     return {-(r * p.position), r};
 }
 Placement operator*(const Placement& outer, const Placement& inner) {
-    return {outer.position + outer.rotation * inner.position, (outer.rotation * inner.rotation).normalized()};
+    return {outer.position + outer.rotation * inner.position,
+            (outer.rotation * inner.rotation).normalized()};
 }
 
 void add_body(World& world, const Scene& scene, std::size_t i) {
@@ -105,18 +115,21 @@ void add_body(World& world, const Scene& scene, std::size_t i) {
     b.position.push_back(body.position);
     b.orientation.push_back(body.rotation);
     b.velocity.push_back(spec.motion == Motion::fixed ? Vector3d::Zero().eval() : spec.velocity);
-    b.angular_velocity.push_back(spec.motion == Motion::fixed ? Vector3d::Zero().eval() : spec.angular_velocity);
+    b.angular_velocity.push_back(spec.motion == Motion::fixed ? Vector3d::Zero().eval()
+                                                              : spec.angular_velocity);
     b.mass.push_back(m.mass);
     b.inverse_mass.push_back(dynamic ? 1 / m.mass : 0);
     b.inertia.push_back(m.moments);
-    b.inverse_inertia.push_back(dynamic ? m.moments.cwiseInverse().eval() : Vector3d::Zero().eval());
-    b.isotropic.push_back(!dynamic || m.moments.maxCoeff() - m.moments.minCoeff() <= 1e-9 * m.moments.maxCoeff());
+    b.inverse_inertia.push_back(dynamic ? m.moments.cwiseInverse().eval()
+                                        : Vector3d::Zero().eval());
+    b.isotropic.push_back(!dynamic || m.moments.maxCoeff() - m.moments.minCoeff() <=
+                                          1e-9 * m.moments.maxCoeff());
     b.force.push_back(spec.force);
     b.torque.push_back(spec.torque);
     b.geometry_in_body.push_back(inverse(m.body_in_geometry));
-    b.reach.push_back(spec.geometry == kNoIndex
-                          ? 0
-                          : reach_from(scene.geometries[spec.geometry], m.body_in_geometry.position));
+    b.reach.push_back(spec.geometry == kNoIndex ? 0
+                                                : reach_from(scene.geometries[spec.geometry],
+                                                             m.body_in_geometry.position));
     b.material.push_back(spec.material);
     b.script.push_back(spec.script);
     b.world_inverse_inertia.push_back(Symmetric3<double>{});
@@ -132,7 +145,9 @@ void assign_rows(World& world) {
     }
     std::int32_t dynamic = 0, kinematic = world.dynamic_count;
     for (Motion m : b.motion)
-        b.row.push_back(m == Motion::dynamic ? dynamic++ : m == Motion::kinematic ? kinematic++ : world.zero_row());
+        b.row.push_back(m == Motion::dynamic     ? dynamic++
+                        : m == Motion::kinematic ? kinematic++
+                                                 : world.zero_row());
 }
 
 void add_surface_pairs(World& world, const Scene& scene) {
@@ -142,7 +157,8 @@ void add_surface_pairs(World& world, const Scene& scene) {
     for (std::uint32_t a = 0; a < n; ++a)
         for (std::uint32_t b = 0; b < n; ++b) {
             const Material &x = scene.materials[a], &y = scene.materials[b];
-            world.surface_pairs[a * n + b] = {std::sqrt(x.friction * y.friction), std::max(x.restitution, y.restitution),
+            world.surface_pairs[a * n + b] = {std::sqrt(x.friction * y.friction),
+                                              std::max(x.restitution, y.restitution),
                                               std::max(x.rolling_friction, y.rolling_friction),
                                               std::max(x.spinning_friction, y.spinning_friction)};
         }
@@ -160,14 +176,20 @@ void add_joint(World& world, const Scene& scene, std::size_t i) {
     const JointSpec& spec = scene.joints[i];
     const std::string pointer = "/joints/" + std::to_string(i);
     const Bodies& b = world.bodies;
-    if (spec.body_a >= b.size() || (spec.body_b != kNoIndex && spec.body_b >= b.size()) || spec.body_a == spec.body_b)
-        throw SceneError("", pointer + "/bodies", "a joint links two different bodies, or one body and the world");
-    if (!spec.anchor.allFinite()) throw SceneError("", pointer + "/anchor", "must be finite numbers");
+    if (spec.body_a >= b.size() || (spec.body_b != kNoIndex && spec.body_b >= b.size()) ||
+        spec.body_a == spec.body_b)
+        throw SceneError("", pointer + "/bodies",
+                         "a joint links two different bodies, or one body and the world");
+    if (!spec.anchor.allFinite())
+        throw SceneError("", pointer + "/anchor", "must be finite numbers");
     auto dynamic = [&](std::uint32_t k) { return k != kNoIndex && b.motion[k] == Motion::dynamic; };
     if (!dynamic(spec.body_a) && !dynamic(spec.body_b))
-        throw SceneError("", pointer + "/bodies", "at least one of the linked bodies must be dynamic");
+        throw SceneError("", pointer + "/bodies",
+                         "at least one of the linked bodies must be dynamic");
     auto local = [&](std::uint32_t k) -> Vector3d {
-        return k == kNoIndex ? spec.anchor : Vector3d(b.orientation[k].conjugate() * (spec.anchor - b.position[k]));
+        return k == kNoIndex
+                   ? spec.anchor
+                   : Vector3d(b.orientation[k].conjugate() * (spec.anchor - b.position[k]));
     };
     world.balls.a.push_back(spec.body_a);
     world.balls.b.push_back(spec.body_b);
@@ -182,7 +204,8 @@ World build_world(const Scene& scene) {
     world.settings = scene.settings;
     if (!(scene.settings.dt > 0) || !std::isfinite(scene.settings.dt))
         throw SceneError("", "/settings/dt", "the step must be a positive number of seconds");
-    if (scene.settings.substeps == 0) throw SceneError("", "/settings/substeps", "at least one substep is needed");
+    if (scene.settings.substeps == 0)
+        throw SceneError("", "/settings/substeps", "at least one substep is needed");
     for (const Geometry& g : scene.geometries) world.shapes.add(g);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add_body(world, scene, i);
     assign_rows(world);

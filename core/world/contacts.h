@@ -13,10 +13,10 @@ namespace plumb {
 
 /// What a contact remembers while the same features touch.
 struct ContactMemory {
-    double normal_impulse = 0;                        ///< summed over both passes of the last substep [N s]
-    Vector3d friction_impulse = Vector3d::Zero();     ///< world frame [N s]
-    Vector3d stick_a = Vector3d::Zero();              ///< points of a and b that met when it began to stick,
-    Vector3d stick_b = Vector3d::Zero();              ///< in the bodies' frames [m]
+    double normal_impulse = 0;  ///< summed over both passes of the last substep [N s]
+    Vector3d friction_impulse = Vector3d::Zero();  ///< world frame [N s]
+    Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,
+    Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
     bool sticks = false;
     bool known = false;    ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
@@ -29,20 +29,24 @@ struct ContactTrack {
 
 /// Columns of one length: [contact], sorted by (a, b, feature).
 struct ContactTable {
-    std::vector<Contact> found;         ///< as the collider reported them, at the start of the step
+    std::vector<Contact> found;  ///< as the collider reported them, at the start of the step
     std::vector<ContactMemory> memory;
-    std::vector<ContactTrack> track;    ///< only with more than one substep
-    std::vector<double> gap;            ///< at the start of the substep [m]
-    std::vector<double> rebound;        ///< separating speed that restitution asks for [m/s]; only where some pair
-                                        ///< bounces. kPassing: let it come through, it bounces once it touches
+    std::vector<ContactTrack> track;  ///< only with more than one substep
+    std::vector<double> gap;          ///< at the start of the substep [m]
+    std::vector<double>
+        rebound;  ///< separating speed that restitution asks for [m/s]; only where some pair
+                  ///< bounces. kPassing: let it come through, it bounces once it touches
     std::vector<std::uint8_t> bounced;  ///< restitution is consumed once a step
-    std::vector<Vector3d> drift;        ///< how far a sticking contact has left its anchors [m]; else empty
+    std::vector<Vector3d>
+        drift;  ///< how far a sticking contact has left its anchors [m]; else empty
 
     std::vector<Contact> found_before;  ///< of the step before
     std::vector<ContactMemory> memory_before;
-    std::vector<std::uint8_t> used;  ///< of those before: whether a contact has taken over its memory
+    std::vector<std::uint8_t>
+        used;  ///< of those before: whether a contact has taken over its memory
 
-    std::uint64_t rejected = 0;  ///< contacts left out since the start: a number not finite, or an id unknown
+    std::uint64_t rejected =
+        0;  ///< contacts left out since the start: a number not finite, or an id unknown
 
     static constexpr double kPassing = -1;
 };
@@ -53,7 +57,8 @@ inline Vector3d common_point(const Contact& c) {
     return 0.5 * ((to_eigen(c.point_a) - c.radius_a * n) + (to_eigen(c.point_b) + c.radius_b * n));
 }
 
-/// Whether a contact's anchors are material points of the surface, so that sticking can remember them.
+/// Whether a contact's anchors are material points of the surface, so that sticking can remember
+/// them.
 inline bool is_sharp(const Contact& c) { return c.radius_a == 0 && c.radius_b == 0; }
 
 }  // namespace plumb

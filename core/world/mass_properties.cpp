@@ -40,7 +40,8 @@ MassProperties capsule(double r, double h) {
 
 /// Height 2h with the base at −h: the centre of mass is a quarter of the height above the base.
 MassProperties cone(double r, double h) {
-    const double v = kPi * r * r * 2 * h / 3, across = v * (3.0 / 20 * r * r + 3.0 / 80 * 4 * h * h);
+    const double v = kPi * r * r * 2 * h / 3,
+                 across = v * (3.0 / 20 * r * r + 3.0 / 80 * 4 * h * h);
     return {v, Vector3d(0, -h / 2, 0), diagonal(across, 0.3 * v * r * r, across)};
 }
 
@@ -52,7 +53,8 @@ public:
         volume_ += v;
         first_ += v / 4 * (a + b + c);
         const Vector3d s = a + b + c;
-        second_ += v / 20 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
+        second_ += v / 20 *
+                   (a * a.transpose() + b * b.transpose() + c * c.transpose() + s * s.transpose());
     }
     MassProperties result() const {
         if (!(volume_ > 0)) return {};
@@ -63,13 +65,14 @@ public:
 
 private:
     double volume_ = 0;
-    Vector3d first_ = Vector3d::Zero();    // ∫ x
-    Matrix3d second_ = Matrix3d::Zero();   // ∫ x xᵀ
+    Vector3d first_ = Vector3d::Zero();   // ∫ x
+    Matrix3d second_ = Matrix3d::Zero();  // ∫ x xᵀ
 };
 
 MassProperties polyhedron(const Geometry& g) {
     Tetrahedra sum;
-    const Vector3d from = g.vertices.empty() ? Vector3d::Zero() : g.vertices[0];  // keeps digits far from the origin
+    const Vector3d from =
+        g.vertices.empty() ? Vector3d::Zero() : g.vertices[0];  // keeps digits far from the origin
     auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
         sum.add(g.vertices[a] - from, g.vertices[b] - from, g.vertices[c] - from);
     };
@@ -98,7 +101,8 @@ MassProperties compound(const Geometry& g) {
     sum.centre /= sum.volume;
     for (const MassProperties& m : parts) {
         const Vector3d d = m.centre - sum.centre;
-        sum.inertia += m.inertia + m.volume * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
+        sum.inertia +=
+            m.inertia + m.volume * (d.squaredNorm() * Matrix3d::Identity() - d * d.transpose());
     }
     return sum;
 }
@@ -107,16 +111,24 @@ MassProperties compound(const Geometry& g) {
 
 MassProperties mass_properties(const Geometry& g) {
     switch (g.kind) {
-        case ShapeKind::sphere: return sphere(g.radius);
-        case ShapeKind::box: return box(g.half_extents);
-        case ShapeKind::capsule: return capsule(g.radius, g.half_height);
-        case ShapeKind::cylinder: return cylinder(g.radius, g.half_height);
-        case ShapeKind::cone: return cone(g.radius, g.half_height);
+        case ShapeKind::sphere:
+            return sphere(g.radius);
+        case ShapeKind::box:
+            return box(g.half_extents);
+        case ShapeKind::capsule:
+            return capsule(g.radius, g.half_height);
+        case ShapeKind::cylinder:
+            return cylinder(g.radius, g.half_height);
+        case ShapeKind::cone:
+            return cone(g.radius, g.half_height);
         case ShapeKind::hull:
-        case ShapeKind::mesh: return polyhedron(g);
-        case ShapeKind::compound: return compound(g);
+        case ShapeKind::mesh:
+            return polyhedron(g);
+        case ShapeKind::compound:
+            return compound(g);
         case ShapeKind::plane:
-        case ShapeKind::height_field: return {};
+        case ShapeKind::height_field:
+            return {};
     }
     return {};
 }
@@ -124,22 +136,29 @@ MassProperties mass_properties(const Geometry& g) {
 double reach_from(const Geometry& g, const Vector3d& centre) {
     double reach = 0;
     switch (g.kind) {
-        case ShapeKind::plane: return std::numeric_limits<double>::infinity();
-        case ShapeKind::sphere: return centre.norm() + g.radius;
-        case ShapeKind::box: return centre.norm() + g.half_extents.norm();
-        case ShapeKind::capsule: return centre.norm() + g.half_height + g.radius;
+        case ShapeKind::plane:
+            return std::numeric_limits<double>::infinity();
+        case ShapeKind::sphere:
+            return centre.norm() + g.radius;
+        case ShapeKind::box:
+            return centre.norm() + g.half_extents.norm();
+        case ShapeKind::capsule:
+            return centre.norm() + g.half_height + g.radius;
         case ShapeKind::cylinder:
-        case ShapeKind::cone: return centre.norm() + std::hypot(g.half_height, g.radius);
+        case ShapeKind::cone:
+            return centre.norm() + std::hypot(g.half_height, g.radius);
         case ShapeKind::height_field:
             for (double y : g.heights) reach = std::max(reach, std::abs(y));
-            return centre.norm() + std::hypot(g.columns * g.spacing_x, g.rows * g.spacing_z) / 2 + reach;
+            return centre.norm() + std::hypot(g.columns * g.spacing_x, g.rows * g.spacing_z) / 2 +
+                   reach;
         case ShapeKind::hull:
         case ShapeKind::mesh:
             for (const Vector3d& v : g.vertices) reach = std::max(reach, (v - centre).norm());
             return reach;
         case ShapeKind::compound:
             for (const GeometryPart& p : g.parts)
-                reach = std::max(reach, reach_from(p.geometry, p.local.rotation.conjugate() * (centre - p.local.position)));
+                reach = std::max(reach, reach_from(p.geometry, p.local.rotation.conjugate() *
+                                                                   (centre - p.local.position)));
             return reach;
     }
     return reach;

@@ -8,9 +8,9 @@
 namespace plumb {
 
 struct MassProperties {
-    double volume = 0;                        ///< [m³]
-    Vector3d centre = Vector3d::Zero();       ///< centre of mass, geometry frame [m]
-    Matrix3d inertia = Matrix3d::Zero();      ///< about the centre, geometry's axes, density 1 [m⁵]
+    double volume = 0;                    ///< [m³]
+    Vector3d centre = Vector3d::Zero();   ///< centre of mass, geometry frame [m]
+    Matrix3d inertia = Matrix3d::Zero();  ///< about the centre, geometry's axes, density 1 [m⁵]
 };
 
 /// Planes, height fields and open or inside-out meshes have no volume: 0 comes back.

@@ -6,7 +6,8 @@
 namespace plumb {
 namespace {
 
-/// Newell's normal of a polygon: right for any planar corner order, and the mean where it is slightly bent.
+/// Newell's normal of a polygon: right for any planar corner order, and the mean where it is
+/// slightly bent.
 Vector3d polygon_normal(const Geometry& g, const std::uint32_t* corners, std::size_t count) {
     Vector3d sum = Vector3d::Zero();
     const Vector3d& from = g.vertices[corners[0]];
@@ -57,7 +58,8 @@ Shape ShapeStore::make(const Geometry& g) {
     if (!g.parts.empty()) {
         std::vector<ShapePart> parts;
         for (const GeometryPart& p : g.parts)
-            parts.push_back({make(p.geometry), {to_plain(p.local.position), to_plain(p.local.rotation)}});
+            parts.push_back(
+                {make(p.geometry), {to_plain(p.local.position), to_plain(p.local.rotation)}});
         s.part_count = static_cast<std::uint32_t>(parts.size());
         s.parts = parts_.emplace_back(std::move(parts)).data();
     }

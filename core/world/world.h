@@ -19,8 +19,9 @@ struct SurfacePair {
 
 /// Ball joints, [joint].
 struct BallJoints {
-    std::vector<std::uint32_t> a, b;               ///< bodies; b may be kNoIndex: the world
-    std::vector<Vector3d> anchor_a, anchor_b;      ///< in the bodies' frames; world frame where b is kNoIndex [m]
+    std::vector<std::uint32_t> a, b;  ///< bodies; b may be kNoIndex: the world
+    std::vector<Vector3d> anchor_a,
+        anchor_b;  ///< in the bodies' frames; world frame where b is kNoIndex [m]
     std::size_t size() const { return a.size(); }
 };
 
@@ -43,8 +44,9 @@ struct World {
     std::int32_t zero_row() const { return dynamic_count + kinematic_count; }
 };
 
-/// Makes the world of a scene. Throws SceneError, with a JSON pointer, for what cannot be simulated: a dynamic body
-/// without mass, an impossible inertia, an index out of range, a number that is not finite.
+/// Makes the world of a scene. Throws SceneError, with a JSON pointer, for what cannot be
+/// simulated: a dynamic body without mass, an impossible inertia, an index out of range, a number
+/// that is not finite.
 World build_world(const Scene& scene);
 
 }  // namespace plumb

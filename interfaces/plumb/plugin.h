@@ -5,9 +5,9 @@
 ///
 ///     extern "C" PLUMB_PLUGIN_EXPORT const plumb::PluginTable* plumb_collider_plugin(void);
 ///
-/// The host loads it with RTLD_NOW | RTLD_LOCAL, and reads `magic` and the version before anything else. A plugin of
-/// another major version, or whose structs have other sizes, is refused with a sentence; a plugin of a lower minor
-/// version is used without what came later.
+/// The host loads it with RTLD_NOW | RTLD_LOCAL, and reads `magic` and the version before anything
+/// else. A plugin of another major version, or whose structs have other sizes, is refused with a
+/// sentence; a plugin of a lower minor version is used without what came later.
 #pragma once
 
 #include <plumb/proximity.h>
@@ -54,11 +54,11 @@ struct CreateRequest {
 };
 
 struct PluginTable {
-    std::uint32_t magic;      ///< kPluginMagic
-    std::uint32_t abi_major;  ///< kAbiMajor
-    std::uint32_t abi_minor;  ///< kAbiMinor
-    std::uint32_t table_size; ///< sizeof(PluginTable)
-    AbiSizes sizes;           ///< abi_sizes()
+    std::uint32_t magic;       ///< kPluginMagic
+    std::uint32_t abi_major;   ///< kAbiMajor
+    std::uint32_t abi_minor;   ///< kAbiMinor
+    std::uint32_t table_size;  ///< sizeof(PluginTable)
+    AbiSizes sizes;            ///< abi_sizes()
 
     const char* name;             ///< "ode": what a user writes behind --collider
     const char* description;      ///< one line

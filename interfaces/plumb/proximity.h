@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: MIT
 /// The abstract collider: all that the solver knows about collision detection.
 ///
-/// An embedder derives from `Proximity` and hands the object to the core; a plugin does the same behind the table
-/// of plugin.h. What the core relies on:
+/// An embedder derives from `Proximity` and hands the object to the core; a plugin does the same
+/// behind the table of plugin.h. What the core relies on:
 ///
-///  * A collider is a pure function of shapes and poses. It keeps acceleration structures, never histories: asked
+///  * A collider is a pure function of shapes and poses. It keeps acceleration structures, never
+///  histories: asked
 ///    twice with the same poses it answers the same, whatever was asked between.
-///  * Every pair whose gap is at most the margin is reported, with as many points as its touching area needs (a box
+///  * Every pair whose gap is at most the margin is reported, with as many points as its touching
+///  area needs (a box
 ///    on a plane: four). The margin is a distance of detection, never a thickness.
-///  * A pair is ordered a < b before its narrow phase, and contacts arrive sorted by (a, b, feature).
+///  * A pair is ordered a < b before its narrow phase, and contacts arrive sorted by (a, b,
+///  feature).
 ///  * No call throws. Trouble is a status with a sentence; what was found before it stays valid.
 ///
-/// Virtual functions are only ever appended. The host calls none beyond the minor version that a plugin was built
-/// with; those that are not pure have a default that answers `unsupported`.
+/// Virtual functions are only ever appended. The host calls none beyond the minor version that a
+/// plugin was built with; those that are not pure have a default that answers `unsupported`.
 #pragma once
 
 #include <plumb/contact_set.h>
@@ -22,14 +25,16 @@
 
 namespace plumb {
 
-/// Result of a call. `message` is a static or collider-owned string that lives until the next call, or nullptr.
+/// Result of a call. `message` is a static or collider-owned string that lives until the next call,
+/// or nullptr.
 struct Status {
     enum Code : std::int32_t {
         ok = 0,
         unsupported = 1,    ///< this collider cannot do it, and will say the same next time
         bad_argument = 2,   ///< unknown body, impossible shape
         out_of_memory = 3,  ///< a sink refused to grow, or memory ran out
-        failed = 4          ///< the back-end failed on this call (a pair was left out, an exception was caught)
+        failed =
+            4  ///< the back-end failed on this call (a pair was left out, an exception was caught)
     };
     std::int32_t code;
     std::uint32_t count;  ///< how many pairs were affected, where that makes sense
@@ -40,8 +45,9 @@ inline Status ok_status() noexcept { return {Status::ok, 0, nullptr}; }
 /// How a body takes part. Two bodies that are both not dynamic are never tested against each other.
 enum class Mobility : std::uint32_t { fixed = 0, kinematic = 1, dynamic = 2 };
 
-/// What is added under a body id: the shape, where it sits in the body's frame, and what it may touch.
-/// Two bodies are tested if (group_a & mask_b) != 0 and (group_b & mask_a) != 0, and the pair is not excluded.
+/// What is added under a body id: the shape, where it sits in the body's frame, and what it may
+/// touch. Two bodies are tested if (group_a & mask_b) != 0 and (group_b & mask_a) != 0, and the
+/// pair is not excluded.
 struct ShapePlacement {
     Shape shape;
     Pose local;  ///< shape frame → body frame
@@ -52,13 +58,16 @@ struct ShapePlacement {
 };
 
 enum DetectFlags : std::uint32_t {
-    kDetectRaw = 1u << 0  ///< report what the back-end itself says: no shared clipping, no reduction
+    kDetectRaw =
+        1u << 0  ///< report what the back-end itself says: no shared clipping, no reduction
 };
 
 /// One question: all contacts at these poses.
 struct DetectRequest {
-    const Pose* poses;      ///< [body_count], indexed by body id; bodies that were never added are ignored
-    const double* sweeps;   ///< [body_count] how far each body may move this step [m], or nullptr: grows the margin
+    const Pose*
+        poses;  ///< [body_count], indexed by body id; bodies that were never added are ignored
+    const double* sweeps;  ///< [body_count] how far each body may move this step [m], or nullptr:
+                           ///< grows the margin
     std::uint32_t body_count;
     std::uint32_t flags;  ///< DetectFlags
     double margin;        ///< every pair with gap ≤ margin (+ sweeps of both) is wanted [m]
@@ -66,11 +75,11 @@ struct DetectRequest {
 
 /// Counts that a collider keeps of its last `detect`.
 struct DetectStats {
-    std::uint64_t broad_pairs;   ///< candidates of the broad phase
-    std::uint64_t narrow_pairs;  ///< pairs with at least one contact
-    std::uint64_t from_backend;  ///< contacts that are the back-end's own
-    std::uint64_t from_clip;     ///< contacts made by clipping support faces
-    std::uint64_t from_fallback; ///< contacts where clipping fell back on the back-end's witness
+    std::uint64_t broad_pairs;    ///< candidates of the broad phase
+    std::uint64_t narrow_pairs;   ///< pairs with at least one contact
+    std::uint64_t from_backend;   ///< contacts that are the back-end's own
+    std::uint64_t from_clip;      ///< contacts made by clipping support faces
+    std::uint64_t from_fallback;  ///< contacts where clipping fell back on the back-end's witness
 };
 
 struct RayRequest {
@@ -108,10 +117,11 @@ public:
     /// Excludes a pair from detection (bodies that a joint links), or lets it in again.
     virtual Status exclude(std::uint32_t body_a, std::uint32_t body_b, bool excluded) noexcept = 0;
 
-    /// Finds the contacts at the given poses. `sinks` has one sink a worker that the collider may use; a collider
-    /// that works on one thread fills sinks[0]. Each sink's contacts are sorted, and all of sinks[i] stand before
-    /// those of sinks[i + 1].
-    virtual Status detect(const DetectRequest& request, const ContactSink* sinks, std::uint32_t sink_count) noexcept = 0;
+    /// Finds the contacts at the given poses. `sinks` has one sink a worker that the collider may
+    /// use; a collider that works on one thread fills sinks[0]. Each sink's contacts are sorted,
+    /// and all of sinks[i] stand before those of sinks[i + 1].
+    virtual Status detect(const DetectRequest& request, const ContactSink* sinks,
+                          std::uint32_t sink_count) noexcept = 0;
 
     virtual DetectStats stats() const noexcept = 0;
 
@@ -138,7 +148,8 @@ protected:
     Proximity() = default;
     Proximity(const Proximity&) = default;
     Proximity& operator=(const Proximity&) = default;
-    ~Proximity() = default;  ///< not virtual: an object is destroyed by who made it (for a plugin: its table)
+    ~Proximity() =
+        default;  ///< not virtual: an object is destroyed by who made it (for a plugin: its table)
 };
 
 }  // namespace plumb

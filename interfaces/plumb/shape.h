@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// The closed list of shapes that a collider may be asked about, as plain values.
 ///
-/// Lengths are in metres. A shape lives in its own frame; `ShapePlacement::local` puts that frame into the
-/// frame of its body. Round shapes have their axis along y. Memory that a shape points to (vertices, faces,
-/// heights, parts) belongs to the core and stays valid, at the same address, until the body is removed.
+/// Lengths are in metres. A shape lives in its own frame; `ShapePlacement::local` puts that frame
+/// into the frame of its body. Round shapes have their axis along y. Memory that a shape points to
+/// (vertices, faces, heights, parts) belongs to the core and stays valid, at the same address,
+/// until the body is removed.
 #pragma once
 
 #include <cstdint>
@@ -41,8 +42,9 @@ inline constexpr std::uint32_t kShapeKindCount = 10;
 
 /// "plane", "sphere", …; "?" for a value outside of the list.
 inline const char* name_of(ShapeKind kind) noexcept {
-    constexpr const char* names[kShapeKindCount] = {"plane",    "sphere", "box",  "capsule",      "cylinder",
-                                                    "cone",     "hull",   "mesh", "height_field", "compound"};
+    constexpr const char* names[kShapeKindCount] = {"plane",        "sphere",  "box",  "capsule",
+                                                    "cylinder",     "cone",    "hull", "mesh",
+                                                    "height_field", "compound"};
     const auto i = static_cast<std::uint32_t>(kind);
     return i < kShapeKindCount ? names[i] : "?";
 }
@@ -57,14 +59,16 @@ struct Shape {
     double radius;           ///< sphere, capsule, cylinder, cone [m]
     double half_height;      ///< capsule (of its core segment), cylinder, cone [m]
 
-    const Vec3* vertices;        ///< hull, mesh: [vertex_count], [m]
+    const Vec3* vertices;  ///< hull, mesh: [vertex_count], [m]
     std::uint32_t vertex_count;
     std::uint32_t face_count;    ///< hull: polygons; mesh: triangles
-    const std::uint32_t* faces;  ///< hull: for each face its corner count, then its vertex indices, counter-clockwise
-                                 ///< seen from outside; mesh: three vertex indices a triangle, counter-clockwise
-    const Vec3* face_normals;    ///< hull, mesh: [face_count], unit, outward
+    const std::uint32_t* faces;  ///< hull: for each face its corner count, then its vertex indices,
+                                 ///< counter-clockwise seen from outside; mesh: three vertex
+                                 ///< indices a triangle, counter-clockwise
+    const Vec3* face_normals;  ///< hull, mesh: [face_count], unit, outward
 
-    const double* heights;  ///< height field: [rows × columns], row after row along z, y of the surface [m]
+    const double*
+        heights;  ///< height field: [rows × columns], row after row along z, y of the surface [m]
     std::uint32_t rows, columns;
     double spacing_x, spacing_z;  ///< height field: distance between columns, and between rows [m];
                                   ///< the grid is centred on the origin
