@@ -16,14 +16,21 @@ struct Planar {
     T x, y;
 };
 
-/// Inverse of a symmetric 2 × 2 matrix.
+/// What friction sees of the bodies' inertia across the normal.
 template <class T>
-struct PlanarBlock {
-    T xx, xy, yy;
-    Planar<T> operator*(const Planar<T>& v) const {
-        return {xx * v.x + xy * v.y, xy * v.x + yy * v.y};
-    }
+struct TangentMass {
+    T xx, xy, yy;  ///< inverse of K, the 2 × 2 response of the point [kg]
+    T least;       ///< 1 / greatest eigenvalue of K [kg]
 };
+
+/// From the entries of K [1/kg]; `inverse` is 1/x where x > 0, else 0.
+template <class T, class Inverse>
+inline TangentMass<T> tangent_mass(const T& xx, const T& xy, const T& yy, Inverse inverse) {
+    const T half = T(0.5) * (xx - yy);
+    const T greatest = T(0.5) * (xx + yy) + sqrt(half * half + xy * xy);
+    const T determinant = inverse(xx * yy - xy * xy);
+    return {yy * determinant, -xy * determinant, xx * determinant, inverse(greatest)};
+}
 
 /// A unit vector across n, without a branch (any lane): the axis least along n, made orthogonal.
 template <class T>
@@ -46,17 +53,23 @@ inline Planar<T> project_on_disc(const Planar<T>& f, const T& radius) {
 }
 
 /// Adds to f what stops the velocity u, keeps `held` + f inside of the cone, and returns what was
-/// added.
+/// added. `held` is friction of the other pass that shares the same cone, or zero.
 ///
-/// `held` is friction of the other pass that shares the same cone, or zero.
+/// A contact that can stick is solved as a block. One that slides goes along −u by the least mass
+/// of any direction and back onto the cone, so that friction comes to oppose the sliding: the
+/// block's step would settle where K⁻¹ u, not u, is along f, and brake too little.
 template <class T>
 inline Planar<T> rub(Planar<T>& f, const Planar<T>& held, const Planar<T>& u,
-                     const PlanarBlock<T>& effective_mass, const T& bound) {
-    const Planar<T> wish = effective_mass * u;
-    const Planar<T> total =
-        project_on_disc<T>({(held.x + f.x) - wish.x, (held.y + f.y) - wish.y}, bound);
+                     const TangentMass<T>& mass, const T& bound) {
+    const Planar<T> now{held.x + f.x, held.y + f.y};
+    const Planar<T> stick{now.x - (mass.xx * u.x + mass.xy * u.y),
+                          now.y - (mass.xy * u.x + mass.yy * u.y)};
+    const Planar<T> slide =
+        project_on_disc<T>({now.x - mass.least * u.x, now.y - mass.least * u.y}, bound);
+    const T wish = sqrt(stick.x * stick.x + stick.y * stick.y);
     const Planar<T> before = f;
-    f = {total.x - held.x, total.y - held.y};
+    f = {select_greater(wish, bound, slide.x, stick.x) - held.x,
+         select_greater(wish, bound, slide.y, stick.y) - held.y};
     return {f.x - before.x, f.y - before.y};
 }
 

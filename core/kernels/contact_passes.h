@@ -93,11 +93,12 @@ void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const 
                 FrictionRow<Real, W>& across = arrays.frictions[k];
                 const Vector3<T> x = tangent_of<T>(n), y = cross<T>(n, x);
                 const T xx = k_of(x, x), xy = k_of(x, y), yy = k_of(y, y);
-                const T inverse = inverse_or_zero<T>(xx * yy - xy * xy);
+                const TangentMass<T> tangent = tangent_mass<T>(xx, xy, yy, inverse_or_zero<T>);
                 store_vector(across.tangent, x);
-                store(across.block_xx, T(yy * inverse));
-                store(across.block_xy, T(-xy * inverse));
-                store(across.block_yy, T(xx * inverse));
+                store(across.mass_xx, tangent.xx);
+                store(across.mass_xy, tangent.xy);
+                store(across.mass_yy, tangent.yy);
+                store(across.mass_least, tangent.least);
                 store(across.coupling_x, k_of(x, n));
                 store(across.coupling_y, k_of(y, n));
                 if constexpr (V == ContactVariant::turning) {
@@ -240,7 +241,8 @@ inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& n
     const Tangents<T> t = load_tangents(row, n);
     const Planar<T> velocity{load(row.velocity_x) + dot<T>(t.x, u),
                              load(row.velocity_y) + dot<T>(t.y, u)};
-    const PlanarBlock<T> block{load(row.block_xx), load(row.block_xy), load(row.block_yy)};
+    const TangentMass<T> mass{load(row.mass_xx), load(row.mass_xy), load(row.mass_yy),
+                              load(row.mass_least)};
     const T velocity_sum = load(normal.lambda_velocity),
             position_sum = load(normal.lambda_position);
 
@@ -248,14 +250,14 @@ inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& n
     Planar<T> held{load(row.held_x), load(row.held_y)};
     if constexpr (P == Pass::velocity) {
         const T bound = load(row.friction) * velocity_sum;
-        change = rub<T>(held, {T(0), T(0)}, velocity, block, bound);
+        change = rub<T>(held, {T(0), T(0)}, velocity, mass, bound);
         store(row.held_x, held.x);
         store(row.held_y, held.y);
     } else {
         Planar<T> rubbed{load(row.rubbed_x), load(row.rubbed_y)};
         const T push = pass.shared_cone ? velocity_sum + position_sum : position_sum;
         if (!pass.shared_cone) held = {T(0), T(0)};
-        change = rub<T>(rubbed, held, velocity, block, T(load(row.friction) * push));
+        change = rub<T>(rubbed, held, velocity, mass, T(load(row.friction) * push));
         store(row.rubbed_x, rubbed.x);
         store(row.rubbed_y, rubbed.y);
     }

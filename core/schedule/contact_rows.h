@@ -41,7 +41,8 @@ struct alignas(kRowAlignment<Real, W>) NormalRow {
 template <class Real, int W>
 struct alignas(kRowAlignment<Real, W>) FrictionRow {
     Real tangent[3][W];                          // t₁; t₂ = n × t₁
-    Real block_xx[W], block_xy[W], block_yy[W];  // inverse of the tangents' K [kg]
+    Real mass_xx[W], mass_xy[W], mass_yy[W];  // inverse of the tangents' K [kg]
+    Real mass_least[W];                       // 1 / greatest eigenvalue of K [kg]
     Real coupling_x[W], coupling_y[W];           // t₁ᵀ K n, t₂ᵀ K n [1/kg]
     Real friction[W];                            // μ
     Real drift_x[W],

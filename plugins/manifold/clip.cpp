@@ -61,8 +61,10 @@ void cut(Polygon& out, const Polygon& in, Vec3 p, Vec3 m, std::uint32_t line, do
         const double dc = dot(m, c.p - p), dd = dot(m, d.p - p);
         const bool c_inside = dc >= -slack, d_inside = dd >= -slack;
         if (c_inside) out.add(c.p, c.line);
+        // cut where the slack ends, or an edge that runs along the line would be cut far outside of
+        // itself
         if (c_inside != d_inside)
-            out.add(c.p + (dc / (dc - dd)) * (d.p - c.p), c_inside ? line : c.line);
+            out.add(c.p + ((dc + slack) / (dc - dd)) * (d.p - c.p), c_inside ? line : c.line);
     }
 }
 

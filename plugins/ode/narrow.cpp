@@ -72,26 +72,30 @@ bool ask_beside(Witness& witness, const Part& a, const Part& b) {
     return closest_when_apart(witness, a, b) || closest_when_touching(witness, a, b);
 }
 
-/// ODE's general convex test can name a normal along which the true shapes overlap far more than it
-/// says. Then the closest points are computed beside it, and of both normals the one of less
-/// overlap is nearer to the truth.
-bool ask_sharp(Witness& witness, const Part& a, const Part& b) {
-    if (!ask(witness, a, b)) return ask_beside(witness, a, b);
+/// ODE can name a normal along which the true shapes overlap far more than it says: its convex test
+/// often, its box test where two edges are nearly parallel. Then the closest points are computed
+/// beside it, and of both normals the one of less overlap is nearer to the truth.
+void doubt(Witness& witness, const Part& a, const Part& b) {
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
-    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return true;
+    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return;
     Witness other;
     witness.approximate = true;
     if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
-    return true;
+}
+
+/// Boxes that an axis parts: the normal of larger boxes will do where it parts the true ones too,
+/// and two points of them reach the gap that it implies.
+bool ask_boxes_apart(Witness& witness, const Part& a, const Part& b) {
+    if (!ask_boxes(witness, a, b, 0.5 * pair_margin(a, b))) return false;
+    const bool parts = support_gap(a, b, unit_or(witness.normal, {0, 1, 0})) >= 0;
+    return (parts && gap_is_reached(a, b, witness.normal)) || ask_beside(witness, a, b);
 }
 
 bool ask_any(Witness& witness, const Part& a, const Part& b) {
-    if (!is(a, ShapeKind::box) || !is(b, ShapeKind::box)) return ask_sharp(witness, a, b);
-    if (ask_boxes(witness, a, b, 0)) return true;
-    // Apart: the normal of larger boxes will do where two points of the true ones reach the gap
-    // that it implies.
-    if (!ask_boxes(witness, a, b, 0.5 * pair_margin(a, b))) return false;
-    return gap_is_reached(a, b, witness.normal) || ask_beside(witness, a, b);
+    const bool boxes = is(a, ShapeKind::box) && is(b, ShapeKind::box);
+    const bool overlap = boxes ? ask_boxes(witness, a, b, 0) : ask(witness, a, b);
+    if (overlap) doubt(witness, a, b);
+    return overlap || (boxes ? ask_boxes_apart(witness, a, b) : ask_beside(witness, a, b));
 }
 
 bool is_plane_pair(const Part& a, const Part& b) {
