@@ -102,7 +102,7 @@ public:
         const ContactArrays<Real, W> rows = batches_.arrays();
         for (const BlockRange& range : batches_.ranges())
             for (std::uint32_t r = 0; r < rounds; ++r) {
-                pass.forwards = r % 2 == 0;
+                pass.forwards = !pass.forwards;
                 solve_range(kernels_.solve_positions, rows, bodies, pass, range, worker);
             }
     }

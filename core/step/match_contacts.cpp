@@ -65,9 +65,7 @@ void match_pair(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>&
     hand_on_impulses(c, run, used);
 }
 
-/// New contacts begin to stick where they are; in a pair that stuck already they take over the
-/// drift of its nearest contact, or what the pair has crept would be forgotten with every feature
-/// that changes.
+/// Anchors of a contact that begins to stick where it is, with a drift behind it already [m].
 void set_anchors(World& world, std::size_t i, const Vector3d& drift) {
     const Bodies& b = world.bodies;
     const Contact& contact = world.contacts.found[i];
@@ -86,17 +84,33 @@ Vector3d drift_of(const World& world, const Contact& contact, const ContactMemor
            (b.position[contact.b] + b.orientation[contact.b] * m.stick_b);
 }
 
+/// The nearest contact of the step before that stuck; run.old_end where none did.
+std::size_t nearest_sticking(const ContactTable& c, const PairRuns& run, const Vector3d& point) {
+    std::size_t best = run.old_end;
+    double least = 0;
+    for (std::size_t j = run.old; j < run.old_end; ++j) {
+        const double distance = (common_point(c.found_before[j]) - point).squaredNorm();
+        if (!c.memory_before[j].sticks || (best < run.old_end && distance >= least)) continue;
+        best = j;
+        least = distance;
+    }
+    return best;
+}
+
+/// A contact that slid begins to stick anew where it is. One that is new, or carried nothing, takes
+/// over the drift of the nearest contact of the pair that stuck, or what the pair has crept would
+/// be forgotten with every feature that changes and every corner that lifts for a moment.
 void anchor_pair(World& world, const PairRuns& run) {
     ContactTable& c = world.contacts;
     for (std::size_t i = run.now; i < run.now_end; ++i) {
-        if (c.memory[i].sticks || !is_sharp(c.found[i])) continue;
+        const ContactMemory& m = c.memory[i];
+        if (m.sticks || !is_sharp(c.found[i])) continue;
+        const bool slid = m.known && m.normal_impulse > 0;
+        const std::size_t from =
+            slid ? run.old_end : nearest_sticking(c, run, common_point(c.found[i]));
         Vector3d drift = Vector3d::Zero();
-        if (run.old_end > run.old && !c.memory[i].known) {
-            const std::size_t j =
-                nearest(c.found_before, run.old, run.old_end, common_point(c.found[i]));
-            if (c.memory_before[j].sticks)
-                drift = drift_of(world, c.found_before[j], c.memory_before[j]);
-        }
+        if (from < run.old_end)
+            drift = drift_of(world, c.found_before[from], c.memory_before[from]);
         set_anchors(world, i, drift);
     }
 }

@@ -96,6 +96,7 @@ public:
         PassSettings<Real> pass = pass_;
         pass.shared_cone = true;
         pass.shared_push = false;
+        pass.forwards = substeps_ % 2 == 0;  // the order of a pair's points favours no side
         workers_.run([&](std::uint32_t worker) {
             shock_->rounds_iteration(table_.rows(), pass, kShockRounds, worker);
         });
