@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+/// plumb check: validates a scene without running it.
+#include "app/run_options.h"
+#include "app/verbs.h"
+#include "host/simulation.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace plumb::app {
+namespace {
+
+int check(const RunOptions& options) {
+    const Scene scene = load_scene(options);
+    const ColliderLibrary colliders(options.plugin_path);
+    const Simulation simulation(scene, colliders, options.collider);
+    const World& world = simulation.world();
+    std::printf(
+        "%s: sound; %zu bodies (%d dynamic, %d kinematic), %zu joints, %zu shapes, %zu materials; "
+        "collider %s\n",
+        options.scene.c_str(), world.bodies.size(), world.dynamic_count, world.kinematic_count,
+        scene.joints.size(), scene.geometries.size(), scene.materials.size(),
+        simulation.collider_name().c_str());
+    for (const std::string& warning : simulation.plan().warnings)
+        std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
+    return kDone;
+}
+
+}  // namespace
+
+Verb add_check(CLI::App& command) {
+    auto options = std::make_shared<RunOptions>();
+    add_scene_options(command, *options);
+    return [options] { return check(*options); };
+}
+
+}  // namespace plumb::app

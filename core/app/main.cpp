@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+/// The `plumb` program: results on stdout, all else on stderr, one clear sentence for each failure.
+#include "app/verbs.h"
+#include "output/error.h"
+#include "scene/error.h"
+
+#include <array>
+#include <cstdio>
+#include <exception>
+#include <string>
+
+namespace plumb::app {
+namespace {
+
+struct Registered {
+    const char* name;
+    const char* description;
+    Verb (*add)(CLI::App&);
+};
+
+constexpr std::array kVerbs{
+    Registered{"run", "simulate a scene and write what came of it", add_run},
+    Registered{"colliders", "list the collision plugins and what they can do", add_colliders},
+    Registered{"effects", "tell which effects a scene calls for, why, and what each costs",
+               add_effects},
+    Registered{"check", "validate a scene without running it", add_check},
+};
+
+constexpr const char* kFooter =
+    "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad scene, 4 collider missing or unable,\n"
+    "5 diverged (the last good frames are kept), 6 cannot write, 130 interrupted (outputs are "
+    "completed).";
+
+int complain(int code, const std::string& sentence) {
+    std::fprintf(stderr, "plumb: %s\n", sentence.c_str());
+    return code;
+}
+
+/// CLI11's messages are sentences already, but some span lines.
+std::string one_line(std::string text) {
+    for (char& c : text)
+        if (c == '\n') c = ' ';
+    while (!text.empty() && text.back() == ' ') text.pop_back();
+    return text;
+}
+
+int guarded(const Verb& verb) {
+    try {
+        return verb();
+    } catch (const SceneError& e) {
+        return complain(kBadScene, e.what());
+    } catch (const ColliderError& e) {
+        return complain(kColliderUnable, e.what());
+    } catch (const OutputError& e) {
+        return complain(kCannotWrite, e.what());
+    } catch (const std::exception& e) {
+        return complain(kInternalError, e.what());
+    }
+}
+
+}  // namespace
+
+int program(int argc, char** argv) {
+    CLI::App app{"Plumb: position-based rigid body dynamics on interchangeable collision back-ends",
+                 "plumb"};
+    app.set_version_flag("--version", PLUMB_VERSION);
+    app.footer(kFooter);
+    app.require_subcommand(1);
+    std::array<CLI::App*, kVerbs.size()> commands{};
+    std::array<Verb, kVerbs.size()> verbs;
+    for (std::size_t i = 0; i < kVerbs.size(); ++i) {
+        commands[i] = app.add_subcommand(kVerbs[i].name, kVerbs[i].description);
+        verbs[i] = kVerbs[i].add(*commands[i]);
+    }
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& e) {
+        if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+        return complain(kUsage, one_line(e.what()) + "; try \"plumb --help\"");
+    }
+    for (std::size_t i = 0; i < kVerbs.size(); ++i)
+        if (commands[i]->parsed()) return guarded(verbs[i]);
+    return kUsage;
+}
+
+}  // namespace plumb::app
+
+int main(int argc, char** argv) { return plumb::app::program(argc, argv); }

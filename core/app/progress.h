@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/// A bar on stderr while a run goes on, where stderr is a terminal; silence elsewhere.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+namespace plumb::app {
+
+class Progress {
+public:
+    Progress(std::uint64_t steps, bool quiet);
+    ~Progress();
+
+    /// Redraws at most ten times a second. `violation` is a few words about the worst one so far.
+    void show(std::uint64_t step, std::uint32_t contacts, const std::string& violation);
+
+private:
+    using Clock = std::chrono::steady_clock;
+    std::uint64_t steps_;
+    bool on_, drawn_ = false;
+    Clock::time_point start_ = Clock::now(), last_{};
+};
+
+}  // namespace plumb::app

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+/// What the command line says about how a scene is to be run.
+#pragma once
+
+#include "scene/scene.h"
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumb::app {
+
+struct RunOptions {
+    std::string scene;
+    std::string collider = "auto";
+    std::string plugin_path;
+    std::string preset, method, precision;
+    std::optional<double> duration, dt;
+    std::optional<unsigned> substeps, velocity_iterations, position_iterations, threads, lanes;
+    std::vector<std::string> settings;  ///< key=value
+};
+
+/// Options that every verb has that loads a scene.
+void add_scene_options(CLI::App& command, RunOptions& options);
+
+/// Reads the scene and applies the command line to its settings.
+Scene load_scene(const RunOptions& options);
+
+}  // namespace plumb::app

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: MIT
+#include "app/summary.h"
+
+#include "kernels/contact_kernels.h"
+#include "measure/measure.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <numeric>
+
+namespace plumb::app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double mean(const std::vector<double>& v) {
+    return v.empty() ? 0 : std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size());
+}
+
+Json times(const std::vector<double>& v) {
+    return {{"median", percentile(v, 0.5)}, {"mean", mean(v)}, {"p99", percentile(v, 0.99)}};
+}
+
+Json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+Json speeds_json(const std::vector<double>& values) {
+    const Speeds s = speeds_of(values);
+    return {{"median", s.median}, {"p90", s.p90}, {"rms", s.rms}, {"max", s.max}};
+}
+
+std::string hex(std::uint64_t value) {
+    char text[20];
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+    return text;
+}
+
+/// Heights over the origin of the dynamic bodies at the end [m].
+struct Heights {
+    double all = 0, near = 0, lowest = 0;
+    std::size_t count = 0, near_count = 0;
+};
+Heights heights_of(const World& world) {
+    Heights h;
+    const Vector3d g = world.settings.gravity;
+    const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+        if (world.bodies.motion[i] != Motion::dynamic) continue;
+        const double y = up.dot(world.bodies.position[i]);
+        h.lowest = h.count == 0 ? y : std::min(h.lowest, y);
+        h.all += y;
+        ++h.count;
+        if ((world.bodies.position[i] - y * up).norm() > Statistics::kNearRadius) continue;
+        h.near += y;
+        ++h.near_count;
+    }
+    if (h.count) h.all /= static_cast<double>(h.count);
+    if (h.near_count) h.near /= static_cast<double>(h.near_count);
+    return h;
+}
+
+Json stages_json(const Statistics& s) {
+    Json stages = Json::object();
+    for (std::size_t i = 0; i < kStageCount; ++i)
+        if (s.stage_calls[i] > 0)
+            stages[std::string(kStageNames[i])] = percentile(s.stage_ms[i], 0.5);
+    return stages;
+}
+
+/// Stages that belong to one effect alone.
+const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
+    static const std::map<Effect, std::vector<Stage>> stages{
+        {Effect::contacts,
+         {Stage::detect, Stage::match, Stage::schedule, Stage::begin, Stage::velocities,
+          Stage::positions, Stage::remember}},
+        {Effect::restitution, {Stage::restitution}},
+        {Effect::kinematics, {Stage::kinematics}},
+        {Effect::shock_propagation, {Stage::shock}}};
+    return stages;
+}
+
+}  // namespace
+
+Json effects_summary(const Simulation& simulation, const Statistics& statistics) {
+    Json effects = Json::array();
+    for (std::size_t i = 0; i < kEffectCount; ++i) {
+        const Decision& d = simulation.plan().decisions[i];
+        Json entry{{"name", std::string(d.name)}, {"ran", d.runs}, {"why", d.why}, {"ms", nullptr}};
+        const auto stages = stages_of_effects().find(static_cast<Effect>(i));
+        double ms = 0;
+        if (stages != stages_of_effects().end())
+            for (Stage s : stages->second)
+                ms += percentile(statistics.stage_ms[static_cast<std::size_t>(s)], 0.5);
+        // what runs inside of another effect's kernels has no time of its own
+        if (!d.runs)
+            entry["ms"] = 0;
+        else if (stages != stages_of_effects().end())
+            entry["ms"] = ms;
+        effects.push_back(entry);
+    }
+    return effects;
+}
+
+Json summary(const std::string& scene_file, const Scene& scene, const Simulation& simulation,
+             const Statistics& s) {
+    const World& world = simulation.world();
+    const Settings& settings = world.settings;
+    const Heights heights = heights_of(world);
+    const DetectStats detect = simulation.detect_stats();
+    const double steps = static_cast<double>(std::max<std::uint64_t>(1, simulation.steps()));
+    Json j;
+    j["scene"] = scene.name;
+    j["file"] = scene_file;
+    j["collider"] = {{"name", simulation.collider_name()},
+                     {"version", simulation.collider_version()}};
+    j["method"] = settings.method;
+    j["precision"] = settings.precision == Precision::single ? "single" : "double";
+    j["threads"] = settings.threads;
+    j["lanes"] = settings.lanes == 0 ? static_cast<std::uint32_t>(widest_lanes()) : settings.lanes;
+    j["dt"] = settings.dt;
+    j["substeps"] = settings.substeps;
+    j["velocity_iterations"] = settings.velocity_iterations;
+    j["position_iterations"] = settings.position_iterations;
+    j["steps"] = simulation.steps();
+    j["simulated_time"] = simulation.time();
+    j["bodies"] = world.bodies.size();
+    j["dynamic_bodies"] = world.dynamic_count;
+    j["particles"] = 0;
+    j["joints"] = world.balls.size();
+    j["contacts"] = {{"mean", s.contact_sum / steps},
+                     {"max", s.contact_max},
+                     {"end", world.contacts.found_before.size()}};
+    j["pairs"] = {{"candidates", detect.broad_pairs}, {"touching", detect.narrow_pairs}};
+    j["contact_sources"] = {{"backend", detect.from_backend},
+                            {"clip", detect.from_clip},
+                            {"fallback", detect.from_fallback}};
+    j["time_ms"] = {{"detect", times(s.detect_ms)},
+                    {"solve", times(s.solve_ms)},
+                    {"step", times(s.step_ms)},
+                    {"stages", stages_json(s)}};
+    j["energy"] = {{"start", s.start_energy},
+                   {"end", kinetic_energy(world) + potential_energy(world)}};
+    j["momentum"] = {{"linear", vector_json(linear_momentum(world))},
+                     {"angular", vector_json(angular_momentum(world))}};
+    j["penetration"] = {{"mean", mean(s.penetration)},
+                        {"p99", percentile(s.penetration, 0.99)},
+                        {"max", percentile(s.penetration, 1)}};
+    j["joint_error"] = {{"mean", mean(s.joint_error)}, {"max", percentile(s.joint_error, 1)}};
+    j["speed"] = speeds_json(s.speed);
+    j["speed_near"] = speeds_json(s.near_speed);
+    j["speed_near"]["radius"] = Statistics::kNearRadius;
+    j["speed_near"]["left_out"] = heights.count - heights.near_count;
+    j["final_height"] = {
+        {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
+    j["clamps"] = {{"recovery", s.clamped_recoveries},
+                   {"rejected_contacts", s.rejected_contacts},
+                   {"collider_failures", s.collider_failures}};
+    j["state_hash"] = hex(state_hash(world));
+    j["effects"] = effects_summary(simulation, s);
+    j["warnings"] = simulation.plan().warnings;
+    return j;
+}
+
+}  // namespace plumb::app
