@@ -233,14 +233,15 @@ inline T push_row(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const
     }
 }
 
-/// Friction of one point: returns its impulse and tells in `u_n` what that does along n.
+/// Friction of one point: returns its impulse. u is the velocity before the push along n was made.
 template <Pass P, class Real, int W, class T = Number<Real, W>>
 inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& normal,
                           const Vector3<T>& n, const Vector3<T>& u, const PassSettings<Real>& pass,
-                          T& u_n) {
+                          const T& pushed) {
     const Tangents<T> t = load_tangents(row, n);
-    const Planar<T> velocity{load(row.velocity_x) + dot<T>(t.x, u),
-                             load(row.velocity_y) + dot<T>(t.y, u)};
+    const Planar<T> velocity{
+        load(row.velocity_x) + (dot<T>(t.x, u) + load(row.coupling_x) * pushed),
+        load(row.velocity_y) + (dot<T>(t.y, u) + load(row.coupling_y) * pushed)};
     const TangentMass<T> mass{load(row.mass_xx), load(row.mass_xy), load(row.mass_yy),
                               load(row.mass_least)};
     const T velocity_sum = load(normal.lambda_velocity),
@@ -261,7 +262,6 @@ inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& n
         store(row.rubbed_x, rubbed.x);
         store(row.rubbed_y, rubbed.y);
     }
-    u_n = u_n + (load(row.coupling_x) * change.x + load(row.coupling_y) * change.y);
     return t.x * change.x + t.y * change.y;
 }
 
@@ -298,12 +298,11 @@ inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, Pai
         resist_turning<Real, W>(arrays.turnings[k], row, arrays.frictions[k], n, pair, mass);
 
     const Vector3<T> u = velocity_at<T>(pair.a, r_a) - velocity_at<T>(pair.b, r_b);
-    T u_n = load(row.velocity) + dot<T>(n, u);
-    Vector3<T> impulse(T(0), T(0), T(0));
+    const T pushed = push_row<P, Real, W>(row, pass, load(row.velocity) + dot<T>(n, u));
+    Vector3<T> impulse = n * pushed;
+    // friction comes second, so that it ends inside of the cone of the push as it is then
     if constexpr (V != ContactVariant::frictionless)
-        impulse = rub_row<P, Real, W>(arrays.frictions[k], row, n, u, pass, u_n);
-
-    impulse += n * push_row<P, Real, W>(row, pass, u_n);
+        impulse += rub_row<P, Real, W>(arrays.frictions[k], row, n, u, pass, pushed);
     apply<T>(pair, mass, r_a, r_b, impulse);
 }
 
