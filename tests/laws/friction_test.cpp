@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+/// Coulomb's law on slopes and on the flat. Steps: 1/60 s with 20 substeps × (1 + 1), or 0.01 s
+/// with 5 + 5 iterations.
+#include "support/scenes.h"
+
+#include <vector>
+
+namespace plumb::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+/// Boxes side by side along z on one slope, each of its own friction with it.
+struct Slope {
+    Simulation simulation;
+    std::vector<Vector> start;
+
+    static Scene make(Scene scene, double angle, const std::vector<double>& frictions) {
+        const Rotation tilt(Eigen::AngleAxisd(angle, Vector::UnitZ()));
+        scene.materials[0].friction = 1;
+        BodySpec& slope = add_body(scene, box(300, 1, 100), tilt * Vector(0, -1, 0), Motion::fixed);
+        slope.placement.rotation = tilt;
+        for (std::size_t i = 0; i < frictions.size(); ++i) {
+            Material m;
+            m.friction = frictions[i] * frictions[i];  // √(μ · 1) with the slope
+            scene.materials.push_back(m);
+            BodySpec& b =
+                add_body(scene, box(0.5, 0.5, 0.5), tilt * Vector(0, 0.5, 2.0 * double(i) - 10));
+            b.placement.rotation = tilt;
+            b.material = static_cast<std::uint32_t>(i + 1);
+        }
+        return scene;
+    }
+    Slope(const Scene& scene, const std::string& collider)
+        : simulation(scene, colliders(), collider) {
+        for (const Vector& x : simulation.world().bodies.position) start.push_back(x);
+    }
+    double moved(std::size_t i) const {
+        return (simulation.world().bodies.position[i + 1] - start[i + 1]).norm();
+    }
+};
+
+class Friction : public OnEveryCollider {};
+INSTANTIATE_TEST_SUITE_P(, Friction, every_collider(), where_name);
+
+TEST_P(Friction, HoldsWhereItIsHalfADegreeMoreThanTheSlope) {
+    for (bool fine : {false, true})
+        for (double degrees : {5.0, 10.0, 20.0, 30.0, 40.0}) {
+            Scene s = scene();
+            if (fine) use_fine_steps(s.settings);
+            const std::vector<double> frictions{std::tan((degrees + 0.5) * kDegree),
+                                                std::tan((degrees + 3) * kDegree), 1.0};
+            Slope slope(Slope::make(s, degrees * kDegree, frictions), collider());
+            run_for(slope.simulation, 10);
+            for (std::size_t i = 0; i < frictions.size(); ++i)
+                EXPECT_LT(slope.moved(i), 1e-3) << degrees << " degrees, friction " << frictions[i]
+                                                << (fine ? ", fine" : ", coarse");
+        }
+}
+
+TEST_P(Friction, YieldsWhereItIsHalfADegreeLessAndSlidesByTheLaw) {
+    for (double degrees : {5.0, 10.0, 20.0, 30.0, 40.0}) {
+        Scene s = scene();
+        use_fine_steps(s.settings);
+        const double angle = degrees * kDegree, time = 2;
+        const double nearly = std::tan(angle - 0.5 * kDegree);
+        const std::vector<double> frictions{0.1 * std::tan(angle), 0.5 * std::tan(angle), nearly};
+        Slope slope(Slope::make(s, angle, frictions), collider());
+        run_for(slope.simulation, time);
+        for (std::size_t i = 0; i < frictions.size(); ++i) {
+            // Where friction nearly holds, a small share of it is a large share of what is left:
+            // the bound is 2 % of the slide without friction then, and the block must slide.
+            const double free = 0.5 * 9.81 * std::sin(angle) * time * time;
+            const double law = free - 0.5 * 9.81 * frictions[i] * std::cos(angle) * time * time;
+            EXPECT_NEAR(slope.moved(i), law, 0.02 * (frictions[i] == nearly ? free : law))
+                << degrees << " degrees, friction " << frictions[i];
+            EXPECT_GT(slope.moved(i), 0.5 * law)
+                << degrees << " degrees, friction " << frictions[i];
+        }
+    }
+}
+
+/// v₀²/2μg for every mass. The block slides on a face; 1/60 s × 20.
+TEST_P(Friction, BrakingDistanceDoesNotDependOnMass) {
+    const double speed = 3, friction = 0.5, law = speed * speed / (2 * friction * 9.81);
+    std::vector<double> distances;
+    for (double mass : {1.0, 1e2, 1e4}) {
+        Scene s = scene();
+        use_fine_steps(s.settings);
+        add_ground(s);
+        BodySpec& b = add_body(s, box(0.5, 0.25, 0.5), {0, 0.25, 0});
+        b.mass = mass;
+        b.velocity = {speed, 0, 0};
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 1.5);
+        distances.push_back(simulation.world().bodies.position[1].x());
+        EXPECT_LT(simulation.world().bodies.velocity[1].norm(), 1e-3);
+        EXPECT_NEAR(distances.back() / law, 1, 0.02) << "mass " << mass;
+    }
+    for (double d : distances) EXPECT_NEAR(d / distances[0], 1, 1e-3);
+}
+
+/// A ball that slides at first rolls at 5 v₀/7; the paper's frozen arms do not spoil it.
+TEST_P(Friction, ASlidingBallComesToRoll) {
+    Scene s = scene();
+    use_fine_steps(s.settings);
+    add_ground(s);
+    BodySpec& b = add_body(s, sphere(0.2), {0, 0.2, 0});
+    b.velocity = {5, 0, 0};
+    Simulation simulation(s, colliders(), collider());
+    const double rolls_at = 2 * 5 / (7 * 0.5 * 9.81);
+    run_for(simulation, 2 * rolls_at);
+    EXPECT_NEAR(simulation.world().bodies.velocity[1].x() / (5 * 5.0 / 7), 1, 0.01);
+    const double later = simulation.world().bodies.velocity[1].x();
+    run_for(simulation, 2);
+    EXPECT_NEAR(simulation.world().bodies.velocity[1].x() / later, 1, 0.01)
+        << "nothing brakes a rolling ball";
+}
+
+/// Rolling friction of lever ρ brakes a rolling ball by (5/7) ρ g / r.
+TEST_P(Friction, RollingFrictionBrakesByItsLever) {
+    const double speed = 2, radius = 0.2, lever = 0.01;
+    Scene s = scene();
+    use_fine_steps(s.settings);
+    s.materials[0].rolling_friction = lever;
+    add_ground(s);
+    BodySpec& b = add_body(s, sphere(radius), {0, radius, 0});
+    b.velocity = {speed, 0, 0};
+    b.angular_velocity = {0, 0, -speed / radius};
+    Simulation simulation(s, colliders(), collider());
+    const double deceleration = 5.0 / 7 * lever * 9.81 / radius,
+                 law = speed * speed / (2 * deceleration);
+    run_for(simulation, 1.3 * speed / deceleration);
+    EXPECT_NEAR(simulation.world().bodies.position[1].x() / law, 1, 0.02);
+    EXPECT_LT(simulation.world().bodies.velocity[1].norm(), 1e-3);
+}
+
+}  // namespace
+}  // namespace plumb::test

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+/// Small scenes made by hand, and every collider and precision to run them on.
+#pragma once
+
+#include "host/simulation.h"
+#include "measure/measure.h"
+#include "scene/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <tuple>
+
+namespace plumb::test {
+
+using Vector = Eigen::Vector3d;
+using Rotation = Eigen::Quaterniond;
+
+inline const ColliderLibrary& colliders() {
+    static const ColliderLibrary library(PLUMB_TEST_PLUGINS);
+    return library;
+}
+
+inline std::uint32_t add_geometry(Scene& scene, const Geometry& geometry) {
+    scene.geometries.push_back(geometry);
+    return static_cast<std::uint32_t>(scene.geometries.size()) - 1;
+}
+inline Geometry box(double x, double y, double z) {
+    Geometry g;
+    g.kind = ShapeKind::box;
+    g.half_extents = {x, y, z};
+    return g;
+}
+inline Geometry sphere(double radius) {
+    Geometry g;
+    g.kind = ShapeKind::sphere;
+    g.radius = radius;
+    return g;
+}
+inline Geometry plane() {
+    Geometry g;
+    g.kind = ShapeKind::plane;
+    return g;
+}
+
+/// Adds a body and returns it, to be changed; its index is the scene's last.
+inline BodySpec& add_body(Scene& scene, const Geometry& geometry, const Vector& position,
+                          Motion motion = Motion::dynamic) {
+    BodySpec body;
+    body.motion = motion;
+    body.geometry = add_geometry(scene, geometry);
+    body.placement.position = position;
+    scene.bodies.push_back(body);
+    return scene.bodies.back();
+}
+inline BodySpec& add_ground(Scene& scene) {
+    return add_body(scene, plane(), Vector::Zero(), Motion::fixed);
+}
+
+/// 60 Hz with 20 substeps of one iteration each: the finest that the laws may take.
+inline void use_fine_steps(Settings& s) {
+    s.dt = 1.0 / 60;
+    s.substeps = 20;
+    s.velocity_iterations = s.position_iterations = 1;
+}
+
+inline void run_for(Simulation& simulation, double seconds) {
+    const auto steps = std::llround(seconds / simulation.world().settings.dt);
+    for (long long i = 0; i < steps; ++i) {
+        const StepReport report = simulation.step();
+        ASSERT_TRUE(report.finite);
+        ASSERT_FALSE(report.collider_failed) << report.message;
+    }
+}
+
+inline double total_energy(const Simulation& s) {
+    return kinetic_energy(s.world()) + potential_energy(s.world());
+}
+
+/// A collider and a precision.
+using Where = std::tuple<std::string, Precision>;
+
+class OnEveryCollider : public testing::TestWithParam<Where> {
+protected:
+    std::string collider() const { return std::get<0>(GetParam()); }
+    /// An empty scene in the precision of the test.
+    Scene scene() const {
+        Scene s;
+        s.settings.precision = std::get<1>(GetParam());
+        return s;
+    }
+};
+
+inline std::string where_name(const testing::TestParamInfo<Where>& info) {
+    return std::get<0>(info.param) +
+           (std::get<1>(info.param) == Precision::single ? "_single" : "_double");
+}
+
+inline auto every_collider() {
+    return testing::Combine(
+        testing::Values(std::string("reference"), std::string("ode"), std::string("bullet")),
+        testing::Values(Precision::single, Precision::double_));
+}
+
+}  // namespace plumb::test
