@@ -1,1 +1,25 @@
-# What `cmake --install` lays down.
+# What `cmake --install` lays down: headers, the libraries an embedder links, plugins, the program, schema and scenes.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+set(PLUMB_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
+
+install(TARGETS plumb_interfaces plumb_scene plumb_core plumb_host EXPORT plumbTargets
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/interfaces/plumb" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/core/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/plumb/core"
+  FILES_MATCHING PATTERN "*.h"
+  PATTERN "app" EXCLUDE PATTERN "output" EXCLUDE PATTERN "reader" EXCLUDE PATTERN "study" EXCLUDE PATTERN "kernels" EXCLUDE)
+install(TARGETS plumb_app RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+if(PLUMB_BUILD_PLUGINS)
+  install(TARGETS plumb_collider_reference plumb_collider_ode plumb_collider_bullet
+    LIBRARY DESTINATION "lib/plumb/plugins")
+endif()
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/schema"
+  DESTINATION "${CMAKE_INSTALL_DATADIR}/plumb")
+
+install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION "${PLUMB_CMAKE_DIR}")
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/plumbConfig.cmake.in"
+  "${PROJECT_BINARY_DIR}/plumbConfig.cmake" INSTALL_DESTINATION "${PLUMB_CMAKE_DIR}")
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
+install(FILES "${PROJECT_BINARY_DIR}/plumbConfig.cmake" "${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake"
+  "${PROJECT_SOURCE_DIR}/cmake/PlumbPlugin.cmake" DESTINATION "${PLUMB_CMAKE_DIR}")

@@ -2,4 +2,4 @@
 add_library(plumb_host STATIC host/collider_library.cpp host/shape_pairs.cpp host/simulation.cpp)
 add_library(plumb::host ALIAS plumb_host)
 set_target_properties(plumb_host PROPERTIES EXPORT_NAME host)
-target_link_libraries(plumb_host PUBLIC plumb::core ${CMAKE_DL_LIBS} PRIVATE plumb_options)
+target_link_libraries(plumb_host PUBLIC plumb::core ${CMAKE_DL_LIBS} PRIVATE $<BUILD_INTERFACE:plumb_options>)

@@ -42,7 +42,4 @@ void solve_balls(const BallBlock<Real, W>* blocks, const BodyRows<Real>& bodies,
     }
 }
 
-template <class Real, int W>
-inline constexpr BallKernels<Real, W> kBallKernels{solve_balls<Real, W>};
-
 }  // namespace plumb::kernels

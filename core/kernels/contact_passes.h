@@ -12,6 +12,8 @@
 #include "kernels/contact_kernels.h"
 #include "kernels/gather.h"
 
+#include <array>
+
 namespace plumb::kernels {
 
 template <class T>
@@ -330,9 +332,10 @@ constexpr ContactKernels<Real, W> kernels_of() {
 
 /// All variants of one precision and width, indexed by ContactVariant.
 template <class Real, int W>
-inline constexpr ContactKernels<Real, W> kVariants[kContactVariants] = {
-    kernels_of<Real, W, ContactVariant::frictionless>(),
-    kernels_of<Real, W, ContactVariant::friction>(),
-    kernels_of<Real, W, ContactVariant::turning>()};
+constexpr std::array<ContactKernels<Real, W>, kContactVariants> all_contact_kernels() {
+    return {kernels_of<Real, W, ContactVariant::frictionless>(),
+            kernels_of<Real, W, ContactVariant::friction>(),
+            kernels_of<Real, W, ContactVariant::turning>()};
+}
 
 }  // namespace plumb::kernels

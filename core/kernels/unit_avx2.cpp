@@ -8,20 +8,24 @@ namespace plumb::kernels {
 
 template <>
 const ContactKernels<float, 8>* kernel_table() {
-    return kVariants<float, 8>;
+    static constexpr auto table = all_contact_kernels<float, 8>();
+    return table.data();
 }
 template <>
 const BallKernels<float, 8>* kernel_table() {
-    return &kBallKernels<float, 8>;
+    static constexpr BallKernels<float, 8> table{solve_balls<float, 8>};
+    return &table;
 }
 
 template <>
 const ContactKernels<double, 8>* kernel_table() {
-    return kVariants<double, 8>;
+    static constexpr auto table = all_contact_kernels<double, 8>();
+    return table.data();
 }
 template <>
 const BallKernels<double, 8>* kernel_table() {
-    return &kBallKernels<double, 8>;
+    static constexpr BallKernels<double, 8> table{solve_balls<double, 8>};
+    return &table;
 }
 
 }  // namespace plumb::kernels

@@ -8,20 +8,24 @@ namespace plumb::kernels {
 
 template <>
 const ContactKernels<float, 16>* kernel_table() {
-    return kVariants<float, 16>;
+    static constexpr auto table = all_contact_kernels<float, 16>();
+    return table.data();
 }
 template <>
 const BallKernels<float, 16>* kernel_table() {
-    return &kBallKernels<float, 16>;
+    static constexpr BallKernels<float, 16> table{solve_balls<float, 16>};
+    return &table;
 }
 
 template <>
 const ContactKernels<double, 16>* kernel_table() {
-    return kVariants<double, 16>;
+    static constexpr auto table = all_contact_kernels<double, 16>();
+    return table.data();
 }
 template <>
 const BallKernels<double, 16>* kernel_table() {
-    return &kBallKernels<double, 16>;
+    static constexpr BallKernels<double, 16> table{solve_balls<double, 16>};
+    return &table;
 }
 
 }  // namespace plumb::kernels

@@ -8,38 +8,46 @@ namespace plumb::kernels {
 
 template <>
 const ContactKernels<float, 1>* kernel_table() {
-    return kVariants<float, 1>;
+    static constexpr auto table = all_contact_kernels<float, 1>();
+    return table.data();
 }
 template <>
 const BallKernels<float, 1>* kernel_table() {
-    return &kBallKernels<float, 1>;
+    static constexpr BallKernels<float, 1> table{solve_balls<float, 1>};
+    return &table;
 }
 
 template <>
 const ContactKernels<double, 1>* kernel_table() {
-    return kVariants<double, 1>;
+    static constexpr auto table = all_contact_kernels<double, 1>();
+    return table.data();
 }
 template <>
 const BallKernels<double, 1>* kernel_table() {
-    return &kBallKernels<double, 1>;
+    static constexpr BallKernels<double, 1> table{solve_balls<double, 1>};
+    return &table;
 }
 
 template <>
 const ContactKernels<float, 4>* kernel_table() {
-    return kVariants<float, 4>;
+    static constexpr auto table = all_contact_kernels<float, 4>();
+    return table.data();
 }
 template <>
 const BallKernels<float, 4>* kernel_table() {
-    return &kBallKernels<float, 4>;
+    static constexpr BallKernels<float, 4> table{solve_balls<float, 4>};
+    return &table;
 }
 
 template <>
 const ContactKernels<double, 4>* kernel_table() {
-    return kVariants<double, 4>;
+    static constexpr auto table = all_contact_kernels<double, 4>();
+    return table.data();
 }
 template <>
 const BallKernels<double, 4>* kernel_table() {
-    return &kBallKernels<double, 4>;
+    static constexpr BallKernels<double, 4> table{solve_balls<double, 4>};
+    return &table;
 }
 
 }  // namespace plumb::kernels

@@ -1,0 +1,20 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# symbols.sh BUILD NM: what leaves the kernel units and the plugins, and what the programs link.
+set -eu
+build=$1 nm=$2
+fail() { echo "$1"; exit 1; }
+
+for unit in "$build"/core/plumb_kernels_*.o; do
+  leaked=$("$nm" -C --defined-only "$unit" | awk '$2 ~ /^[A-Zuvw]$/' | grep -v kernel_table || true)
+  [ -z "$leaked" ] || fail "$unit shows more than its tables: $leaked"
+  "$nm" -C --defined-only "$unit" | grep -q "T .*kernel_table" || fail "$unit has no tables"
+done
+for plugin in "$build"/lib/plumb/plugins/plumb_collider_*.so; do
+  exported=$("$nm" -D --defined-only "$plugin" | awk '{print $NF}' | tr '\n' ' ')
+  [ "$exported" = "plumb_collider_plugin " ] || fail "$plugin exports $exported"
+done
+for program in "$build"/bin/*; do
+  case "$(basename "$program")" in peer_*) continue ;; esac
+  if readelf -d "$program" | grep -E 'NEEDED.*lib(ode|fcl|ccd|Bullet|LinearMath)'; then fail "$program links a back-end"; fi
+done
