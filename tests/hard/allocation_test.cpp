@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+/// A step that is warmed up allocates nothing. Counted with operator new; the collider is one that
+/// allocates nothing either, so that whatever is counted is the solver's.
+#include "support/scenes.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+namespace {
+
+std::atomic<bool> counting{false};
+std::atomic<long> allocations{0};
+
+void* allocate(std::size_t size, std::size_t alignment) {
+    if (counting) ++allocations;
+    return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment);
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return allocate(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t a) {
+    return allocate(size, static_cast<std::size_t>(a));
+}
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace plumb::test {
+namespace {
+
+/// Answers what another collider said once.
+class Replayed : public Proximity {
+public:
+    std::vector<Contact> contacts;
+    Status add(std::uint32_t, const ShapePlacement&) noexcept override { return ok_status(); }
+    Status remove(std::uint32_t) noexcept override { return ok_status(); }
+    Status exclude(std::uint32_t, std::uint32_t, bool) noexcept override { return ok_status(); }
+    DetectStats stats() const noexcept override { return {}; }
+    Status detect(const DetectRequest&, const ContactSink* sinks, std::uint32_t) noexcept override {
+        Contact* room = sinks[0].grow(sinks[0].ctx, static_cast<std::uint32_t>(contacts.size()));
+        std::copy(contacts.begin(), contacts.end(), room);
+        return ok_status();
+    }
+};
+
+TEST(Allocation, AWarmStepAllocatesNothing) {
+    for (const char* required : {"", "shock_propagation"})
+        for (std::uint32_t threads : {1u, 2u})
+            for (std::uint32_t substeps : {1u, 4u}) {
+                Scene s;
+                s.settings.threads = threads;
+                s.settings.substeps = substeps;
+                s.materials[0].restitution = 0.2;
+                s.materials[0].rolling_friction = 0.01;
+                if (*required) s.settings.require = {required};
+                add_ground(s);
+                for (int i = 0; i < 100; ++i)
+                    add_body(s, box(0.2, 0.2, 0.25),
+                             {0.402 * (i % 5), 0.2 + 0.402 * (i / 25), 0.502 * (i / 5 % 5)});
+                JointSpec joint;
+                joint.body_a = 1;
+                joint.anchor = {0, 0.2, 0};
+                s.joints.push_back(joint);
+                Simulation teacher(s, colliders(), "reference");
+                teacher.step();
+                Replayed replayed;
+                replayed.contacts = teacher.world().contacts.found_before;
+                ASSERT_GT(replayed.contacts.size(), 100u);
+
+                Simulation simulation(s, replayed);
+                for (int i = 0; i < 3; ++i) simulation.step();
+                allocations = 0;
+                counting = true;
+                for (int i = 0; i < 5; ++i) simulation.step();
+                counting = false;
+                EXPECT_EQ(allocations, 0)
+                    << required << ", " << threads << " threads, " << substeps << " substeps";
+            }
+}
+
+}  // namespace
+}  // namespace plumb::test
