@@ -13,7 +13,8 @@ namespace {
 int check(const RunOptions& options) {
     const Scene scene = load_scene(options);
     const ColliderLibrary colliders(options.plugin_path);
-    const Simulation simulation(scene, colliders, options.collider);
+    const std::unique_ptr<Simulation> made = start(scene, colliders, options);
+    const Simulation& simulation = *made;
     const World& world = simulation.world();
     std::printf(
         "%s: sound; %zu bodies (%d dynamic, %d kinematic), %zu joints, %zu shapes, %zu materials; "

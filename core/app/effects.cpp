@@ -39,7 +39,8 @@ void print_stages(const Statistics& s) {
 int tell(const RunOptions& options) {
     const Scene scene = load_scene(options);
     const ColliderLibrary colliders(options.plugin_path);
-    Simulation simulation(scene, colliders, options.collider);
+    const std::unique_ptr<Simulation> made = start(scene, colliders, options);
+    Simulation& simulation = *made;
     Statistics statistics(simulation, kTrialSteps);
     for (std::uint64_t i = 0; i < kTrialSteps; ++i) statistics.add(simulation, simulation.step());
     print_effects(effects_summary(simulation, statistics));

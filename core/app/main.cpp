@@ -24,6 +24,7 @@ constexpr std::array kVerbs{
     Registered{"effects", "tell which effects a scene calls for, why, and what each costs",
                add_effects},
     Registered{"check", "validate a scene without running it", add_check},
+    Registered{"export", "make a replay, picture or table of a recording", add_export},
 };
 
 constexpr const char* kFooter =

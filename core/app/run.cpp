@@ -138,7 +138,8 @@ Ending simulate(Simulation& simulation, Recorder& recorder, Statistics& statisti
 int run(const Outputs& outputs) {
     const Scene scene = load_scene(outputs.run);
     const ColliderLibrary colliders(outputs.run.plugin_path);
-    Simulation simulation(scene, colliders, outputs.run.collider);
+    const std::unique_ptr<Simulation> made = start(scene, colliders, outputs.run);
+    Simulation& simulation = *made;
     for (const std::string& warning : simulation.plan().warnings)
         std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
     if (!outputs.quiet && outputs.run.collider == "auto")

@@ -2,6 +2,7 @@
 #include "app/run_options.h"
 
 #include "reader/reader.h"
+#include "scene/error.h"
 
 namespace plumb::app {
 
@@ -47,6 +48,15 @@ Scene load_scene(const RunOptions& o) {
     apply("lanes", o.lanes);
     for (const std::string& setting : o.settings) apply_setting(s, setting);
     return scene;
+}
+
+std::unique_ptr<Simulation> start(const Scene& scene, const ColliderLibrary& colliders,
+                                  const RunOptions& options) {
+    try {
+        return std::make_unique<Simulation>(scene, colliders, options.collider);
+    } catch (const SceneError& e) {
+        throw SceneError(options.scene, "", e.what());
+    }
 }
 
 }  // namespace plumb::app

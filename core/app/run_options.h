@@ -2,9 +2,11 @@
 /// What the command line says about how a scene is to be run.
 #pragma once
 
+#include "host/simulation.h"
 #include "scene/scene.h"
 
 #include <CLI/CLI.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,5 +28,9 @@ void add_scene_options(CLI::App& command, RunOptions& options);
 
 /// Reads the scene and applies the command line to its settings.
 Scene load_scene(const RunOptions& options);
+
+/// Makes the simulation; what its world or plan refuses names the scene's file.
+std::unique_ptr<Simulation> start(const Scene& scene, const ColliderLibrary& colliders,
+                                  const RunOptions& options);
 
 }  // namespace plumb::app

@@ -25,5 +25,6 @@ Verb add_run(CLI::App& command);
 Verb add_colliders(CLI::App& command);
 Verb add_effects(CLI::App& command);
 Verb add_check(CLI::App& command);
+Verb add_export(CLI::App& command);
 
 }  // namespace plumb::app

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+/// plumb export: makes a replay, a picture or a table of a recording, such as one that a crash left
+/// behind.
+#include "app/verbs.h"
+#include "output/exporters.h"
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace plumb::app {
+
+Verb add_export(CLI::App& command) {
+    struct Options {
+        std::string recording;
+        std::vector<std::string> files;
+    };
+    auto options = std::make_shared<Options>();
+    command.add_option("recording", options->recording, "a .plumb file")->required();
+    command
+        .add_option("--out", options->files, "a .html, .png, .csv or .plumb file; may be repeated")
+        ->required()
+        ->allow_extra_args(false);
+    return [options] {
+        const Recording recording = read_recording(options->recording);
+        if (recording.dropped_bytes > 0)
+            std::fprintf(stderr,
+                         "plumb: %s: the last %llu bytes are no whole frame and are left out\n",
+                         options->recording.c_str(),
+                         static_cast<unsigned long long>(recording.dropped_bytes));
+        for (const std::string& file : options->files) export_recording(file, recording);
+        std::printf("%s: %zu frames\n", options->recording.c_str(), recording.frames.size());
+        return static_cast<int>(kDone);
+    };
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# bad_input.sh BUILD SOURCE BAD_PLUGINS: each mistake has its exit code and one clear sentence, and nothing crashes.
+set -u
+plumb=$1/bin/plumb scenes=$2/samples/scenes bad_plugins=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+
+# expect CODE WORDS COMMAND…: the command ends with the code and says one line that holds the words.
+expect() {
+  local code=$1 words=$2
+  shift 2
+  "$@" >"$work/out" 2>"$work/err"
+  local got=$?
+  local lines
+  lines=$(grep -c '^plumb: ' "$work/err")
+  if [ $got != "$code" ] || [ "$lines" != 1 ] || ! grep -qF -- "$words" "$work/err"; then
+    echo "FAILED: $* -> exit $got (wanted $code), said: $(cat "$work/err") (wanted one line with \"$words\")"
+    failures=$((failures + 1))
+  else
+    echo "ok $code: $(cat "$work/err")"
+  fi
+}
+
+# scene NAME TEXT: a scene's file.
+scene() { printf '%s' "$2" >"$work/$1"; }
+body='{"name": "a", "shape": {"sphere": {"radius": 1}}'
+scene broken.json '{"bodies": ['
+scene key.json '{"bodys": []}'
+scene nan.json "{\"bodies\": [$body, \"mass\": NaN}]}"
+scene mass.json "{\"bodies\": [$body, \"mass\": -1}]}"
+scene friction.json '{"materials": {"ice": {"friction": -0.1}}}'
+scene shape.json '{"bodies": [{"shape": {"spere": {"radius": 1}}}]}'
+scene material.json "{\"materials\": {\"wood\": {}}, \"bodies\": [$body, \"material\": \"wod\"}]}"
+scene effect.json '{"settings": {"require": ["shok_propagation"]}}'
+scene mesh.json '{"bodies": [{"shape": {"mesh": {"obj": "absent.obj"}}, "motion": "fixed"}]}'
+scene cone.json '{"bodies": [{"shape": {"cone": {"radius": 1, "half_height": 1}}}, {"shape": {"cone": {"radius": 1, "half_height": 1}}}]}'
+scene inertia.json "{\"bodies\": [$body, \"mass\": 1, \"inertia\": [1, 1, 5]}]}"
+
+expect 3 "absent.json" "$plumb" run "$work/absent.json"
+expect 3 "line 1" "$plumb" check "$work/broken.json"
+expect 3 "did you mean \"bodies\"" "$plumb" check "$work/key.json"
+expect 3 "nan.json" "$plumb" check "$work/nan.json"
+expect 3 "/bodies/0/mass" "$plumb" check "$work/mass.json"
+expect 3 "/materials/ice/friction" "$plumb" check "$work/friction.json"
+expect 3 "did you mean \"sphere\"" "$plumb" check "$work/shape.json"
+expect 3 "did you mean \"wood\"" "$plumb" check "$work/material.json"
+expect 3 "shock_propagation" "$plumb" check "$work/effect.json"
+expect 3 "absent.obj" "$plumb" check "$work/mesh.json"
+expect 3 "/bodies/0/inertia" "$plumb" check "$work/inertia.json"
+expect 4 "installed are" "$plumb" check "$scenes/stack.json" --collider physx
+expect 4 "able are: bullet" "$plumb" check "$work/cone.json" --collider ode
+expect 4 "version" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider oldabi
+expect 4 "cannot be loaded" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider junk
+expect 4 "does not export" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider nosymbol
+expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/absent/x.html"
+expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --summary "$work/absent/x.json"
+expect 6 ".html" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/x.hmtl"
+expect 2 "--help" "$plumb" run
+expect 2 "--help" "$plumb" walk
+expect 2 "--help" "$plumb" run "$scenes/stack.json" --substeps many
+expect 3 "substeps" "$plumb" run "$scenes/stack.json" --substeps 0
+expect 3 "lanes" "$plumb" run "$scenes/stack.json" --lanes 3 --collider ode
+expect 3 "fricton" "$plumb" run "$scenes/stack.json" --set fricton=1
+
+# bad plugins are listed with their reason and do not stand in the way of good ones
+"$plumb" colliders --short --plugin-path "$bad_plugins" >"$work/list" || failures=$((failures + 1))
+for words in "refused" "reference" "ode" "bullet"; do
+  grep -q "$words" "$work/list" || { echo "FAILED: plumb colliders does not say $words"; failures=$((failures + 1)); }
+done
+exit $((failures > 0))
