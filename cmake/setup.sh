@@ -5,12 +5,23 @@ build_packages="cmake ninja-build g++ ccache pkg-config binutils libeigen3-dev l
   nlohmann-json3-dev libcli11-dev libtinyobjloader-dev libqhull-dev libembree-dev libstb-dev zlib1g-dev"
 test_packages="libgtest-dev qemu-user"
 
-as_root() { if [ "$(id -u)" = 0 ]; then "$@"; else sudo "$@"; fi; }
+# Perl and apt complain where no locale is set up; this one is always there.
+export LC_ALL=C.UTF-8
+
+as_root() {
+  if [ "$(id -u)" = 0 ]; then "$@"; return; fi
+  command -v sudo >/dev/null || { echo "Installing packages needs root: run this as root, or install sudo." >&2; exit 1; }
+  sudo "$@"
+}
 
 is_installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q "ok installed"; }
 
 # install_missing PACKAGE…: asks first when a person is at the terminal.
 install_missing() {
+  if ! command -v apt-get >/dev/null; then
+    echo "This system has no apt-get. Plumb needs what Debian calls: $*" >&2
+    return 0
+  fi
   missing=""
   for package in "$@"; do is_installed "$package" || missing="$missing $package"; done
   [ -n "$missing" ] || return 0

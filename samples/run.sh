@@ -7,9 +7,15 @@ here=$PWD
 cd "$(dirname "$0")/.."
 . cmake/setup.sh
 
-scene=${1:-samples/scenes/pile.json}
-case "$scene" in /*) ;; *) [ -f "$scene" ] || scene=$here/$scene ;; esac
-[ -f "$scene" ] || { echo "samples/run.sh: there is no scene $scene; those shipped: $(ls samples/scenes/*.json | tr '\n' ' ')" >&2; exit 2; }
+# A name of samples/scenes, or a path from where the caller is.
+wanted=${1:-pile}
+case "$wanted" in /*) path=$wanted ;; *) path=$here/$wanted ;; esac
+scene=samples/scenes/$wanted.json
+[ ! -f "$path" ] || scene=$path
+if [ ! -f "$scene" ]; then
+  echo "samples/run.sh: there is no scene $wanted; those shipped: $(cd samples/scenes && ls *.json | sed 's/.json$//' | tr '\n' ' ')" >&2
+  exit 2
+fi
 
 install_missing $build_packages
 build release
