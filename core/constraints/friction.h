@@ -66,10 +66,10 @@ inline Planar<T> rub(Planar<T>& f, const Planar<T>& held, const Planar<T>& u,
                           now.y - (mass.xy * u.x + mass.yy * u.y)};
     const Planar<T> slide =
         project_on_disc<T>({now.x - mass.least * u.x, now.y - mass.least * u.y}, bound);
-    const T wish = sqrt(stick.x * stick.x + stick.y * stick.y);
+    const T wish = stick.x * stick.x + stick.y * stick.y, most = bound * bound;
     const Planar<T> before = f;
-    f = {select_greater(wish, bound, slide.x, stick.x) - held.x,
-         select_greater(wish, bound, slide.y, stick.y) - held.y};
+    f = {select_greater(wish, most, slide.x, stick.x) - held.x,
+         select_greater(wish, most, slide.y, stick.y) - held.y};
     return {f.x - before.x, f.y - before.y};
 }
 

@@ -200,7 +200,7 @@ enum class Pass { velocity, position };
 template <class Real, int W, class T = Number<Real, W>>
 inline T wanted_velocity(const NormalRow<Real, W>& row, const PassSettings<Real>& pass) {
     const T rebound = load(row.rebound);
-    const T closing = -max(load(row.gap), T(0)) / T(pass.h);
+    const T closing = -max(load(row.gap), T(0)) * T(pass.inverse_h);
     return select_greater(rebound, T(0), rebound, closing);
 }
 
@@ -228,8 +228,8 @@ inline T push_row(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const
     } else {
         T lambda = load(row.lambda_position);
         const T least = pass.shared_push ? -load(row.lambda_velocity) : T(0);
-        const T change =
-            push<T>(lambda, -remaining_gap<Real, W>(row, pass, u) * mass / T(pass.h), least);
+        const T change = push<T>(
+            lambda, -remaining_gap<Real, W>(row, pass, u) * (mass * T(pass.inverse_h)), least);
         store(row.lambda_position, lambda);
         return change;
     }

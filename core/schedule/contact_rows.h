@@ -40,11 +40,11 @@ struct alignas(kRowAlignment<Real, W>) NormalRow {
 /// Across the normal.
 template <class Real, int W>
 struct alignas(kRowAlignment<Real, W>) FrictionRow {
-    Real tangent[3][W];                          // t₁; t₂ = n × t₁
+    Real tangent[3][W];                       // t₁; t₂ = n × t₁
     Real mass_xx[W], mass_xy[W], mass_yy[W];  // inverse of the tangents' K [kg]
     Real mass_least[W];                       // 1 / greatest eigenvalue of K [kg]
-    Real coupling_x[W], coupling_y[W];           // t₁ᵀ K n, t₂ᵀ K n [1/kg]
-    Real friction[W];                            // μ
+    Real coupling_x[W], coupling_y[W];        // t₁ᵀ K n, t₂ᵀ K n [1/kg]
+    Real friction[W];                         // μ
     Real drift_x[W],
         drift_y[W];  // velocity that brings a sticking contact back to its anchors [m/s]
     Real velocity_x[W], velocity_y[W];  // at the start of the substep, forces included [m/s]
@@ -89,13 +89,13 @@ struct BodyRows {
 /// What a pass needs to know besides the rows.
 template <class Real>
 struct PassSettings {
-    Real h;            // substep [s]
-    Real stiffness;    // s of this substep
-    Real recovery;     // greatest overlap pushed out in a substep [m]
-    bool warm_start;   // begin with the impulses of the substep before
-    bool shared_cone;  // one friction bound for both passes
-    bool shared_push;  // the push of both passes together stays repulsive, not of each alone
-    bool forwards;     // direction of this sweep
+    Real h, inverse_h;  // substep [s] and its inverse [1/s]
+    Real stiffness;     // s of this substep
+    Real recovery;      // greatest overlap pushed out in a substep [m]
+    bool warm_start;    // begin with the impulses of the substep before
+    bool shared_cone;   // one friction bound for both passes
+    bool shared_push;   // the push of both passes together stays repulsive, not of each alone
+    bool forwards;      // direction of this sweep
 };
 
 }  // namespace plumb

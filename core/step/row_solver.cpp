@@ -47,6 +47,7 @@ public:
     std::uint32_t begin_substep(const World& world, double h) override {
         table_.begin(world);
         pass_.h = static_cast<Real>(h);
+        pass_.inverse_h = static_cast<Real>(1 / h);
         pass_.stiffness = static_cast<Real>(rescaled_stiffness(settings_));
         pass_.recovery = static_cast<Real>(h * settings_.recovery_speed);
         pass_.warm_start = warm_start_;
