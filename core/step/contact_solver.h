@@ -12,7 +12,6 @@
 #include "step/velocity_table.h"
 #include "world/world.h"
 
-#include <cmath>
 #include <vector>
 
 namespace plumb {
@@ -132,8 +131,8 @@ public:
             const double fx = double(across.held_x[lane]) + double(across.rubbed_x[lane]);
             const double fy = double(across.held_y[lane]) + double(across.rubbed_y[lane]);
             memory.friction_impulse = fx * x + fy * y;
-            memory.sticks = std::hypot(fx, fy) <
-                            (1 - 1e-5) * double(across.friction[lane]) * memory.normal_impulse;
+            const double most = (1 - 1e-5) * double(across.friction[lane]) * memory.normal_impulse;
+            memory.sticks = fx * fx + fy * fy < most * most;
         });
     }
 

@@ -41,15 +41,12 @@ bool before(const Contact& x, const Contact& y) {
     return x.feature < y.feature;
 }
 
-}  // namespace
-
-void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt,
-            StepReport& report) {
+/// Poses and sweeps of all bodies, and empty sinks.
+void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
     const Bodies& bodies = world.bodies;
-    const std::size_t n = bodies.size();
-    buffers.poses.resize(n);
-    buffers.sweeps.resize(n);
-    for (std::size_t i = 0; i < n; ++i) {
+    buffers.poses.resize(bodies.size());
+    buffers.sweeps.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
         buffers.poses[i] = {to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
         buffers.sweeps[i] = sweep(world, i, dt);
     }
@@ -59,15 +56,9 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
         contacts.clear();
         buffers.sinks.push_back({&contacts, grow});
     }
-    const DetectRequest request{buffers.poses.data(), buffers.sweeps.data(),
-                                static_cast<std::uint32_t>(n), 0, world.settings.margin};
-    const Status status = proximity.detect(request, buffers.sinks.data(),
-                                           static_cast<std::uint32_t>(buffers.sinks.size()));
-    if (status.code != Status::ok) {
-        report.collider_failed = true;
-        report.message = status.message ? status.message : "the collider failed without a message";
-    }
+}
 
+void take_contacts(World& world, const DetectBuffers& buffers, StepReport& report) {
     std::vector<Contact>& found = world.contacts.found;
     found.clear();
     for (const auto& contacts : buffers.contacts)
@@ -81,6 +72,31 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
     if (!std::is_sorted(found.begin(), found.end(), before))
         std::stable_sort(found.begin(), found.end(), before);
     report.contacts = static_cast<std::uint32_t>(found.size());
+}
+
+}  // namespace
+
+void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt,
+            StepReport& report, Ledger& ledger) {
+    {
+        const StageTimer timer(ledger, Stage::match);
+        prepare_request(world, buffers, dt);
+    }
+    const DetectRequest request{buffers.poses.data(), buffers.sweeps.data(),
+                                static_cast<std::uint32_t>(buffers.poses.size()), 0,
+                                world.settings.margin};
+    Status status;
+    {
+        const StageTimer timer(ledger, Stage::detect);
+        status = proximity.detect(request, buffers.sinks.data(),
+                                  static_cast<std::uint32_t>(buffers.sinks.size()));
+    }
+    if (status.code != Status::ok) {
+        report.collider_failed = true;
+        report.message = status.message ? status.message : "the collider failed without a message";
+    }
+    const StageTimer timer(ledger, Stage::match);
+    take_contacts(world, buffers, report);
 }
 
 }  // namespace plumb

@@ -3,6 +3,7 @@
 /// order.
 #pragma once
 
+#include "effects/ledger.h"
 #include "effects/plan.h"
 #include "step/report.h"
 #include "step/row_solver.h"
@@ -23,9 +24,10 @@ struct DetectBuffers {
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far
-/// they may move in dt [s]. Its status and message go into the report.
+/// they may move in dt [s]. Its status and message go into the report; only
+/// the time inside its call counts as detection.
 void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt,
-            StepReport& report);
+            StepReport& report, Ledger& ledger);
 
 /// Checks and sorts what was found, and hands each contact the memory of the same contact of the
 /// step before.
