@@ -1,7 +1,8 @@
 # The `plumb` program. It links no back-end: colliders are loaded when it runs.
 find_package(CLI11 REQUIRED)
-add_executable(plumb_app app/main.cpp app/check.cpp app/colliders.cpp app/effects.cpp app/export.cpp app/interrupt.cpp app/progress.cpp
-  app/run.cpp app/run_options.cpp app/statistics.cpp app/summary.cpp)
+add_executable(plumb_app app/main.cpp app/check.cpp app/colliders.cpp app/effects.cpp app/energy_watch.cpp app/export.cpp
+  app/interrupt.cpp app/progress.cpp app/recorder.cpp app/run.cpp app/run_options.cpp app/statistics.cpp app/summary.cpp
+  app/usage.cpp)
 set_target_properties(plumb_app PROPERTIES OUTPUT_NAME plumb)
 target_compile_definitions(plumb_app PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")
 target_link_libraries(plumb_app PRIVATE plumb::host plumb::reader plumb::output nlohmann_json::nlohmann_json CLI11::CLI11

@@ -3,11 +3,17 @@
 #include "app/verbs.h"
 #include "host/collider_library.h"
 
+#include <nlohmann/json.hpp>
+
 #include <cstdio>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace plumb::app {
 namespace {
+
+using Json = nlohmann::ordered_json;
 
 /// One letter for what a plugin can do with a pair: M manifold, p points, m mesh may move, .
 /// nothing.
@@ -28,6 +34,55 @@ void print_pairs(const PluginTable& table) {
             std::printf(" %-6c", ability_letter(table.pairs[a][b]));
         std::printf("\n");
     }
+}
+
+/// What a plugin can do with a pair, in words.
+std::vector<std::string> ability_names(std::uint32_t ability) {
+    std::vector<std::string> names;
+    const auto add = [&](std::uint32_t bit, const char* name) {
+        if (ability & bit) names.emplace_back(name);
+    };
+    add(kPairPoint, "point");
+    add(kPairManifold, "manifold");
+    add(kPairSeparated, "separated");
+    add(kPairThreadSafe, "thread_safe");
+    add(kPairMovingMesh, "moving_mesh");
+    return names;
+}
+
+Json pairs_json(const PluginTable& table) {
+    Json pairs = Json::array();
+    for (std::uint32_t a = 0; a < kShapeKindCount; ++a)
+        for (std::uint32_t b = a; b < kShapeKindCount; ++b)
+            if (table.pairs[a][b] != kPairNone)
+                pairs.push_back({{"a", name_of(static_cast<ShapeKind>(a))},
+                                 {"b", name_of(static_cast<ShapeKind>(b))},
+                                 {"can", ability_names(table.pairs[a][b])}});
+    return pairs;
+}
+
+Json collider_json(const ColliderInfo& c) {
+    Json j{{"name", c.name}, {"file", c.file.string()}};
+    if (!c.table) {
+        j["refused"] = c.refusal;
+        return j;
+    }
+    const auto abi = std::to_string(c.table->abi_major) + "." + std::to_string(c.table->abi_minor);
+    j["version"] = c.table->backend_version;
+    j["precision"] = c.table->precision;
+    j["interface"] = abi;
+    j["description"] = c.table->description;
+    j["pairs"] = pairs_json(*c.table);
+    return j;
+}
+
+int list_json(const std::string& path) {
+    Json all = Json::array();
+    const ColliderLibrary library(path);
+    for (const ColliderInfo& c : library.all()) all.push_back(collider_json(c));
+    // a file's name may be no valid text
+    std::puts(all.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+    return kDone;
 }
 
 int list(const std::string& path, bool pairs) {
@@ -54,13 +109,17 @@ int list(const std::string& path, bool pairs) {
 Verb add_colliders(CLI::App& command) {
     struct Options {
         std::string path;
-        bool short_list = false;
+        bool short_list = false, json = false;
     };
     auto options = std::make_shared<Options>();
     command.add_option("--plugin-path", options->path,
                        "directories to look for plugins in first, separated by ':'");
     command.add_flag("--short", options->short_list, "without the tables of pairs");
-    return [options] { return list(options->path, !options->short_list); };
+    command.add_flag("--json", options->json, "as JSON");
+    return [options] {
+        if (options->json) return list_json(options->path);
+        return list(options->path, !options->short_list);
+    };
 }
 
 }  // namespace plumb::app

@@ -17,14 +17,17 @@ namespace {
 
 constexpr std::uint64_t kTrialSteps = 50;
 
-void print_effects(const nlohmann::ordered_json& effects) {
-    std::printf("%-18s %-4s %10s  %s\n", "effect", "runs", "ms a step", "why");
+void print_effects(const nlohmann::ordered_json& effects, bool costs) {
+    std::printf("%-18s %-4s", "effect", "runs");
+    if (costs) std::printf(" %10s", "ms a step");
+    std::printf("  why\n");
     for (const auto& e : effects) {
         char cost[24] = "(within)";  // runs inside of the contacts' kernels
         if (!e["ms"].is_null()) std::snprintf(cost, sizeof cost, "%.4f", e["ms"].get<double>());
-        std::printf("%-18s %-4s %10s  %s\n", e["name"].get<std::string>().c_str(),
-                    e["ran"].get<bool>() ? "yes" : "no", e["ran"].get<bool>() ? cost : "-",
-                    e["why"].get<std::string>().c_str());
+        const bool runs = e["ran"].get<bool>();
+        std::printf("%-18s %-4s", e["name"].get<std::string>().c_str(), runs ? "yes" : "no");
+        if (costs) std::printf(" %10s", runs ? cost : "-");
+        std::printf("  %s\n", e["why"].get<std::string>().c_str());
     }
 }
 
@@ -36,17 +39,20 @@ void print_stages(const Statistics& s) {
                         percentile(s.stage_ms[i], 0.5));
 }
 
-int tell(const RunOptions& options) {
+int tell(const RunOptions& options, bool try_it) {
     const Scene scene = load_scene(options);
     const ColliderLibrary colliders(options.plugin_path);
     const std::unique_ptr<Simulation> made = start(scene, colliders, options);
     Simulation& simulation = *made;
-    Statistics statistics(simulation, kTrialSteps);
-    for (std::uint64_t i = 0; i < kTrialSteps; ++i) statistics.add(simulation, simulation.step());
-    print_effects(effects_summary(simulation, statistics));
-    print_stages(statistics);
-    std::printf("\nmedians of the first %u steps on collider %s\n",
-                static_cast<unsigned>(kTrialSteps), simulation.collider_name().c_str());
+    Statistics statistics(simulation);
+    const std::uint64_t steps = try_it ? kTrialSteps : 0;
+    for (std::uint64_t i = 0; i < steps; ++i) statistics.add(simulation, simulation.step());
+    print_effects(effects_summary(simulation, statistics), try_it);
+    if (try_it) {
+        print_stages(statistics);
+        std::printf("\nmedians of the first %u steps on collider %s\n",
+                    static_cast<unsigned>(kTrialSteps), simulation.collider_name().c_str());
+    }
     for (const std::string& warning : simulation.plan().warnings)
         std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
     return kDone;
@@ -55,9 +61,14 @@ int tell(const RunOptions& options) {
 }  // namespace
 
 Verb add_effects(CLI::App& command) {
-    auto options = std::make_shared<RunOptions>();
-    add_scene_options(command, *options);
-    return [options] { return tell(*options); };
+    struct Options {
+        RunOptions run;
+        bool no_run = false;
+    };
+    auto options = std::make_shared<Options>();
+    add_scene_options(command, options->run);
+    command.add_flag("--no-run", options->no_run, "only what and why; do not run it for the costs");
+    return [options] { return tell(options->run, !options->no_run); };
 }
 
 }  // namespace plumb::app

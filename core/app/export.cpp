@@ -17,10 +17,13 @@ Verb add_export(CLI::App& command) {
         std::vector<std::string> files;
     };
     auto options = std::make_shared<Options>();
-    command.add_option("recording", options->recording, "a .plumb file")->required();
+    command.add_option("recording", options->recording, "a .plumb file")
+        ->required()
+        ->type_name("FILE");
     command
         .add_option("--out", options->files, "a .html, .png, .csv or .plumb file; may be repeated")
         ->required()
+        ->type_name("FILE")
         ->allow_extra_args(false);
     return [options] {
         const Recording recording = read_recording(options->recording);

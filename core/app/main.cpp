@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// The `plumb` program: results on stdout, all else on stderr, one clear sentence for each failure.
+#include "app/usage.h"
 #include "app/verbs.h"
 #include "output/error.h"
 #include "scene/error.h"
@@ -37,17 +38,11 @@ int complain(int code, const std::string& sentence) {
     return code;
 }
 
-/// CLI11's messages are sentences already, but some span lines.
-std::string one_line(std::string text) {
-    for (char& c : text)
-        if (c == '\n') c = ' ';
-    while (!text.empty() && text.back() == ' ') text.pop_back();
-    return text;
-}
-
 int guarded(const Verb& verb) {
     try {
         return verb();
+    } catch (const UsageError& e) {
+        return complain(kUsage, e.what());
     } catch (const SceneError& e) {
         return complain(kBadScene, e.what());
     } catch (const ColliderError& e) {
@@ -64,20 +59,22 @@ int guarded(const Verb& verb) {
 int program(int argc, char** argv) {
     CLI::App app{"Plumb: position-based rigid body dynamics on interchangeable collision back-ends",
                  "plumb"};
-    app.set_version_flag("--version", PLUMB_VERSION);
+    app.set_version_flag("--version", "plumb " PLUMB_VERSION);
     app.footer(kFooter);
+    app.get_formatter()->label("SUBCOMMAND", "VERB");
     app.require_subcommand(1);
     std::array<CLI::App*, kVerbs.size()> commands{};
     std::array<Verb, kVerbs.size()> verbs;
     for (std::size_t i = 0; i < kVerbs.size(); ++i) {
         commands[i] = app.add_subcommand(kVerbs[i].name, kVerbs[i].description);
+        commands[i]->group("Verbs");
         verbs[i] = kVerbs[i].add(*commands[i]);
     }
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-        return complain(kUsage, one_line(e.what()) + "; try \"plumb --help\"");
+        return complain(kUsage, usage_sentence(app, argc, argv, e));
     }
     for (std::size_t i = 0; i < kVerbs.size(); ++i)
         if (commands[i]->parsed()) return guarded(verbs[i]);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
@@ -8,12 +9,32 @@
 namespace plumb::app {
 namespace {
 
-constexpr int kBarWidth = 24;
+constexpr int kBarWidth = 20;
 
 std::string bar(double share) {
     std::string text = "[";
     for (int i = 0; i < kBarWidth; ++i) text += i < share * kBarWidth ? '#' : '.';
     return text + "]";
+}
+
+/// "42 s", "3:05 min", "2:10 h".
+std::string duration_text(double seconds) {
+    char text[40];
+    const auto whole = static_cast<long long>(seconds < 1e15 ? seconds : 1e15);
+    if (whole < 100)
+        std::snprintf(text, sizeof text, "%lld s", whole);
+    else if (whole < 6000)
+        std::snprintf(text, sizeof text, "%lld:%02lld min", whole / 60, whole % 60);
+    else
+        std::snprintf(text, sizeof text, "%lld:%02lld h", whole / 3600, whole / 60 % 60);
+    return text;
+}
+
+/// A line that is wider than the terminal would wrap, and never be drawn over.
+std::size_t terminal_width() {
+    winsize size{};
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : 80;
 }
 
 }  // namespace
@@ -33,10 +54,12 @@ void Progress::show(std::uint64_t step, std::uint32_t contacts, const std::strin
     const double elapsed = std::chrono::duration<double>(now - start_).count();
     const double rate = elapsed > 0 ? static_cast<double>(step) / elapsed : 0;
     const double left = rate > 0 ? static_cast<double>(steps_ - step) / rate : 0;
-    std::fprintf(stderr, "\r%s %3.0f%%  %.0f steps/s  %.0f s left  %u contacts  worst %s\033[K",
-                 bar(static_cast<double>(step) / static_cast<double>(steps_)).c_str(),
-                 100.0 * static_cast<double>(step) / static_cast<double>(steps_), rate, left,
-                 contacts, violation.c_str());
+    const double share = static_cast<double>(step) / static_cast<double>(steps_);
+    char text[200];
+    std::snprintf(text, sizeof text, "%s %3.0f%% %.0f steps/s, %s left, %u contacts, worst %s",
+                  bar(share).c_str(), 100 * share, rate, duration_text(left).c_str(), contacts,
+                  violation.c_str());
+    std::fprintf(stderr, "\r%.*s\033[K", static_cast<int>(terminal_width() - 1), text);
     std::fflush(stderr);
     drawn_ = true;
 }

@@ -12,6 +12,8 @@ class Progress {
 public:
     Progress(std::uint64_t steps, bool quiet);
     ~Progress();
+    Progress(const Progress&) = delete;
+    Progress& operator=(const Progress&) = delete;
 
     /// Redraws at most ten times a second. `violation` is a few words about the worst one so far.
     void show(std::uint64_t step, std::uint32_t contacts, const std::string& violation);

@@ -2,27 +2,25 @@
 /// plumb run: simulates a scene, and writes recordings, pictures and a summary.
 #include "app/interrupt.h"
 #include "app/progress.h"
+#include "app/recorder.h"
 #include "app/run_options.h"
 #include "app/statistics.h"
 #include "app/summary.h"
 #include "app/verbs.h"
 #include "host/simulation.h"
-#include "output/error.h"
-#include "output/exporters.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <cstring>
-#include <fstream>
-#include <iostream>
+#include <cstdlib>
 #include <memory>
 
 namespace plumb::app {
 namespace {
+
+constexpr int kFailuresInARow = 10;
 
 struct Outputs {
     RunOptions run;
@@ -38,46 +36,6 @@ std::uint64_t steps_a_frame(const Settings& s, double frames_per_second) {
         1, static_cast<std::uint64_t>(std::lround(1 / (frames_per_second * s.dt))));
 }
 
-/// The files that a run writes frames to; all are opened before the run begins.
-class Recorder {
-public:
-    Recorder(const Outputs& outputs, const Scene& scene, const Simulation& simulation) {
-        const Metadata metadata{simulation.collider_name(),
-                                {{"collider_version", simulation.collider_version()}}};
-        for (const std::string& file : outputs.files)
-            exporters_.push_back(make_exporter(file, scene, metadata));
-    }
-    void append(const Simulation& simulation) {
-        if (exporters_.empty()) return;
-        simulation.capture(frame_);
-        for (auto& e : exporters_) e->append(frame_);
-    }
-    void finish() {
-        for (auto& e : exporters_) e->finish();
-    }
-
-private:
-    std::vector<std::unique_ptr<Exporter>> exporters_;
-    Frame frame_;
-};
-
-/// Opens the summary's file before the run, so that a path that cannot be written is known in time.
-std::ofstream open_summary(const std::string& path) {
-    std::ofstream file;
-    if (path.empty() || path == "-") return file;
-    file.open(path);
-    if (!file) throw OutputError(path, std::string("cannot be written: ") + std::strerror(errno));
-    return file;
-}
-
-void write_summary(const std::string& path, std::ofstream& file,
-                   const nlohmann::ordered_json& json) {
-    if (path.empty()) return;
-    std::ostream& to = path == "-" ? std::cout : file;
-    to << json.dump(2) << std::endl;
-    if (!to) throw OutputError(path, "cannot be written: the disk may be full");
-}
-
 std::string worst(const Statistics& statistics) {
     char text[80];
     if (statistics.worst_joint() > statistics.worst_penetration())
@@ -88,32 +46,46 @@ std::string worst(const Statistics& statistics) {
     return text;
 }
 
+/// Whether all bodies are where a recording, in single precision, can still tell.
+bool within_reach(const World& world) {
+    constexpr double kFar = 1e30;  // [m], [m/s], [rad/s]
+    const Bodies& b = world.bodies;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (!(b.position[i].cwiseAbs().maxCoeff() < kFar) ||
+            !(b.velocity[i].cwiseAbs().maxCoeff() < kFar) ||
+            !(b.angular_velocity[i].cwiseAbs().maxCoeff() < kFar))
+            return false;
+    return true;
+}
+
 /// How a run came to its end, and the sentence for it where it was not the planned one.
 struct Ending {
     int code = kDone;
     std::string sentence;
 };
 
-/// Looks at what a step reported; a collider that fails once is told of, one that goes on failing
-/// ends the run.
+/// Looks at what a step reported. A collider that fails now and then is told of when the run is
+/// over; one that goes on failing ends it.
 Ending judge(const Simulation& simulation, const StepReport& report, const Statistics& statistics,
              int& failures_in_a_row) {
-    if (!report.finite)
-        return {kDiverged, "the state is no longer finite after step " +
-                               std::to_string(simulation.steps()) +
+    const std::string step = std::to_string(simulation.steps());
+    if (!report.finite || !within_reach(simulation.world()))
+        return {kDiverged, "diverged: the state is no longer finite after step " + step +
                                "; the frames before it are kept"};
-    if (statistics.energy_ran_away())
-        return {kDiverged, "the energy has grown beyond what the scene can supply by step " +
-                               std::to_string(simulation.steps()) + "; the frames so far are kept"};
+    if (statistics.energy().ran_away())
+        return {kDiverged,
+                "diverged: the energy has grown beyond what the scene can supply by step " + step +
+                    "; the frames so far are kept"};
     if (!report.collider_failed) {
         failures_in_a_row = 0;
         return {};
     }
-    const std::string who = "collider \"" + simulation.collider_name() + "\": " + report.message;
-    if (statistics.collider_failures == 1) std::fprintf(stderr, "plumb: %s\n", who.c_str());
-    if (++failures_in_a_row < 10) return {};
-    return {kColliderUnable, "collider \"" + simulation.collider_name() +
-                                 "\" failed ten steps in a row; the frames so far are kept"};
+    const std::string who = "collider \"" + simulation.collider_name() + "\"";
+    if (++failures_in_a_row >= kFailuresInARow)
+        return {kColliderUnable, who + " failed " + std::to_string(kFailuresInARow) +
+                                     " steps in a row (" + report.message +
+                                     "); the frames so far are kept"};
+    return {};
 }
 
 Ending simulate(Simulation& simulation, Recorder& recorder, Statistics& statistics,
@@ -126,13 +98,40 @@ Ending simulate(Simulation& simulation, Recorder& recorder, Statistics& statisti
         statistics.add(simulation, report);
         const Ending ending = judge(simulation, report, statistics, failures_in_a_row);
         if (ending.code != kDone) return ending;
-        if (i % every == 0 || i == steps || interrupted()) recorder.append(simulation);
+        const bool stop = interrupted();
+        if (i % every == 0 || i == steps || stop) recorder.append(simulation);
+        if (!recorder.failure().empty()) return {};
         progress.show(i, report.contacts, worst(statistics));
-        if (interrupted())
+        if (stop)
             return {kInterrupted, "interrupted at " + std::to_string(simulation.time()) +
                                       " s; outputs hold the run so far"};
     }
     return {};
+}
+
+/// What is worth knowing although the run went on.
+void warn(const Simulation& simulation, const Statistics& statistics) {
+    if (statistics.rejected_contacts > 0)
+        std::fprintf(stderr,
+                     "plumb: warning: collider \"%s\" gave %llu contacts that are not finite or of "
+                     "no body; they were left out\n",
+                     simulation.collider_name().c_str(),
+                     static_cast<unsigned long long>(statistics.rejected_contacts));
+    if (statistics.collider_failures > 0)
+        std::fprintf(stderr, "plumb: warning: collider \"%s\" failed in %llu of %llu steps: %s\n",
+                     simulation.collider_name().c_str(),
+                     static_cast<unsigned long long>(statistics.collider_failures),
+                     static_cast<unsigned long long>(simulation.steps()),
+                     statistics.first_failure.c_str());
+}
+
+void greet(const Simulation& simulation, const Outputs& outputs) {
+    for (const std::string& warning : simulation.plan().warnings)
+        std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
+    if (!outputs.quiet && outputs.run.collider == "auto")
+        std::fprintf(stderr,
+                     "plumb: collider %s (the first that can do every pair of this scene)\n",
+                     simulation.collider_name().c_str());
 }
 
 int run(const Outputs& outputs) {
@@ -140,27 +139,31 @@ int run(const Outputs& outputs) {
     const ColliderLibrary colliders(outputs.run.plugin_path);
     const std::unique_ptr<Simulation> made = start(scene, colliders, outputs.run);
     Simulation& simulation = *made;
-    for (const std::string& warning : simulation.plan().warnings)
-        std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
-    if (!outputs.quiet && outputs.run.collider == "auto")
-        std::fprintf(stderr,
-                     "plumb: collider %s (the first that can do every pair of this scene)\n",
-                     simulation.collider_name().c_str());
+    Recorder recorder(outputs.files, outputs.summary, scene, simulation);
+    greet(simulation, outputs);
 
     const auto steps =
         static_cast<std::uint64_t>(std::llround(scene.settings.duration / scene.settings.dt));
-    std::ofstream summary_file = open_summary(outputs.summary);
-    Recorder recorder(outputs, scene, simulation);
-    Statistics statistics(simulation, steps);
+    Statistics statistics(simulation);
     catch_interrupts();
-    const Ending ending =
+    Ending ending =
         simulate(simulation, recorder, statistics, steps,
                  steps_a_frame(scene.settings, outputs.frames_per_second), outputs.quiet);
+
+    statistics.finish(simulation);
     recorder.finish();
-    write_summary(outputs.summary, summary_file,
-                  summary(outputs.run.scene, scene, simulation, statistics));
+    recorder.write_summary(summary(outputs.run.scene, scene, simulation, statistics).dump(2));
+    if (!recorder.failure().empty() && ending.code != kDiverged)
+        ending = {kCannotWrite, recorder.failure()};
+    if (ending.code != kColliderUnable) warn(simulation, statistics);
     if (!ending.sentence.empty()) std::fprintf(stderr, "plumb: %s\n", ending.sentence.c_str());
     return ending.code;
+}
+
+/// Checks --fps; the words are the parser's answer, none when it is well.
+std::string check_frame_rate(const std::string& text) {
+    const double value = std::strtod(text.c_str(), nullptr);
+    return value >= 1e-6 && value <= 1e9 ? "" : "must be a number above 0, but is " + text;
 }
 
 }  // namespace
@@ -171,13 +174,17 @@ Verb add_run(CLI::App& command) {
     command
         .add_option("--out", outputs->files,
                     "write the run to a .html, .png, .csv or .plumb file; may be repeated")
+        ->type_name("FILE")
         ->allow_extra_args(false);
-    command.add_option("--summary", outputs->summary,
-                       "write the run's figures as JSON to a file, or to stdout (-)");
+    command
+        .add_option("--summary", outputs->summary,
+                    "write the run's figures as JSON to a file, or to stdout (-)")
+        ->type_name("FILE");
     command
         .add_option("--fps", outputs->frames_per_second,
-                    "recorded frames a second of simulated time")
-        ->check(CLI::PositiveNumber);
+                    "recorded frames a second of simulated time; 30 unless told")
+        ->type_name("N")
+        ->check(check_frame_rate);
     command.add_flag("--quiet", outputs->quiet, "no progress bar and no remarks");
     return [outputs] { return run(*outputs); };
 }

@@ -1,52 +1,91 @@
 // SPDX-License-Identifier: MIT
 #include "app/run_options.h"
 
+#include "app/usage.h"
 #include "reader/reader.h"
 #include "scene/error.h"
 
+#include <algorithm>
+#include <array>
+
 namespace plumb::app {
+namespace {
+
+/// An option that stands for a key of a scene's settings. Its value is kept as text, so that the
+/// reader's own checks and sentences hold for it and no digit is lost.
+struct SettingOption {
+    const char* name;
+    const char* key;
+    const char* type;
+    const char* description;
+};
+
+constexpr std::array kSettingOptions{
+    SettingOption{"--preset", "preset", "NAME",
+                  "paper = the paper's step to the letter; other options then change it"},
+    SettingOption{"--method", "method", "NAME", "how a step is made: pbd"},
+    SettingOption{"--precision", "precision", "NAME",
+                  "single or double, of the solver's iterations"},
+    SettingOption{"--duration", "duration", "SECONDS", "simulated time"},
+    SettingOption{"--dt", "dt", "SECONDS", "length of a step"},
+    SettingOption{"--substeps", "substeps", "N", "small steps to one detection"},
+    SettingOption{"--velocity-iterations", "velocity_iterations", "N",
+                  "sweeps over the velocity constraints a substep"},
+    SettingOption{"--position-iterations", "position_iterations", "N",
+                  "sweeps over the position constraints a substep"},
+    SettingOption{"--threads", "threads", "N", "workers of the solver"},
+    SettingOption{"--lanes", "lanes", "N",
+                  "constraints side by side: 1, 4, 8, 16; 0 = the widest that runs here"},
+};
+
+/// Applies one value; `said` is how the user wrote it.
+void apply(Settings& settings, const std::string& key, const std::string& value,
+           const std::string& said) {
+    try {
+        apply_setting(settings, key + "=" + value);
+    } catch (const SceneError& e) {
+        std::string sentence = e.what();
+        for (const std::string& part : {e.file(), "/" + key})
+            if (sentence.rfind(part + ": ", 0) == 0) sentence.erase(0, part.size() + 2);
+        throw UsageError(said + ": " + sentence);
+    }
+}
+
+}  // namespace
 
 void add_scene_options(CLI::App& command, RunOptions& o) {
-    command.add_option("scene", o.scene, "the scene's file")->required();
-    command.add_option("--collider", o.collider,
-                       "collision plugin; auto = the first that can do the scene");
-    command.add_option("--plugin-path", o.plugin_path,
-                       "directories to look for plugins in first, separated by ':'");
-    command.add_option("--preset", o.preset, "paper = the paper's step to the letter");
-    command.add_option("--method", o.method, "pbd");
-    command.add_option("--precision", o.precision, "single or double, of the solver's iterations");
-    command.add_option("--duration", o.duration, "simulated time [s]");
-    command.add_option("--dt", o.dt, "step [s]");
-    command.add_option("--substeps", o.substeps, "small steps to one detection");
-    command.add_option("--velocity-iterations", o.velocity_iterations);
-    command.add_option("--position-iterations", o.position_iterations);
-    command.add_option("--threads", o.threads, "workers of the solver");
-    command.add_option("--lanes", o.lanes,
-                       "constraints side by side: 1, 4, 8, 16; 0 = the widest that runs here");
-    command.add_option("--set", o.settings, "key=value of the scene's settings; may be repeated")
+    command.add_option("scene", o.scene, "the scene's file")->required()->type_name("FILE");
+    command
+        .add_option("--collider", o.collider,
+                    "collision plugin; auto = the first that can do the scene")
+        ->type_name("NAME");
+    command
+        .add_option("--plugin-path", o.plugin_path,
+                    "directories to look for plugins in first, separated by ':'")
+        ->type_name("DIRS");
+    for (const SettingOption& s : kSettingOptions)
+        command
+            .add_option_function<std::string>(
+                s.name, [&o, &s](const std::string& text) { o.values.emplace_back(s.key, text); },
+                s.description)
+            ->type_name(s.type);
+    command.add_option("--set", o.settings, "one of the scene's settings; may be repeated")
+        ->type_name("KEY=VALUE")
         ->allow_extra_args(false);
 }
 
 Scene load_scene(const RunOptions& o) {
     Scene scene = read_scene(o.scene);
-    Settings& s = scene.settings;
-    auto apply = [&](const char* key, const auto& value) {
-        if (value) apply_setting(s, std::string(key) + "=" + CLI::detail::to_string(*value));
-    };
-    auto apply_text = [&](const char* key, const std::string& value) {
-        if (!value.empty()) apply_setting(s, std::string(key) + "=" + value);
-    };
-    apply_text("preset", o.preset);
-    apply_text("method", o.method);
-    apply_text("precision", o.precision);
-    apply("duration", o.duration);
-    apply("dt", o.dt);
-    apply("substeps", o.substeps);
-    apply("velocity_iterations", o.velocity_iterations);
-    apply("position_iterations", o.position_iterations);
-    apply("threads", o.threads);
-    apply("lanes", o.lanes);
-    for (const std::string& setting : o.settings) apply_setting(s, setting);
+    for (const SettingOption& s : kSettingOptions)
+        for (const auto& [key, value] : o.values)
+            if (key == s.key) apply(scene.settings, key, value, std::string(s.name) + " " + value);
+    for (const std::string& setting : o.settings) {
+        const std::size_t equals = setting.find('=');
+        if (equals == std::string::npos)
+            throw UsageError("--set " + setting + ": has no \"=\"; write key=value");
+        apply(scene.settings, setting.substr(0, equals), setting.substr(equals + 1),
+              "--set " + setting);
+    }
     return scene;
 }
 

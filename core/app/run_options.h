@@ -7,8 +7,8 @@
 
 #include <CLI/CLI.hpp>
 #include <memory>
-#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumb::app {
@@ -17,16 +17,15 @@ struct RunOptions {
     std::string scene;
     std::string collider = "auto";
     std::string plugin_path;
-    std::string preset, method, precision;
-    std::optional<double> duration, dt;
-    std::optional<unsigned> substeps, velocity_iterations, position_iterations, threads, lanes;
-    std::vector<std::string> settings;  ///< key=value
+    std::vector<std::pair<std::string, std::string>> values;  ///< key of the settings, text
+    std::vector<std::string> settings;                        ///< key=value
 };
 
 /// Options that every verb has that loads a scene.
 void add_scene_options(CLI::App& command, RunOptions& options);
 
-/// Reads the scene and applies the command line to its settings.
+/// Reads the scene and applies the command line to its settings. Throws SceneError, or UsageError
+/// for what the command line says.
 Scene load_scene(const RunOptions& options);
 
 /// Makes the simulation; what its world or plan refuses names the scene's file.

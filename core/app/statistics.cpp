@@ -11,10 +11,18 @@ namespace {
 
 double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; }
 
-double mass_of(const World& world) {
-    double sum = 0;
-    for (double m : world.bodies.mass) sum += m;
-    return sum;
+Sample sample_of(const World& world) {
+    const Vector3d g = world.settings.gravity;
+    const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
+    Sample sample{world.time, penetrations(world), joint_errors(world), {}, {}};
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+        if (world.bodies.motion[i] != Motion::dynamic) continue;
+        const double v = world.bodies.velocity[i].norm();
+        const Vector3d& x = world.bodies.position[i];
+        sample.speed.push_back(v);
+        if ((x - up.dot(x) * up).norm() <= Statistics::kNearRadius) sample.near_speed.push_back(v);
+    }
+    return sample;
 }
 
 }  // namespace
@@ -27,32 +35,12 @@ Speeds speeds_of(const std::vector<double>& values) {
             percentile(values, 1)};
 }
 
-Statistics::Statistics(const Simulation& simulation, std::uint64_t steps) : steps_(steps) {
-    const World& world = simulation.world();
-    sample_every_ = std::max<std::uint64_t>(
-        1, static_cast<std::uint64_t>(std::lround(0.1 / world.settings.dt)));
-    start_energy = kinetic_energy(world) + potential_energy(world);
-    // What moves from outside does work that is not counted here, and overlap at the start is
-    // energy too.
-    watches_energy_ = world.kinematic_count == 0;
-    for (const Vector3d& torque : world.bodies.torque) watches_energy_ &= torque.norm() == 0;
-    lowest_potential_ = potential_energy(world);
-    allowance_ =
-        mass_of(world) * (world.settings.gravity.norm() * 0.1 +
-                          0.5 * world.settings.recovery_speed * world.settings.recovery_speed);
-}
+Statistics::Statistics(const Simulation& simulation)
+    : energy_(simulation.world()),
+      sample_every_(std::max<std::uint64_t>(
+          1, static_cast<std::uint64_t>(std::lround(0.1 / simulation.world().settings.dt)))) {}
 
-void Statistics::watch_energy(const Simulation& simulation) {
-    if (!watches_energy_) return;
-    const World& world = simulation.world();
-    const double potential = potential_energy(world), now = kinetic_energy(world) + potential;
-    lowest_potential_ = std::min(lowest_potential_, potential);
-    const double scale = std::max(start_energy - lowest_potential_, 0.0);
-    steps_above_ = now > start_energy + 0.1 * scale + allowance_ ? steps_above_ + 1 : 0;
-}
-
-void Statistics::add(const Simulation& simulation, const StepReport& report) {
-    const Ledger& ledger = simulation.ledger();
+void Statistics::add_times(const Ledger& ledger) {
     detect_ms.push_back(milliseconds(ledger.of(Stage::detect)));
     solve_ms.push_back(milliseconds(ledger.solver_nanoseconds()));
     step_ms.push_back(milliseconds(ledger.step_nanoseconds));
@@ -60,34 +48,38 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
         stage_ms[i].push_back(milliseconds(ledger.nanoseconds[i]));
         stage_calls[i] += ledger.calls[i];
     }
+}
+
+void Statistics::add(const Simulation& simulation, const StepReport& report) {
+    const World& world = simulation.world();
+    add_times(simulation.ledger());
     contact_sum += report.contacts;
     contact_max = std::max(contact_max, report.contacts);
     clamped_recoveries += report.clamped_recoveries;
     rejected_contacts += report.rejected_contacts;
+    if (report.collider_failed && collider_failures == 0) first_failure = report.message;
     collider_failures += report.collider_failed;
-    for (const Contact& c : simulation.world().contacts.found_before)
+    finite_ &= report.finite;
+    if (!finite_) return;  // figures of the bodies are those of the steps before
+
+    for (const Contact& c : world.contacts.found_before)
         worst_penetration_ = std::max(worst_penetration_, -c.gap);
-    for (double error : joint_errors(simulation.world()))
-        worst_joint_ = std::max(worst_joint_, error);
-    watch_energy(simulation);
-    const bool last_fifth = simulation.steps() > steps_ - steps_ / 5;
-    if ((last_fifth && simulation.steps() % sample_every_ == 0) || simulation.steps() == steps_)
-        sample(simulation);
+    for (double error : joint_errors(world)) worst_joint_ = std::max(worst_joint_, error);
+    energy_.add(world, report);
+    if (simulation.steps() % sample_every_ == 0) samples_.push_back(sample_of(world));
+    while (!samples_.empty() && samples_.front().time <= 0.8 * world.time) samples_.pop_front();
 }
 
-void Statistics::sample(const Simulation& simulation) {
-    const World& world = simulation.world();
-    const Vector3d g = world.settings.gravity;
-    const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
-    for (double depth : penetrations(world)) penetration.push_back(depth);
-    for (double error : joint_errors(world)) joint_error.push_back(error);
-    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-        if (world.bodies.motion[i] != Motion::dynamic) continue;
-        const double v = world.bodies.velocity[i].norm();
-        const Vector3d& x = world.bodies.position[i];
-        speed.push_back(v);
-        if ((x - up.dot(x) * up).norm() <= kNearRadius) near_speed.push_back(v);
-    }
+void Statistics::finish(const Simulation& simulation) {
+    if (!finite_) return;
+    if (samples_.empty() || samples_.back().time < simulation.time())
+        samples_.push_back(sample_of(simulation.world()));
+}
+
+std::vector<double> Statistics::over_last_fifth(std::vector<double> Sample::*values) const {
+    std::vector<double> all;
+    for (const Sample& s : samples_) all.insert(all.end(), (s.*values).begin(), (s.*values).end());
+    return all;
 }
 
 }  // namespace plumb::app

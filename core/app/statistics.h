@@ -2,10 +2,13 @@
 /// Figures that are gathered while a run goes on.
 #pragma once
 
+#include "app/energy_watch.h"
 #include "host/simulation.h"
 
 #include <array>
 #include <cstdint>
+#include <deque>
+#include <string>
 #include <vector>
 
 namespace plumb::app {
@@ -16,23 +19,34 @@ struct Speeds {
 };
 Speeds speeds_of(const std::vector<double>& values);
 
+/// What the bodies do at one moment.
+struct Sample {
+    double time = 0;                               ///< [s]
+    std::vector<double> penetration, joint_error;  ///< [pair], [joint], [m]
+    std::vector<double> speed, near_speed;         ///< [dynamic body], [m/s]
+};
+
 class Statistics {
 public:
     /// Bodies within this distance of the vertical axis are also told about by themselves [m].
     static constexpr double kNearRadius = 8;
 
-    Statistics(const Simulation& simulation, std::uint64_t steps);
+    explicit Statistics(const Simulation& simulation);
 
     /// Takes what the step that was just made tells.
     void add(const Simulation& simulation, const StepReport& report);
+
+    /// Takes the bodies as they are at the end of the run.
+    void finish(const Simulation& simulation);
+
+    /// Values of one kind over the last fifth of the run: each tenth of a second, and at its end.
+    std::vector<double> over_last_fifth(std::vector<double> Sample::*values) const;
 
     /// Deepest penetration and widest joint gap so far [m].
     double worst_penetration() const { return worst_penetration_; }
     double worst_joint() const { return worst_joint_; }
 
-    /// Whether the energy has run away: ten steps above what the run began with and could have
-    /// gained by 10 %.
-    bool energy_ran_away() const { return steps_above_ >= 10; }
+    const EnergyWatch& energy() const { return energy_; }
 
     std::vector<double> detect_ms, solve_ms, step_ms;
     std::array<std::vector<double>, kStageCount> stage_ms;
@@ -40,18 +54,16 @@ public:
     double contact_sum = 0;
     std::uint32_t contact_max = 0;
     std::uint64_t clamped_recoveries = 0, rejected_contacts = 0, collider_failures = 0;
-    std::vector<double> penetration, speed, near_speed, joint_error;  ///< over the last fifth
-    double start_energy = 0;                                          ///< [J]
+    std::string first_failure;  ///< what the collider said
 
 private:
-    void watch_energy(const Simulation& simulation);
-    void sample(const Simulation& simulation);
+    void add_times(const Ledger& ledger);
 
-    std::uint64_t steps_, sample_every_;
+    EnergyWatch energy_;
+    std::uint64_t sample_every_;  ///< steps
+    std::deque<Sample> samples_;
+    bool finite_ = true;
     double worst_penetration_ = 0, worst_joint_ = 0;
-    double lowest_potential_ = 0, allowance_ = 0;
-    bool watches_energy_ = false;
-    int steps_above_ = 0;
 };
 
 }  // namespace plumb::app

@@ -6,6 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cstdio>
 #include <map>
@@ -61,6 +63,57 @@ Heights heights_of(const World& world) {
     return h;
 }
 
+/// Whether the filters let two bodies meet.
+bool may_meet(const BodySpec& a, const BodySpec& b) {
+    return (a.group & b.mask) != 0 && (b.group & a.mask) != 0;
+}
+
+/// Whether the whole of a body is behind the surface of a plane that should hold it.
+bool is_behind(const World& world, std::size_t body, std::size_t plane) {
+    const Placement surface = geometry_placement(world.bodies, plane);
+    const Vector3d normal = surface.rotation * Vector3d::UnitY();
+    return normal.dot(world.bodies.position[body] - surface.position) < -world.bodies.reach[body];
+}
+
+/// How many dynamic bodies went through a fixed plane; null where there is none.
+Json fallen_through(const Scene& scene, const World& world) {
+    std::vector<std::size_t> planes;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodySpec& b = scene.bodies[i];
+        if (b.motion == Motion::fixed && b.geometry != kNoIndex &&
+            scene.geometries[b.geometry].kind == ShapeKind::plane)
+            planes.push_back(i);
+    }
+    if (planes.empty()) return nullptr;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        count +=
+            scene.bodies[i].motion == Motion::dynamic && scene.bodies[i].geometry != kNoIndex &&
+            std::any_of(planes.begin(), planes.end(), [&](std::size_t plane) {
+                return may_meet(scene.bodies[i], scene.bodies[plane]) && is_behind(world, i, plane);
+            });
+    return count;
+}
+
+/// Most memory that the program has held [bytes].
+std::uint64_t peak_memory() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * 1024;
+}
+
+Json build_json() {
+#ifdef NDEBUG
+    constexpr const char* assertions = "off";
+#else
+    constexpr const char* assertions = "on";
+#endif
+    return {{"plumb", PLUMB_VERSION},
+            {"compiler", __VERSION__},
+            {"assertions", assertions},
+            {"widest_lanes", widest_lanes()}};
+}
+
 Json stages_json(const Statistics& s) {
     Json stages = Json::object();
     for (std::size_t i = 0; i < kStageCount; ++i)
@@ -110,6 +163,8 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     const Heights heights = heights_of(world);
     const DetectStats detect = simulation.detect_stats();
     const double steps = static_cast<double>(std::max<std::uint64_t>(1, simulation.steps()));
+    const std::vector<double> penetration = s.over_last_fifth(&Sample::penetration),
+                              joint_error = s.over_last_fifth(&Sample::joint_error);
     Json j;
     j["scene"] = scene.name;
     j["file"] = scene_file;
@@ -140,25 +195,28 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
                     {"solve", times(s.solve_ms)},
                     {"step", times(s.step_ms)},
                     {"stages", stages_json(s)}};
-    j["energy"] = {{"start", s.start_energy},
+    j["energy"] = {{"start", s.energy().start()},
                    {"end", kinetic_energy(world) + potential_energy(world)}};
     j["momentum"] = {{"linear", vector_json(linear_momentum(world))},
                      {"angular", vector_json(angular_momentum(world))}};
-    j["penetration"] = {{"mean", mean(s.penetration)},
-                        {"p99", percentile(s.penetration, 0.99)},
-                        {"max", percentile(s.penetration, 1)}};
-    j["joint_error"] = {{"mean", mean(s.joint_error)}, {"max", percentile(s.joint_error, 1)}};
-    j["speed"] = speeds_json(s.speed);
-    j["speed_near"] = speeds_json(s.near_speed);
+    j["penetration"] = {{"mean", mean(penetration)},
+                        {"p99", percentile(penetration, 0.99)},
+                        {"max", percentile(penetration, 1)}};
+    j["joint_error"] = {{"mean", mean(joint_error)}, {"max", percentile(joint_error, 1)}};
+    j["speed"] = speeds_json(s.over_last_fifth(&Sample::speed));
+    j["speed_near"] = speeds_json(s.over_last_fifth(&Sample::near_speed));
     j["speed_near"]["radius"] = Statistics::kNearRadius;
     j["speed_near"]["left_out"] = heights.count - heights.near_count;
     j["final_height"] = {
         {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
+    j["fallen_through"] = fallen_through(scene, world);
     j["clamps"] = {{"recovery", s.clamped_recoveries},
                    {"rejected_contacts", s.rejected_contacts},
                    {"collider_failures", s.collider_failures}};
     j["state_hash"] = hex(state_hash(world));
     j["effects"] = effects_summary(simulation, s);
+    j["build"] = build_json();
+    j["peak_memory"] = peak_memory();
     j["warnings"] = simulation.plan().warnings;
     return j;
 }

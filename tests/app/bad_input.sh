@@ -14,8 +14,8 @@ expect() {
   "$@" >"$work/out" 2>"$work/err"
   local got=$?
   local lines
-  lines=$(grep -c '^plumb: ' "$work/err")
-  if [ $got != "$code" ] || [ "$lines" != 1 ] || ! grep -qF -- "$words" "$work/err"; then
+  lines=$(wc -l <"$work/err")
+  if [ $got != "$code" ] || [ "$lines" != 1 ] || ! grep -q '^plumb: ' "$work/err" || ! grep -qF -- "$words" "$work/err"; then
     echo "FAILED: $* -> exit $got (wanted $code), said: $(cat "$work/err") (wanted one line with \"$words\")"
     failures=$((failures + 1))
   else
@@ -57,12 +57,25 @@ expect 4 "does not export" "$plumb" check "$scenes/stack.json" --plugin-path "$b
 expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/absent/x.html"
 expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --summary "$work/absent/x.json"
 expect 6 ".html" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/x.hmtl"
-expect 2 "--help" "$plumb" run
-expect 2 "--help" "$plumb" walk
-expect 2 "--help" "$plumb" run "$scenes/stack.json" --substeps many
-expect 3 "substeps" "$plumb" run "$scenes/stack.json" --substeps 0
-expect 3 "lanes" "$plumb" run "$scenes/stack.json" --lanes 3 --collider ode
-expect 3 "fricton" "$plumb" run "$scenes/stack.json" --set fricton=1
+expect 6 "absent" "$plumb" run "$scenes/stack.json" --out "$work/absent/x.plumb"
+expect 6 "Is a directory" "$plumb" run "$scenes/stack.json" --summary "$work"
+expect 3 "not a file" "$plumb" run "$work"
+expect 2 "scene is required" "$plumb" run
+expect 2 "a verb is missing" "$plumb"
+expect 2 "did you mean \"check\"" "$plumb" chek
+expect 2 "Allowed: run, colliders" "$plumb" walk
+expect 2 "did you mean \"--collider\"" "$plumb" run "$scenes/stack.json" --colider ode
+expect 2 "did you mean \"--substeps\"" "$plumb" run "$scenes/stack.json" --substep=3
+expect 2 "named twice" "$plumb" run "$scenes/stack.json" --out "$work/x.csv" --out "$work/./x.csv"
+expect 2 "must be a number above 0" "$plumb" run "$scenes/stack.json" --fps 0
+expect 2 "--substeps many: must be" "$plumb" run "$scenes/stack.json" --substeps many
+expect 2 "--substeps 0: must be" "$plumb" run "$scenes/stack.json" --substeps 0
+expect 2 "--duration -1: must be" "$plumb" run "$scenes/stack.json" --duration -1
+expect 2 "--lanes 3: must be" "$plumb" run "$scenes/stack.json" --lanes 3 --collider ode
+expect 2 "Allowed: pbd" "$plumb" run "$scenes/stack.json" --method verlet
+expect 2 "Allowed: single, double" "$plumb" run "$scenes/stack.json" --precision half
+expect 2 "unknown key \"fricton\"" "$plumb" run "$scenes/stack.json" --set fricton=1
+expect 2 "write key=value" "$plumb" run "$scenes/stack.json" --set dt
 
 # bad plugins are listed with their reason and do not stand in the way of good ones
 "$plumb" colliders --short --plugin-path "$bad_plugins" >"$work/list" || failures=$((failures + 1))

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # interrupt.sh BUILD SOURCE: Ctrl-C in mid-run completes the outputs; a killed run leaves a recording behind.
 set -eu
-plumb=$1/bin/plumb pile=$2/samples/scenes/pile.json
+plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has pile=$2/samples/scenes/pile.json
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -16,7 +16,14 @@ wait $run || code=$?
 cat "$work/err"
 [ $code = 130 ]
 grep -q "interrupted" "$work/err"
-grep -q '"state_hash"' "$work/a.json"
+# the recording opens, whole, and the figures are those of the part that was run
+"$json_has" "$work/a.json" /state_hash /speed/max /penetration/mean
+[ "$("$json_has" "$work/a.json" --print /steps)" -gt 10 ]
+[ "$("$json_has" "$work/a.json" --print /speed/max)" != 0.0 ]
+"$plumb" export "$work/a.plumb" --out "$work/again.csv" >"$work/frames" 2>"$work/err"
+[ ! -s "$work/err" ]
+cat "$work/frames"
+cmp <(cut -d, -f1 "$work/a.csv") <(cut -d, -f1 "$work/again.csv")
 grep -q "</html>" "$work/a.html"
 [ "$(head -c 8 "$work/a.plumb")" = PLUMBREC ]
 

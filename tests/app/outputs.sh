@@ -3,7 +3,7 @@
 # outputs.sh BUILD SOURCE: a run writes every kind of file; a summary on stdout is JSON with the promised fields; the
 # same command gives the same bits; the sample scenes are sound.
 set -eu
-plumb=$1/bin/plumb scenes=$2/samples/scenes small=$2/tests/structure/small_pile.json
+plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has scenes=$2/samples/scenes small=$2/tests/structure/small_pile.json
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -11,10 +11,21 @@ for scene in "$scenes"/*.json; do "$plumb" check "$scene"; done
 
 "$plumb" run "$small" --quiet --out "$work/x.html" --out "$work/x.png" --out "$work/x.csv" --out "$work/x.plumb" --summary - >"$work/summary.json"
 for file in html png csv plumb; do [ -s "$work/x.$file" ]; done
-for field in scene collider method precision threads lanes dt substeps velocity_iterations position_iterations steps \
-  simulated_time bodies particles joints contacts time_ms energy momentum penetration joint_error speed clamps state_hash effects; do
-  grep -q "\"$field\":" "$work/summary.json" || { echo "the summary lacks $field"; exit 1; }
-done
+"$json_has" "$work/summary.json" /scene /collider/name /collider/version /method /precision /threads /lanes /dt /substeps \
+  /velocity_iterations /position_iterations /steps /simulated_time /bodies /particles /joints /contacts/mean /contacts/max \
+  /time_ms/detect/median /time_ms/solve/mean /time_ms/step/p99 /time_ms/stages/positions /energy/start /energy/end \
+  /momentum/linear /momentum/angular /penetration/mean /penetration/p99 /penetration/max /joint_error/mean /joint_error/max \
+  /speed/median /speed/p90 /speed/rms /speed/max /speed_near/left_out /final_height/mean /fallen_through /clamps \
+  /state_hash /effects/0/name /effects/0/ran /effects/0/why /effects/0/ms /build/compiler
+[ "$("$json_has" "$work/summary.json" --print /fallen_through)" = 0 ]
+
+# what is said of colliders is JSON too; no digit of an option is lost; nothing holds the bodies without contacts
+"$plumb" colliders --json >"$work/colliders.json"
+"$json_has" "$work/colliders.json" /0/name /0/version /0/pairs/0/can
+"$plumb" run "$small" --quiet --dt 0.0123456789 --duration 0.1 --summary - >"$work/digits.json"
+[ "$("$json_has" "$work/digits.json" --print /dt)" = 0.0123456789 ]
+"$plumb" run "$small" --quiet --set forbid=contacts --summary - >"$work/fall.json" 2>/dev/null
+[ "$("$json_has" "$work/fall.json" --print /fallen_through)" = 200 ]
 
 hash_of() { "$plumb" run "$small" --quiet --collider reference --summary - "$@" | grep state_hash; }
 first=$(hash_of)
@@ -26,3 +37,4 @@ first=$(hash_of)
 
 "$plumb" effects "$scenes/bounce.json" | grep -q "restitution.*yes"
 "$plumb" effects "$scenes/pile.json" --duration 1 | grep -q "restitution.*no"
+"$plumb" effects --no-run "$scenes/pile.json" | grep -q "friction.*yes"

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "app/recorder.h"
+
+#include "app/usage.h"
+#include "output/error.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+namespace plumb::app {
+namespace {
+
+/// Two outputs of one name would write over each other.
+void check_distinct(std::vector<std::string> files, const std::string& summary) {
+    if (!summary.empty() && summary != "-") files.push_back(summary);
+    std::set<std::filesystem::path> seen;
+    for (const std::string& file : files) {
+        std::error_code ignored;
+        const auto path = std::filesystem::absolute(file, ignored).lexically_normal();
+        if (!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
+            throw UsageError("\"" + file + "\" is named twice among the outputs");
+    }
+}
+
+}  // namespace
+
+Recorder::Recorder(const std::vector<std::string>& files, const std::string& summary,
+                   const Scene& scene, const Simulation& simulation)
+    : summary_(summary) {
+    check_distinct(files, summary);
+    const Metadata metadata{simulation.collider_name(),
+                            {{"collider_version", simulation.collider_version()}}};
+    for (const std::string& file : files)
+        exporters_.push_back(make_exporter(file, scene, metadata));
+    if (summary.empty() || summary == "-") return;
+    summary_file_.open(summary);
+    if (!summary_file_)
+        throw OutputError(summary, std::string("cannot be written: ") + std::strerror(errno));
+}
+
+void Recorder::append(const Simulation& simulation) {
+    if (exporters_.empty()) return;
+    simulation.capture(frame_);
+    for (auto& e : exporters_) attempt(e, [this](Exporter& exporter) { exporter.append(frame_); });
+}
+
+void Recorder::finish() {
+    for (auto& e : exporters_) attempt(e, [](Exporter& exporter) { exporter.finish(); });
+}
+
+void Recorder::write_summary(const std::string& text) {
+    if (summary_.empty()) return;
+    std::ostream& to = summary_ == "-" ? std::cout : summary_file_;
+    to << text << std::endl;
+    if (!to)
+        note((summary_ == "-" ? "stdout" : summary_) + ": cannot be written: the disk may be full");
+}
+
+template <class Work>
+void Recorder::attempt(std::unique_ptr<Exporter>& exporter, Work&& work) {
+    if (!exporter) return;
+    try {
+        work(*exporter);
+    } catch (const OutputError& e) {
+        note(e.what());
+        exporter.reset();
+    }
+}
+
+void Recorder::note(const std::string& sentence) {
+    failure_ += (failure_.empty() ? "" : "; ") + sentence;
+}
+
+}  // namespace plumb::app
