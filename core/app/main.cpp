@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdio>
 #include <exception>
+#include <new>
 #include <string>
 
 namespace plumb::app {
@@ -38,9 +39,16 @@ int complain(int code, const std::string& sentence) {
     return code;
 }
 
+/// Results that did not get through are no results.
+int finished(int code) {
+    const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout);
+    if (written || code != kDone) return code;
+    return complain(kCannotWrite, "stdout: cannot be written: the disk may be full");
+}
+
 int guarded(const Verb& verb) {
     try {
-        return verb();
+        return finished(verb());
     } catch (const UsageError& e) {
         return complain(kUsage, e.what());
     } catch (const SceneError& e) {
@@ -49,6 +57,8 @@ int guarded(const Verb& verb) {
         return complain(kColliderUnable, e.what());
     } catch (const OutputError& e) {
         return complain(kCannotWrite, e.what());
+    } catch (const std::bad_alloc&) {
+        return complain(kInternalError, "there is not enough memory for this");
     } catch (const std::exception& e) {
         return complain(kInternalError, e.what());
     }

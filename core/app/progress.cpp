@@ -4,16 +4,18 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <cstring>
 
 namespace plumb::app {
 namespace {
 
-constexpr int kBarWidth = 20;
+constexpr int kNarrowestBar = 5, kWidestBar = 24;
 
-std::string bar(double share) {
+std::string bar(double share, int width) {
     std::string text = "[";
-    for (int i = 0; i < kBarWidth; ++i) text += i < share * kBarWidth ? '#' : '.';
+    for (int i = 0; i < width; ++i) text += i < share * width ? '#' : '.';
     return text + "]";
 }
 
@@ -31,7 +33,7 @@ std::string duration_text(double seconds) {
 }
 
 /// A line that is wider than the terminal would wrap, and never be drawn over.
-std::size_t terminal_width() {
+int terminal_width() {
     winsize size{};
     const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
     return known ? size.ws_col : 80;
@@ -41,6 +43,12 @@ std::size_t terminal_width() {
 
 Progress::Progress(std::uint64_t steps, bool quiet)
     : steps_(steps), on_(!quiet && isatty(STDERR_FILENO)) {}
+
+void Progress::end(const std::string& what_follows) {
+    if (!on_) return;
+    std::fprintf(stderr, "%splumb: %s\n", drawn_ ? "\n" : "", what_follows.c_str());
+    drawn_ = false;
+}
 
 Progress::~Progress() {
     if (drawn_) std::fputc('\n', stderr);
@@ -56,10 +64,12 @@ void Progress::show(std::uint64_t step, std::uint32_t contacts, const std::strin
     const double left = rate > 0 ? static_cast<double>(steps_ - step) / rate : 0;
     const double share = static_cast<double>(step) / static_cast<double>(steps_);
     char text[200];
-    std::snprintf(text, sizeof text, "%s %3.0f%% %.0f steps/s, %s left, %u contacts, worst %s",
-                  bar(share).c_str(), 100 * share, rate, duration_text(left).c_str(), contacts,
-                  violation.c_str());
-    std::fprintf(stderr, "\r%.*s\033[K", static_cast<int>(terminal_width() - 1), text);
+    std::snprintf(text, sizeof text, " %3.0f%%, %.0f steps/s, %s left, %u contacts, %s",
+                  100 * share, rate, duration_text(left).c_str(), contacts, violation.c_str());
+    const int width = terminal_width() - 1;
+    const int room = width - static_cast<int>(std::strlen(text)) - 2;
+    const std::string line = bar(share, std::clamp(room, kNarrowestBar, kWidestBar)) + text;
+    std::fprintf(stderr, "\r%.*s\033[K", width, line.c_str());
     std::fflush(stderr);
     drawn_ = true;
 }

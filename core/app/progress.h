@@ -18,6 +18,9 @@ public:
     /// Redraws at most ten times a second. `violation` is a few words about the worst one so far.
     void show(std::uint64_t step, std::uint32_t contacts, const std::string& violation);
 
+    /// Leaves the bar as it is and says what the program does next.
+    void end(const std::string& what_follows);
+
 private:
     using Clock = std::chrono::steady_clock;
     std::uint64_t steps_;

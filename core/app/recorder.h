@@ -21,6 +21,9 @@ public:
     Recorder(const std::vector<std::string>& files, const std::string& summary, const Scene& scene,
              const Simulation& simulation);
 
+    /// How many files of frames there are.
+    std::size_t size() const { return exporters_.size(); }
+
     void append(const Simulation& simulation);
     void finish();
     void write_summary(const std::string& text);

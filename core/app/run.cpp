@@ -36,13 +36,13 @@ std::uint64_t steps_a_frame(const Settings& s, double frames_per_second) {
         1, static_cast<std::uint64_t>(std::lround(1 / (frames_per_second * s.dt))));
 }
 
+/// The worst violation so far, in few words.
 std::string worst(const Statistics& statistics) {
     char text[80];
     if (statistics.worst_joint() > statistics.worst_penetration())
-        std::snprintf(text, sizeof text, "joint gap %.3f mm", statistics.worst_joint() * 1e3);
+        std::snprintf(text, sizeof text, "joints %.3f mm apart", statistics.worst_joint() * 1e3);
     else
-        std::snprintf(text, sizeof text, "penetration %.3f mm",
-                      statistics.worst_penetration() * 1e3);
+        std::snprintf(text, sizeof text, "%.3f mm deep", statistics.worst_penetration() * 1e3);
     return text;
 }
 
@@ -63,6 +63,21 @@ struct Ending {
     int code = kDone;
     std::string sentence;
 };
+
+const char* words_for(int code) {
+    switch (code) {
+        case kDone:
+            return "as planned";
+        case kInterrupted:
+            return "interrupted";
+        case kDiverged:
+            return "diverged";
+        case kColliderUnable:
+            return "the collider failed";
+        default:
+            return "an output failed";
+    }
+}
 
 /// Looks at what a step reported. A collider that fails now and then is told of when the run is
 /// over; one that goes on failing ends it.
@@ -89,8 +104,7 @@ Ending judge(const Simulation& simulation, const StepReport& report, const Stati
 }
 
 Ending simulate(Simulation& simulation, Recorder& recorder, Statistics& statistics,
-                std::uint64_t steps, std::uint64_t every, bool quiet) {
-    Progress progress(steps, quiet);
+                Progress& progress, std::uint64_t steps, std::uint64_t every) {
     int failures_in_a_row = 0;
     recorder.append(simulation);
     for (std::uint64_t i = 1; i <= steps; ++i) {
@@ -146,13 +160,19 @@ int run(const Outputs& outputs) {
         static_cast<std::uint64_t>(std::llround(scene.settings.duration / scene.settings.dt));
     Statistics statistics(simulation);
     catch_interrupts();
-    Ending ending =
-        simulate(simulation, recorder, statistics, steps,
-                 steps_a_frame(scene.settings, outputs.frames_per_second), outputs.quiet);
+    Progress progress(steps, outputs.quiet);
+    Ending ending = simulate(simulation, recorder, statistics, progress, steps,
+                             steps_a_frame(scene.settings, outputs.frames_per_second));
 
+    if (recorder.size() > 0)
+        progress.end((ending.code == kInterrupted ? "interrupted; " : "") +
+                     ("completing the outputs: " + std::to_string(recorder.size())));
     statistics.finish(simulation);
     recorder.finish();
-    recorder.write_summary(summary(outputs.run.scene, scene, simulation, statistics).dump(2));
+    if (!recorder.failure().empty() && ending.code != kDiverged) ending.code = kCannotWrite;
+    auto figures = summary(outputs.run.scene, scene, simulation, statistics);
+    figures["ended"] = words_for(ending.code);
+    recorder.write_summary(figures.dump(2));
     if (!recorder.failure().empty() && ending.code != kDiverged)
         ending = {kCannotWrite, recorder.failure()};
     if (ending.code != kColliderUnable) warn(simulation, statistics);

@@ -77,6 +77,9 @@ expect 2 "Allowed: single, double" "$plumb" run "$scenes/stack.json" --precision
 expect 2 "unknown key \"fricton\"" "$plumb" run "$scenes/stack.json" --set fricton=1
 expect 2 "write key=value" "$plumb" run "$scenes/stack.json" --set dt
 
+expect 6 "stdout" bash -c "'$plumb' colliders >/dev/full"
+expect 6 "stdout" bash -c "'$plumb' run '$scenes/stack.json' --collider ode --duration 0.1 --summary - >/dev/full"
+
 # bad plugins are listed with their reason and do not stand in the way of good ones
 "$plumb" colliders --short --plugin-path "$bad_plugins" >"$work/list" || failures=$((failures + 1))
 for words in "refused" "reference" "ode" "bullet"; do

@@ -46,6 +46,6 @@ code=$?
 cat "$work/err"
 [ $code = 6 ] || fail "a full file -> exit $code"
 [ "$(wc -l <"$work/err")" = 1 ] && grep -q "b.plumb" "$work/err" || fail "a full file was not told of in one line"
-"$json_has" "$work/b.json" /state_hash || fail "a full file took the summary with it"
+[ "$("$json_has" "$work/b.json" --print /ended)" = '"an output failed"' ] || fail "a full file took the summary with it"
 "$plumb" export "$work/b.plumb" --out "$work/b.csv" 2>/dev/null || fail "the frames before the file was full do not open"
 exit $((failures > 0))

@@ -6,10 +6,20 @@ plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has pile=$2/samples/scenes/pile.js
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+# grown FILE BYTES: waits until a run has written that much.
+grown() {
+  for _ in $(seq 600); do
+    [ -f "$1" ] && [ "$(wc -c <"$1")" -gt "$2" ] && return
+    sleep 0.1
+  done
+  echo "the run wrote nothing within a minute"
+  return 1
+}
+
 "$plumb" run "$pile" --collider reference --quiet --duration 600 --out "$work/a.csv" --out "$work/a.html" --out "$work/a.plumb" \
   --summary "$work/a.json" 2>"$work/err" &
 run=$!
-sleep 2
+grown "$work/a.plumb" 2000000
 kill -INT $run
 code=0
 wait $run || code=$?
@@ -18,6 +28,7 @@ cat "$work/err"
 grep -q "interrupted" "$work/err"
 # the recording opens, whole, and the figures are those of the part that was run
 "$json_has" "$work/a.json" /state_hash /speed/max /penetration/mean
+[ "$("$json_has" "$work/a.json" --print /ended)" = '"interrupted"' ]
 [ "$("$json_has" "$work/a.json" --print /steps)" -gt 10 ]
 [ "$("$json_has" "$work/a.json" --print /speed/max)" != 0.0 ]
 "$plumb" export "$work/a.plumb" --out "$work/again.csv" >"$work/frames" 2>"$work/err"
@@ -29,7 +40,7 @@ grep -q "</html>" "$work/a.html"
 
 "$plumb" run "$pile" --collider reference --quiet --duration 600 --out "$work/b.plumb" &
 run=$!
-sleep 1.5
+grown "$work/b.plumb" 1000000
 kill -KILL $run
 wait $run || true
 [ "$(head -c 8 "$work/b.plumb")" = PLUMBREC ]
