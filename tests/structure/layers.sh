@@ -1,30 +1,43 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# layers.sh ROOT: a folder of core/ includes only what stands before it in the line of layers.
+# layers.sh ROOT: a folder of core/ includes only what stands before it in the line of layers, interfaces/ only the
+# standard library and itself, and plugins/ nothing of core/. Names each include that breaks this, with its line.
 set -eu
 root=$1
 layers="math scene world constraints schedule kernels effects step measure host reader output study app"
+sources() { find "$root/$1" \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z; }
 
-rank() { local i=0 layer; for layer in $layers; do i=$((i + 1)); [ "$layer" = "$1" ] && { echo $i; return; }; done; echo 0; }
+# Splits each include into its first folder (empty: a file alone) and hands it to `complaint`, which the caller defines.
+each_include='
+  BEGIN { count = split(layers, names, " "); for (i = 1; i <= count; i++) rank[names[i]] = i }
+  /^[ \t]*#[ \t]*include[ \t]*["<]/ {
+    quoted = /include[ \t]*"/
+    target = $0; sub(/^[^"<]*["<]/, "", target); sub(/[">].*/, "", target)
+    folder = target ~ /\// ? substr(target, 1, index(target, "/") - 1) : ""
+    said = complaint()
+    if (said != "") { print FILENAME ":" FNR ": " said; bad = 1 }
+  }
+  END { exit bad }'
+
+core='
+  function complaint(    mine) {
+    mine = substr(FILENAME, length(root) + length("/core/") + 1); sub(/\/.*/, "", mine)
+    if (!(mine in rank)) return "core/" mine " has no place in the line of layers: " layers
+    if (target ~ /\.\.\//) return "\"" target "\" hides the folder that it comes from"
+    if (quoted && folder != "" && !(folder in rank)) return "\"" target "\" is of no layer: " layers
+    if (folder in rank && rank[folder] > rank[mine])
+      return mine "/ includes " folder "/, which does not stand before it: " layers
+  }'
+interfaces='
+  function complaint() {
+    if (quoted || (folder != "" && folder != "plumb") || (folder == "" && target ~ /\./))
+      return target " is neither of the standard library nor of interfaces/"
+  }'
+plugins='
+  function complaint() { if (target ~ /\.\.\// || folder in rank) return "plugins/ includes " target ", not of the contract" }'
 
 bad=0
-for folder in $layers; do
-  [ -d "$root/core/$folder" ] || continue
-  mine=$(rank "$folder")
-  while IFS=: read -r file line text; do
-    included=$(printf '%s' "$text" | sed -n 's|.*#include "\([a-z_]*\)/.*|\1|p')
-    [ -n "$included" ] || continue
-    theirs=$(rank "$included")
-    if [ "$theirs" = 0 ] || [ "$theirs" -gt "$mine" ]; then
-      echo "$file:$line: $folder/ includes $included/, which does not stand before it ($layers)"
-      bad=1
-    fi
-  done < <(grep -rnH '#include "' "$root/core/$folder" --include='*.h' --include='*.cpp' || true)
-done
-
-# The contract needs nothing but the standard library; plugins know the contract alone.
-if grep -rnH '#include "' "$root/interfaces" ; then echo "interfaces/ includes more than the standard library"; bad=1; fi
-if grep -rnHE '#include "(math|scene|world|constraints|schedule|kernels|effects|step|measure|host|reader|output|app)/' "$root/plugins"; then
-  echo "plugins/ includes core/"; bad=1
-fi
+sources core | xargs -0 -r awk -v root="$root" -v layers="$layers" "$core $each_include" || bad=1
+sources interfaces | xargs -0 -r awk -v layers="$layers" "$interfaces $each_include" || bad=1
+sources plugins | xargs -0 -r awk -v layers="$layers" "$plugins $each_include" || bad=1
 exit $bad
