@@ -2,6 +2,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(PLUMB_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
+set(PLUMB_PLUGIN_DIR "lib/plumb/plugins")  # as seen from bin/, core/host/collider_library.cpp looks here
 
 install(TARGETS plumb_interfaces plumb_scene plumb_core plumb_host EXPORT plumbTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -12,14 +13,15 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/core/" DESTINATION "${CMAKE_INSTALL_INC
 install(TARGETS plumb_app RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 if(PLUMB_BUILD_PLUGINS)
   install(TARGETS plumb_collider_reference plumb_collider_ode plumb_collider_bullet
-    LIBRARY DESTINATION "lib/plumb/plugins")
+    LIBRARY DESTINATION "${PLUMB_PLUGIN_DIR}")
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/schema"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/plumb")
 
 install(EXPORT plumbTargets NAMESPACE plumb:: DESTINATION "${PLUMB_CMAKE_DIR}")
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/plumbConfig.cmake.in"
-  "${PROJECT_BINARY_DIR}/plumbConfig.cmake" INSTALL_DESTINATION "${PLUMB_CMAKE_DIR}")
+  "${PROJECT_BINARY_DIR}/plumbConfig.cmake" INSTALL_DESTINATION "${PLUMB_CMAKE_DIR}"
+  PATH_VARS PLUMB_PLUGIN_DIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${PROJECT_BINARY_DIR}/plumbConfig.cmake" "${PROJECT_BINARY_DIR}/plumbConfigVersion.cmake"
   "${PROJECT_SOURCE_DIR}/cmake/PlumbPlugin.cmake" DESTINATION "${PLUMB_CMAKE_DIR}")

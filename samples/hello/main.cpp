@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// A box and a ball fall on the ground: hello COLLIDER [PLUGIN_DIRECTORY]
+/// A box and a ball fall on the ground: hello [COLLIDER]
 #include "host/simulation.h"
 
 #include <cstdio>
@@ -8,7 +8,8 @@
 namespace {
 
 /// Adds a body of a shape at a height [m] and a place beside the origin [m].
-void add(plumb::Scene& scene, const plumb::Geometry& shape, double x, double height, plumb::Motion motion) {
+void add(plumb::Scene& scene, const plumb::Geometry& shape, double x, double height,
+         plumb::Motion motion) {
     scene.geometries.push_back(shape);
     plumb::BodySpec body;
     body.geometry = static_cast<std::uint32_t>(scene.geometries.size()) - 1;
@@ -32,14 +33,15 @@ int main(int argc, char** argv) try {
     add(scene, box, -1, 2, plumb::Motion::dynamic);
     add(scene, ball, 1, 2, plumb::Motion::dynamic);
 
-    const plumb::ColliderLibrary colliders(argc > 2 ? argv[2] : "");
+    const plumb::ColliderLibrary colliders(PLUGIN_DIRECTORY);
     plumb::Simulation simulation(scene, colliders, argc > 1 ? argv[1] : "auto");
     while (simulation.time() < 3) simulation.step();
 
     plumb::Frame frame;
     simulation.capture(frame);
-    std::printf("%s: after %.0f s the box rests at %.4f m and the ball at %.4f m\n", simulation.collider_name().c_str(),
-                simulation.time(), frame.bodies[1].placement.position.y(), frame.bodies[2].placement.position.y());
+    std::printf("%s: after %.0f s the box rests at %.4f m and the ball at %.4f m\n",
+                simulation.collider_name().c_str(), simulation.time(),
+                frame.bodies[1].placement.position.y(), frame.bodies[2].placement.position.y());
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "hello: %s\n", error.what());

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# hello.sh SOURCE BUILD CMAKE: installs the build into a prefix, moves the prefix, and builds and runs samples/hello there,
-# once with plain flags and once for this very processor: flags must not change how a scene is laid out in memory.
+# hello.sh SOURCE BUILD CMAKE: installs the build into a prefix, moves the prefix, and builds and runs samples/hello there
+# with the colliders of that prefix, once with plain flags and once for this very processor: flags must not change how a
+# scene is laid out in memory.
 set -eu
 source=$1 build=$2 cmake=$3
 work=$build/package-test
@@ -14,7 +15,7 @@ for flags in "" -march=native; do
     -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
   "$cmake" --build "$work/hello$flags" >/dev/null
   for collider in reference ode bullet; do
-    said=$("$work/hello$flags/hello" "$collider" "$work/prefix/lib/plumb/plugins")
+    said=$("$work/hello$flags/hello" "$collider")
     echo "$said"
     [ "$said" = "$collider: after 3 s the box rests at 0.2500 m and the ball at 0.3000 m" ]
   done
