@@ -16,7 +16,7 @@ as_root() {
 
 is_installed() { dpkg-query -W -f '${Status}' "$1" 2>/dev/null | grep -q "ok installed"; }
 
-# install_missing PACKAGE…: asks first when a person is at the terminal.
+# install_missing PACKAGE…: asks first when a person is at the terminal (continuous integration may have one too, but nobody at it).
 install_missing() {
   if ! command -v apt-get >/dev/null; then
     echo "This system has no apt-get. Plumb needs what Debian calls: $*" >&2
@@ -26,7 +26,7 @@ install_missing() {
   for package in "$@"; do is_installed "$package" || missing="$missing $package"; done
   [ -n "$missing" ] || return 0
   echo "Debian packages to install:$missing"
-  if [ -t 0 ] && [ -t 1 ]; then
+  if [ -t 0 ] && [ -t 1 ] && [ -z "${CI:-}" ]; then
     printf "Install them now? [Y/n] "
     read -r answer
     case "$answer" in n* | N*) echo "Nothing was installed." >&2; exit 1 ;; esac
