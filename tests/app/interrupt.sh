@@ -4,7 +4,8 @@
 set -eu
 plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has pile=$2/samples/scenes/pile.json
 work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
+run=
+trap 'if [ -n "$run" ]; then kill -KILL $run || true; fi; rm -rf "$work"' EXIT
 
 # grown FILE BYTES: waits until a run has written that much.
 grown() {
@@ -23,6 +24,7 @@ grown "$work/a.plumb" 2000000
 kill -INT $run
 code=0
 wait $run || code=$?
+run=
 cat "$work/err"
 [ $code = 130 ]
 grep -q "interrupted" "$work/err"
@@ -43,6 +45,7 @@ run=$!
 grown "$work/b.plumb" 1000000
 kill -KILL $run
 wait $run || true
+run=
 [ "$(head -c 8 "$work/b.plumb")" = PLUMBREC ]
 "$plumb" export "$work/b.plumb" --out "$work/b.csv" --out "$work/b.html" | grep -q "frames"
 grep -q "</html>" "$work/b.html"
