@@ -68,6 +68,14 @@ struct PluginTable {
     /// PairAbility bits for each pair of kinds; symmetric.
     std::uint32_t pairs[kShapeKindCount][kShapeKindCount];
 
+    /// What a near pair typically costs [ns], symmetric; 0: not known. Decides which collider is
+    /// the cheapest for a scene.
+    std::uint32_t costs[kShapeKindCount][kShapeKindCount];
+
+    /// Names of plugins that must not be used in one process with this one, separated by commas; or
+    /// nullptr.
+    const char* conflicts;
+
     /// Makes a collider. Returns nullptr and sets *message when it cannot.
     Proximity* (*create)(const CreateRequest* request, const char** message);
     void (*destroy)(Proximity* proximity);

@@ -62,6 +62,27 @@ enum DetectFlags : std::uint32_t {
         1u << 0  ///< report what the back-end itself says: no shared clipping, no reduction
 };
 
+/// Two bodies, a < b.
+struct CandidatePair {
+    std::uint32_t a, b;
+};
+
+/// How a caller leaves out pairs whose contacts it has already. Between its broad and its narrow
+/// phase the collider asks once about all candidates, sorted and each once: `choose` sets wanted[i]
+/// to 1 or 0, and pairs with 0 are not reported.
+struct PairFilter {
+    void* ctx;
+    void (*choose)(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uint8_t* wanted);
+};
+
+/// The host's worker threads. `run` calls task(arg, worker) once for each worker in 0…workers − 1,
+/// on threads of their own, and returns when all have returned. A task lets no exception out.
+struct TaskRunner {
+    void* ctx;
+    std::uint32_t workers;
+    void (*run)(void* ctx, void (*task)(void* arg, std::uint32_t worker), void* arg);
+};
+
 /// One question: all contacts at these poses.
 struct DetectRequest {
     const Pose*
@@ -71,15 +92,19 @@ struct DetectRequest {
     std::uint32_t body_count;
     std::uint32_t flags;  ///< DetectFlags
     double margin;        ///< every pair with gap ≤ margin (+ sweeps of both) is wanted [m]
+    const PairFilter* filter = nullptr;  ///< nullptr: every pair is wanted
+    const TaskRunner* runner = nullptr;  ///< nullptr: work on the calling thread
 };
 
 /// Counts that a collider keeps of its last `detect`.
 struct DetectStats {
-    std::uint64_t broad_pairs;    ///< candidates of the broad phase
-    std::uint64_t narrow_pairs;   ///< pairs with at least one contact
-    std::uint64_t from_backend;   ///< contacts that are the back-end's own
-    std::uint64_t from_clip;      ///< contacts made by clipping support faces
-    std::uint64_t from_fallback;  ///< contacts where clipping fell back on the back-end's witness
+    std::uint64_t broad_pairs;     ///< candidates of the broad phase
+    std::uint64_t narrow_pairs;    ///< pairs with at least one contact
+    std::uint64_t from_backend;    ///< contacts that are the back-end's own
+    std::uint64_t from_clip;       ///< contacts made by clipping support faces
+    std::uint64_t from_fallback;   ///< contacts where clipping fell back on the back-end's witness
+    std::uint64_t shared_normals;  ///< contacts whose normal is not the back-end's own: code beside
+                                   ///< it found the normal where it was silent or wrong
 };
 
 struct RayRequest {

@@ -65,7 +65,7 @@ struct Shape {
     const std::uint32_t* faces;  ///< hull: for each face its corner count, then its vertex indices,
                                  ///< counter-clockwise seen from outside; mesh: three vertex
                                  ///< indices a triangle, counter-clockwise
-    const Vec3* face_normals;  ///< hull, mesh: [face_count], unit, outward
+    const Vec3* face_normals;    ///< hull, mesh: [face_count], unit, outward
 
     const double*
         heights;  ///< height field: [rows × columns], row after row along z, y of the surface [m]

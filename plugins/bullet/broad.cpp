@@ -16,7 +16,7 @@ struct Meet : btDbvt::ICollide {
 
     void meet(std::uint32_t i, std::uint32_t j) {
         const Part &a = table.parts()[i], &b = table.parts()[j];
-        if (overlap(a.bounds, b.bounds) && table.wanted(a, b))
+        if (overlap(a.fat, b.fat) && table.wanted(a, b))
             pairs.push_back({std::min(i, j), std::max(i, j)});
     }
     void Process(const btDbvtNode* p, const btDbvtNode* q) override {
@@ -45,8 +45,8 @@ void Tree::update(const BodyTable& table) {
             continue;
         }
         // A leaf is a little larger than its part, so that small motions leave the tree as it is.
-        btDbvtVolume volume = volume_of(part.bounds);
-        const double spare = 0.02 * (part.bounds.high.y - part.bounds.low.y) + 1e-6;
+        btDbvtVolume volume = volume_of(part.fat);
+        const double spare = 0.02 * (part.fat.high.y - part.fat.low.y) + 1e-6;
         if (leaf) {
             tree_.update(leaf, volume, spare);
             continue;

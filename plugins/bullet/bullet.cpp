@@ -18,35 +18,43 @@ constexpr Supported kSupported{
 
 class Bullet final : public Collider {
 public:
-    Bullet() : Collider(kSupported) {}
+    explicit Bullet(std::uint32_t threads) : Collider(kSupported, threads) {
+        for (std::uint32_t i = 0; i < this->threads(); ++i)
+            narrow_.push_back(std::make_unique<Narrow>());
+    }
 
 private:
     void prepare(Part& part) override { part.backend = make_shapes(part); }
 
     void find_pairs(std::vector<PartPair>& pairs) override { tree_.find_pairs(pairs, table_); }
 
-    void collide_all(const std::vector<PartPair>& pairs, bool raw) override {
+    void place_parts() override {
         for (const Part& part : table_.parts())
             if (part.present) place_shapes(part);
-        for (const PartPair& pair : pairs) {
-            const Part &a = table_.parts()[pair.first], &b = table_.parts()[pair.second];
+    }
+
+    void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool raw,
+                       std::uint32_t worker) override {
+        Narrow& narrow = *narrow_[worker];
+        for (std::size_t i = 0; i < count; ++i) {
+            const Part &a = table_.parts()[pairs[i].first], &b = table_.parts()[pairs[i].second];
             const bool mesh = a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh;
             if (raw)
-                narrow_.collide_raw(contacts_, stats_, a, b);
+                narrow.collide_raw(out.contacts, out.stats, a, b);
             else if (mesh)
-                narrow_.collide_mesh(contacts_, stats_, a, b);
+                narrow.collide_mesh(out.contacts, out.stats, a, b);
             else
-                narrow_.collide_convex(contacts_, stats_, a, b);
+                narrow.collide_convex(out.contacts, out.stats, a, b);
         }
     }
 
     Tree tree_;
-    Narrow narrow_;
+    std::vector<std::unique_ptr<Narrow>> narrow_;  ///< [worker]
 };
 
-Proximity* create(const CreateRequest*, const char** message) {
+Proximity* create(const CreateRequest* request, const char** message) {
     try {
-        return new Bullet;
+        return new Bullet(request->threads);
     } catch (...) {
         if (message) *message = "memory ran out";
         return nullptr;
@@ -57,7 +65,7 @@ void destroy(Proximity* proximity) { delete static_cast<Bullet*>(proximity); }
 std::uint32_t ability(ShapeKind a, ShapeKind b) {
     const auto has = [&](ShapeKind k) { return a == k || b == k; };
     if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated;
+    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
     if (has(ShapeKind::compound)) return kPairPoint | kPairMovingMesh;
     return kPairPoint | kPairManifold | kPairMovingMesh |
            (has(ShapeKind::plane) ? kPairSeparated : 0u);

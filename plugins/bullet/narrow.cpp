@@ -65,7 +65,7 @@ btDiscreteCollisionDetectorInterface::ClosestPointInput input_of(const Part& a, 
 
 /// Last resort, for cores that coincide: of all axes of both frames, the one of least overlap.
 Witness least_overlap(const Part& a, const Part& b) {
-    Witness best{{0, 1, 0}, 0.5 * (a.world.origin + b.world.origin), -1e300, true};
+    Witness best{{0, 1, 0}, 0.5 * (a.world.origin + b.world.origin), -1e300, true, true};
     for (const Part* part : {&a, &b})
         for (const Vec3& axis : part->world.axis)
             for (double side : {1.0, -1.0}) {
@@ -78,9 +78,10 @@ Witness least_overlap(const Part& a, const Part& b) {
 /// Overlapping parts that Bullet leaves out or gets wrong: the closest points of the parts a little
 /// smaller, or the best axis. False where the parts are apart after all.
 bool ask_beside(Witness& witness, const Part& a, const Part& b) {
-    if (closest_when_apart(witness, a, b)) return witness.gap <= pair_margin(a, b);
-    if (!closest_when_touching(witness, a, b)) witness = least_overlap(a, b);
-    return true;
+    const bool apart = closest_when_apart(witness, a, b);
+    if (!apart && !closest_when_touching(witness, a, b)) witness = least_overlap(a, b);
+    witness.shared = true;
+    return !apart || witness.gap <= pair_margin(a, b);
 }
 
 }  // namespace
@@ -118,11 +119,6 @@ bool Narrow::ask_closest(Witness& witness, const Part& a, const Part& b) {
 }
 
 bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
-    if (is(a, ShapeKind::sphere) && is(b, ShapeKind::sphere)) {
-        const Vec3 d = a.world.origin - b.world.origin;
-        witness = {unit_or(d, {0, 1, 0}), 0.5 * (a.world.origin + b.world.origin), 0, false};
-        return true;
-    }
     if (is(a, ShapeKind::box) && is(b, ShapeKind::box)) {
         if (ask_boxes(witness, a, b, false)) return true;
         if (!ask_boxes(witness, a, b, true)) return false;

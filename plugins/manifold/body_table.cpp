@@ -4,6 +4,7 @@
 #include "manifold/check_shape.h"
 
 #include <limits>
+#include <tuple>
 
 namespace plumb {
 namespace {
@@ -154,6 +155,7 @@ Status BodyTable::exclude(std::uint32_t a, std::uint32_t b, bool excluded) {
     else
         excluded_.erase(pair_key(a, b));
     refresh_exclusion_marks();
+    ++version_;
     return ok_status();
 }
 
@@ -196,18 +198,14 @@ bool BodyTable::wanted(const Part& a, const Part& b) const {
     return excluded_.count(pair_key(a.body, b.body)) == 0;
 }
 
-void sort_pairs(std::vector<PartPair>& pairs, std::size_t part_count) {
-    // Two counting passes, first by the second index: linear, and stable.
-    std::vector<PartPair> other(pairs.size());
-    std::vector<std::uint32_t> start(part_count + 1);
-    const auto pass = [&](auto key, const std::vector<PartPair>& from, std::vector<PartPair>& to) {
-        std::fill(start.begin(), start.end(), 0u);
-        for (const PartPair& p : from) ++start[key(p) + 1];
-        for (std::size_t i = 0; i < part_count; ++i) start[i + 1] += start[i];
-        for (const PartPair& p : from) to[start[key(p)]++] = p;
-    };
-    pass([](const PartPair& p) { return p.second; }, pairs, other);
-    pass([](const PartPair& p) { return p.first; }, other, pairs);
+void sort_pairs(std::vector<PartPair>& pairs, const std::vector<Part>& parts) {
+    // Parts stand in the order of their bodies, so only compounds make bodies and parts disagree.
+    std::sort(pairs.begin(), pairs.end(), [&](const PartPair& p, const PartPair& q) {
+        const auto key = [&](const PartPair& x) {
+            return std::tuple(parts[x.first].body, parts[x.second].body, x.first, x.second);
+        };
+        return key(p) < key(q);
+    });
 }
 
 }  // namespace plumb

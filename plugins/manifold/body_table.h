@@ -39,6 +39,7 @@ struct Part {
 
     Frame world{};         ///< shape frame → world, at the poses of the last `place`
     Aabb bounds{};         ///< world, grown by half the margin and the sweep
+    Aabb fat{};            ///< contains `bounds`; what a broad phase works on
     double reach = 0;      ///< half the margin and the sweep [m]
     bool present = false;  ///< has a pose, and a finite one
     std::uint32_t group = 0, mask = 0;
@@ -71,7 +72,7 @@ public:
     /// Whether some body has more than one part.
     bool has_compounds() const { return has_compounds_; }
 
-    /// Counts changes of the set of parts.
+    /// Counts changes of the set of parts and of what is excluded.
     std::uint64_t version() const { return version_; }
 
 private:
@@ -88,8 +89,8 @@ private:
 /// Distance up to which two parts are reported [m].
 inline double pair_margin(const Part& a, const Part& b) { return a.reach + b.reach; }
 
-/// Sorts pairs by (first, second) in place; `part_count` bounds both.
-void sort_pairs(std::vector<PartPair>& pairs, std::size_t part_count);
+/// Sorts by bodies, then by parts: all pairs of parts of two bodies stand next to each other.
+void sort_pairs(std::vector<PartPair>& pairs, const std::vector<Part>& parts);
 
 /// Bounds of one part at its world frame, not grown.
 Aabb bounds_of(const Part& part);

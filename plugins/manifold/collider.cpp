@@ -50,26 +50,76 @@ Status Collider::detect(const DetectRequest& request, const ContactSink* sinks,
 Status Collider::detect_all(const DetectRequest& request, const ContactSink* sinks,
                             std::uint32_t sink_count) {
     stats_ = {};
-    failures_ = 0;
-    contacts_.clear();
-    pairs_.clear();
+    if (!sinks || !sink_count) return {Status::bad_argument, 0, "detect needs a sink"};
     const Status placed = table_.place(request);
     if (placed.code == Status::bad_argument) return placed;
 
     // A pair is put in order before its narrow phase: an answer may depend on the order of the
     // arguments.
-    find_pairs(pairs_);
-    sort_pairs(pairs_, table_.parts().size());
-    collide_all(pairs_, request.flags & kDetectRaw);
-    contacts_.finish();
-
+    candidates_.find(pairs_, table_, [this](std::vector<PartPair>& found) { find_pairs(found); });
     stats_.broad_pairs = pairs_.size();
-    stats_.narrow_pairs = contacts_.pair_count();
-    const Status written = contacts_.write_to(sinks, sink_count);
-    if (written.code != Status::ok) return written;
-    if (failures_)
-        return {Status::failed, failures_, "the back-end failed on a pair, which was left out"};
-    return placed;
+    if (request.filter) candidates_.apply(*request.filter, pairs_, table_);
+    place_parts();
+    run_blocks(request,
+               request.runner ? std::min({threads_, request.runner->workers, sink_count}) : 1);
+    return worse_of(gather(sinks), placed);
+}
+
+void Collider::run_blocks(const DetectRequest& request, std::uint32_t count) {
+    // Equal shares, moved on to where the next pair of bodies begins.
+    const auto begins = [this](std::size_t i) {
+        const auto same_body = [this](std::uint32_t p, std::uint32_t q) {
+            return table_.parts()[p].body == table_.parts()[q].body;
+        };
+        while (i > 0 && i < pairs_.size() && same_body(pairs_[i - 1].first, pairs_[i].first) &&
+               same_body(pairs_[i - 1].second, pairs_[i].second))
+            ++i;
+        return i;
+    };
+    blocks_.resize(std::max(count, 1u));
+    const bool raw = request.flags & kDetectRaw;
+    auto task = [&](std::uint32_t worker) {
+        if (worker >= blocks_.size()) return;
+        const std::size_t first = begins(pairs_.size() * worker / blocks_.size());
+        const std::size_t last = begins(pairs_.size() * (worker + 1) / blocks_.size());
+        run_block(worker, raw, pairs_.data() + first, last - first);
+    };
+    if (blocks_.size() == 1) return task(0);
+    request.runner->run(
+        request.runner->ctx,
+        [](void* arg, std::uint32_t worker) { (*static_cast<decltype(task)*>(arg))(worker); },
+        &task);
+}
+
+void Collider::run_block(std::uint32_t index, bool raw, const PartPair* pairs,
+                         std::size_t count) noexcept {
+    Block& block = blocks_[index];
+    block.contacts.clear();
+    block.stats = {};
+    block.failures = 0;
+    block.status = guarded([&] {
+        collide_block({block.contacts, block.stats, block.failures}, pairs, count, raw, index);
+        block.contacts.finish();
+        block.stats.narrow_pairs = block.contacts.pair_count();
+        return ok_status();
+    });
+}
+
+Status Collider::gather(const ContactSink* sinks) {
+    Status status = ok_status();
+    std::uint32_t failures = 0;
+    for (std::size_t i = 0; i < blocks_.size(); ++i) {
+        const Block& block = blocks_[i];
+        status = worse_of(worse_of(status, block.status), block.contacts.write_to(sinks[i]));
+        failures += block.failures;
+        stats_.narrow_pairs += block.stats.narrow_pairs;
+        stats_.from_backend += block.stats.from_backend;
+        stats_.from_clip += block.stats.from_clip;
+        stats_.from_fallback += block.stats.from_fallback;
+        stats_.shared_normals += block.stats.shared_normals;
+    }
+    if (status.code != Status::ok || !failures) return status;
+    return {Status::failed, failures, "the back-end failed on a pair, which was left out"};
 }
 
 PluginTable blank_table() {

@@ -4,6 +4,7 @@
 /// and whatever it hangs on a part.
 #pragma once
 
+#include "manifold/candidates.h"
 #include "manifold/manifold.h"
 
 namespace plumb {
@@ -14,9 +15,18 @@ struct Supported {
     const char* refusal;
 };
 
+/// Where the narrow phase of one worker puts what it finds.
+struct NarrowOutput {
+    ContactList& contacts;
+    DetectStats& stats;
+    std::uint32_t& failures;  ///< pairs that the back-end failed on
+};
+
 class Collider : public Proximity {
 public:
-    explicit Collider(const Supported& supported) : supported_(supported) {}
+    /// `threads`: how many blocks of the narrow phase may run at once.
+    Collider(const Supported& supported, std::uint32_t threads)
+        : supported_(supported), threads_(std::max(threads, 1u)) {}
     virtual ~Collider() = default;
 
     Status add(std::uint32_t body, const ShapePlacement& placement) noexcept final;
@@ -30,23 +40,44 @@ protected:
     /// Called once for each new part, before it is first placed.
     virtual void prepare(Part& part) { (void)part; }
 
-    /// Fills `pairs` with the candidates: bounds overlap, and the table wants them. Any order.
+    /// Fills `pairs` with the candidates: fat bounds overlap, and the table wants them. Any order.
+    /// Called only when some part has left its fat bounds.
     virtual void find_pairs(std::vector<PartPair>& pairs) = 0;
 
-    /// Adds the contacts of all pairs, which stand sorted. `raw`: what the back-end itself says.
-    virtual void collide_all(const std::vector<PartPair>& pairs, bool raw) = 0;
+    /// Called once a detection, when all parts have their world frames, before the blocks.
+    virtual void place_parts() {}
+
+    /// Adds the contacts of some pairs, which stand sorted. `raw`: what the back-end itself says.
+    /// Blocks run on several threads at once; what is written to must belong to the worker.
+    virtual void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count,
+                               bool raw, std::uint32_t worker) = 0;
+
+    std::uint32_t threads() const { return threads_; }
 
     BodyTable table_;
-    ContactList contacts_;
-    DetectStats stats_{};
-    std::uint32_t failures_ = 0;  ///< pairs that the back-end failed on, in this `detect`
 
 private:
+    /// The share of one worker.
+    struct Block {
+        ContactList contacts;
+        DetectStats stats;
+        std::uint32_t failures;
+        Status status;
+    };
+
     Status detect_all(const DetectRequest& request, const ContactSink* sinks,
                       std::uint32_t sink_count);
+    void run_blocks(const DetectRequest& request, std::uint32_t count);
+    void run_block(std::uint32_t index, bool raw, const PartPair* pairs,
+                   std::size_t count) noexcept;
+    Status gather(const ContactSink* sinks);
 
     const Supported& supported_;
+    std::uint32_t threads_;
+    Candidates candidates_;
     std::vector<PartPair> pairs_;
+    std::vector<Block> blocks_;  ///< [worker]
+    DetectStats stats_{};
 };
 
 /// A plugin's table with everything filled in but names, pairs and functions.

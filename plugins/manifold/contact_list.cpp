@@ -55,10 +55,9 @@ void ContactList::finish() {
             contacts_[i].feature = contacts_[i - 1].feature + 1;
 }
 
-Status ContactList::write_to(const ContactSink* sinks, std::uint32_t sink_count) const {
+Status ContactList::write_to(const ContactSink& sink) const {
     if (contacts_.empty()) return ok_status();
-    if (!sinks || !sink_count) return {Status::bad_argument, 0, "detect needs a sink"};
-    Contact* room = sinks[0].grow(sinks[0].ctx, static_cast<std::uint32_t>(contacts_.size()));
+    Contact* room = sink.grow(sink.ctx, static_cast<std::uint32_t>(contacts_.size()));
     if (!room) return {Status::out_of_memory, 0, "the sink takes no more contacts"};
     std::copy(contacts_.begin(), contacts_.end(), room);
     return ok_status();

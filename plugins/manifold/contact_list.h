@@ -27,8 +27,8 @@ public:
     /// Sorts by (a, b, feature) and makes features unique within a pair.
     void finish();
 
-    /// Hands all contacts to the sink.
-    Status write_to(const ContactSink* sinks, std::uint32_t sink_count) const;
+    /// Hands all contacts to a sink.
+    Status write_to(const ContactSink& sink) const;
 
     /// How many pairs of bodies have a contact. After `finish`.
     std::uint64_t pair_count() const;

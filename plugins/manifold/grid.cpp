@@ -23,7 +23,7 @@ double Grid::cell_size(const BodyTable& table) {
     // Half as large again as the middle one of the parts, so that most cover few cells.
     sizes_.clear();
     for (const Part& part : table.parts()) {
-        const Vec3 d = part.bounds.high - part.bounds.low;
+        const Vec3 d = part.fat.high - part.fat.low;
         const double size = std::max({d.x, d.y, d.z});
         if (part.present && std::isfinite(size)) sizes_.push_back(size);
     }
@@ -44,8 +44,8 @@ void Grid::sort_into_cells(const BodyTable& table, double size) {
         Range& r = ranges_[i];
         double cells = 1;
         for (int k = 0; k < 3; ++k) {
-            const double low = std::floor(at(parts[i].bounds.low, k) / size);
-            const double high = std::floor(at(parts[i].bounds.high, k) / size);
+            const double low = std::floor(at(parts[i].fat.low, k) / size);
+            const double high = std::floor(at(parts[i].fat.high, k) / size);
             const bool fits = std::abs(low) < 1e9 && std::abs(high) < 1e9;
             cells = fits ? cells * (high - low + 1) : 1e30;
             r.low[k] = fits ? static_cast<std::int32_t>(low) : 0;
@@ -86,7 +86,7 @@ void Grid::meet_in_cell(std::vector<PartPair>& pairs, const BodyTable& table, st
                     here && p.cell[k] == q.cell[k] && p.cell[k] == std::max(rp.low[k], rq.low[k]);
             if (!here) continue;
             const Part &a = parts[p.part], &b = parts[q.part];
-            if (overlap(a.bounds, b.bounds) && table.wanted(a, b))
+            if (overlap(a.fat, b.fat) && table.wanted(a, b))
                 pairs.push_back({std::min(p.part, q.part), std::max(p.part, q.part)});
         }
 }
@@ -101,7 +101,7 @@ void Grid::find_pairs(std::vector<PartPair>& pairs, const BodyTable& table) {
     for (std::uint32_t i : large_)
         for (std::uint32_t j = 0; j < parts.size(); ++j) {
             if (!parts[j].present || j == i || (is_large_[j] && j < i)) continue;
-            if (overlap(parts[i].bounds, parts[j].bounds) && table.wanted(parts[i], parts[j]))
+            if (overlap(parts[i].fat, parts[j].fat) && table.wanted(parts[i], parts[j]))
                 pairs.push_back({std::min(i, j), std::max(i, j)});
         }
 }

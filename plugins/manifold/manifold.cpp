@@ -91,16 +91,8 @@ Facing facing_of(const Part& a, const Part& b, Vec3 n, double size) {
     return {support_face(a, -n, around, 2 * size), support_face(b, n, around, 2 * size)};
 }
 
-}  // namespace
-
-bool gap_is_reached(const Part& a, const Part& b, Vec3 n) {
-    const double size = size_of(a) + size_of(b);
-    const Facing facing = facing_of(a, b, n, size);
-    return facing_points(facing.a, facing.b, n).deepest <= support_gap(a, b, n) + 1e-7 * size;
-}
-
-void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
-                    const Witness& witness) {
+void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
+                  const Witness& witness) {
     if (!finite(witness.normal) || !finite(witness.point)) return;
     Pair pair{a, b, unit_or(witness.normal, {0, 1, 0}), 0, kContactClipped};
     if (a.shape.kind == ShapeKind::plane) pair.n = -a.world.axis[1];
@@ -136,6 +128,21 @@ void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const P
         c.feature = feature_key({3, a.index, b.index, face_a.id, face_b.id, p.feature});
     }
     stats.from_clip += static_cast<std::uint64_t>(points.count);
+}
+
+}  // namespace
+
+bool gap_is_reached(const Part& a, const Part& b, Vec3 n) {
+    const double size = size_of(a) + size_of(b);
+    const Facing facing = facing_of(a, b, n, size);
+    return facing_points(facing.a, facing.b, n).deepest <= support_gap(a, b, n) + 1e-7 * size;
+}
+
+void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
+                    const Witness& witness) {
+    const std::size_t before = out.size();
+    add_manifold(out, stats, a, b, witness);
+    if (witness.shared) stats.shared_normals += out.size() - before;
 }
 
 void add_raw(ContactList& out, DetectStats& stats, const Part& a, const Part& b,

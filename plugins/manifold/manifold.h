@@ -17,6 +17,7 @@ struct Witness {
     Vec3 point;                ///< somewhere between the surfaces [m]
     double gap;                ///< [m], negative when overlapping
     bool approximate = false;  ///< the back-end is known to err here
+    bool shared = false;       ///< the normal is not the back-end's own but found beside it
 };
 
 inline constexpr int kMostPoints = 8;

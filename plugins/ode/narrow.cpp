@@ -69,7 +69,9 @@ bool ask_boxes(Witness& witness, const Part& a, const Part& b, double grown) {
 
 /// The closest points of sharp parts that ODE says nothing about: apart, or just touching.
 bool ask_beside(Witness& witness, const Part& a, const Part& b) {
-    return closest_when_apart(witness, a, b) || closest_when_touching(witness, a, b);
+    const bool found = closest_when_apart(witness, a, b) || closest_when_touching(witness, a, b);
+    witness.shared = true;
+    return found;
 }
 
 /// ODE can name a normal along which the true shapes overlap far more than it says: its convex test

@@ -22,7 +22,7 @@ bool both(const Part& a, const Part& b, ShapeKind p, ShapeKind q) {
 
 class Ode final : public Collider {
 public:
-    Ode() : Collider(kSupported) {}
+    explicit Ode(std::uint32_t threads) : Collider(kSupported, threads) {}
 
 private:
     void prepare(Part& part) override {
@@ -35,23 +35,28 @@ private:
         grid_.find_pairs(pairs, table_);
     }
 
-    void collide_all(const std::vector<PartPair>& pairs, bool raw) override {
+    void place_parts() override {
         double reach = 0;
         for (const Part& part : table_.parts())
             reach = std::max(reach, part.present ? part.reach : 0);
         for (const Part& part : table_.parts())
             if (part.present) place_geoms(part, 2 * reach);
-        for (const PartPair& pair : pairs) {
+    }
+
+    void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool raw,
+                       std::uint32_t) override {
+        know_thread();
+        for (std::size_t i = 0; i < count; ++i) {
             try {
-                collide(table_.parts()[pair.first], table_.parts()[pair.second], raw);
+                collide({out.contacts, out.stats}, table_.parts()[pairs[i].first],
+                        table_.parts()[pairs[i].second], raw);
             } catch (const std::runtime_error&) {
-                ++failures_;  // ODE gave up on this pair; the others go on
+                ++out.failures;  // ODE gave up on this pair; the others go on
             }
         }
     }
 
-    void collide(const Part& a, const Part& b, bool raw) {
-        const Output out{contacts_, stats_};
+    static void collide(const Output& out, const Part& a, const Part& b, bool raw) {
         if (both(a, b, ShapeKind::hull, ShapeKind::mesh))
             return;  // refused in the table: ODE finds nothing
         const bool mesh = a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh;
@@ -81,10 +86,10 @@ bool start_ode() {
     return started;
 }
 
-Proximity* create(const CreateRequest*, const char** message) {
+Proximity* create(const CreateRequest* request, const char** message) {
     const char* trouble = "ODE could not be started, or was built for single precision";
     try {
-        if (start_ode()) return new Ode;
+        if (start_ode()) return new Ode(request->threads);
     } catch (...) {
         trouble = "memory ran out";
     }
@@ -96,7 +101,7 @@ void destroy(Proximity* proximity) { delete static_cast<Ode*>(proximity); }
 std::uint32_t ability(ShapeKind a, ShapeKind b) {
     const auto has = [&](ShapeKind k) { return a == k || b == k; };
     if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated;
+    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
     if (has(ShapeKind::hull) || has(ShapeKind::compound))
         return has(ShapeKind::hull) ? kPairNone : kPairPoint;
     std::uint32_t bits = kPairPoint | kPairManifold | kPairMovingMesh;

@@ -19,20 +19,21 @@ constexpr Supported kSupported{
 
 class Reference final : public Collider {
 public:
-    Reference() : Collider(kSupported) {}
+    explicit Reference(std::uint32_t threads) : Collider(kSupported, threads) {}
 
 private:
     void find_pairs(std::vector<PartPair>& pairs) override { reference::find_pairs(pairs, table_); }
 
-    void collide_all(const std::vector<PartPair>& pairs, bool) override {
-        for (const PartPair& pair : pairs)
-            collide(contacts_, table_.parts()[pair.first], table_.parts()[pair.second]);
-        stats_.from_backend = contacts_.size();
+    void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool,
+                       std::uint32_t) override {
+        for (std::size_t i = 0; i < count; ++i)
+            collide(out.contacts, table_.parts()[pairs[i].first], table_.parts()[pairs[i].second]);
+        out.stats.from_backend = out.contacts.size();
     }
 };
 
-Proximity* create(const CreateRequest*, const char** message) {
-    Reference* made = new (std::nothrow) Reference;
+Proximity* create(const CreateRequest* request, const char** message) {
+    Reference* made = new (std::nothrow) Reference(request->threads);
     if (!made && message) *message = "memory ran out";
     return made;
 }
@@ -47,7 +48,7 @@ PluginTable make_table() {
         for (std::uint32_t j = 0; j < kShapeKindCount; ++j) {
             const bool planes = i == 0 && j == 0;
             if (kSupported.kind[i] && kSupported.kind[j] && !planes)
-                t.pairs[i][j] = kPairPoint | kPairManifold | kPairSeparated;
+                t.pairs[i][j] = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
         }
     t.create = create;
     t.destroy = destroy;

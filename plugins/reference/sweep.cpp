@@ -18,7 +18,7 @@ int widest_axis(const std::vector<Part>& parts) {
     for (int k = 0; k < 3; ++k) {
         double count = 0, sum = 0, squares = 0;
         for (const Part& p : parts) {
-            const double x = 0.5 * (at(p.bounds.low, k) + at(p.bounds.high, k));
+            const double x = 0.5 * (at(p.fat.low, k) + at(p.fat.high, k));
             if (!p.present || !std::isfinite(x)) continue;
             count += 1, sum += x, squares += x * x;
         }
@@ -33,7 +33,7 @@ std::vector<Entry> entries_along(int axis, const std::vector<Part>& parts) {
     std::vector<Entry> entries;
     entries.reserve(parts.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
-        const Aabb& b = parts[i].bounds;
+        const Aabb& b = parts[i].fat;
         if (parts[i].present)
             entries.push_back({at(b.low, axis), at(b.high, axis), at(b.low, u), at(b.high, u),
                                at(b.low, v), at(b.high, v), i});
