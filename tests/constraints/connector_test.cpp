@@ -79,12 +79,13 @@ TEST(BallJoint, OneIterationClosesASmallGap) {
     const double h = 0.01;
     for (int i = 0; i < 100; ++i) {
         const Body a = random_body(random), b = random_body(random);
-        const Vector3d r_a = random.vector(), r_b = random.vector(), gap = 1e-5 * random.direction();
+        const Vector3d r_a = random.vector(), r_b = random.vector(),
+                       gap = 1e-5 * random.direction();
         const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
         Velocity<double> x = rest, y = rest;
         const Vector3d impulse = join(x, y, rest, rest, a.inverse, b.inverse, r_a, r_b, gap, h);
-        const Vector3d left = gap + h * (x.v - y.v) + turn_of<double>(h * x.w, r_a) -
-                              turn_of<double>(h * y.w, r_b);
+        const Vector3d left =
+            gap + h * (x.v - y.v) + turn_of<double>(h * x.w, r_a) - turn_of<double>(h * y.w, r_b);
         EXPECT_LT(left.norm(), 1e-3 * gap.norm());
         EXPECT_LT((x.v / a.inverse.mass + y.v / b.inverse.mass).norm(), 1e-12 * impulse.norm());
     }

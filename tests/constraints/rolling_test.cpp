@@ -14,7 +14,8 @@ TEST(Rolling, OneTorqueStopsTheTurningAboutAnAxis) {
     Random random(1);
     for (int i = 0; i < 100; ++i) {
         const Vector3d none = Vector3d::Zero(), axis = random.direction();
-        const InverseMass<double> a{1, symmetric(random.tensor())}, b{1, symmetric(random.tensor())};
+        const InverseMass<double> a{1, symmetric(random.tensor())},
+            b{1, symmetric(random.tensor())};
         Velocity<double> x{none, random.vector()}, y{none, random.vector()};
         const double effective = 1 / turning_response<double>(a, b, axis);
         double torque = 0;

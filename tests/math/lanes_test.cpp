@@ -31,9 +31,17 @@ protected:
 
     Lanes_() {
         using Limits = std::numeric_limits<Real>;
-        special_ = {Real(0),       -Real(0),           Real(1),      Real(-1),
-                    Limits::max(), Limits::lowest(),   Limits::min(), Limits::denorm_min(),
-                    Limits::infinity(), -Limits::infinity(), Limits::quiet_NaN()};
+        special_ = {Real(0),
+                    -Real(0),
+                    Real(1),
+                    Real(-1),
+                    Limits::max(),
+                    Limits::lowest(),
+                    Limits::min(),
+                    Limits::denorm_min(),
+                    Limits::infinity(),
+                    -Limits::infinity(),
+                    Limits::quiet_NaN()};
     }
 
     /// Ordinary numbers of many sizes, and now and then one at an edge of the format.
@@ -77,11 +85,12 @@ using Widths = testing::Types<Width<float, 4>, Width<float, 8>, Width<float, 16>
                               Width<double, 8>, Width<double, 16>>;
 TYPED_TEST_SUITE(Lanes_, Widths);
 
-#define PLUMB_SAME(what, formula)                                                       \
-    this->expect_same(                                                                  \
-        what, []([[maybe_unused]] auto a, [[maybe_unused]] auto b, [[maybe_unused]] auto c, \
-                 [[maybe_unused]] auto d) { return formula; },                          \
-        []([[maybe_unused]] auto a, [[maybe_unused]] auto b, [[maybe_unused]] auto c,   \
+#define PLUMB_SAME(what, formula)                                                     \
+    this->expect_same(                                                                \
+        what,                                                                         \
+        []([[maybe_unused]] auto a, [[maybe_unused]] auto b, [[maybe_unused]] auto c, \
+           [[maybe_unused]] auto d) { return formula; },                              \
+        []([[maybe_unused]] auto a, [[maybe_unused]] auto b, [[maybe_unused]] auto c, \
            [[maybe_unused]] auto d) { return formula; })
 
 TYPED_TEST(Lanes_, ArithmeticIsThatOfOneNumber) {
@@ -113,22 +122,22 @@ TYPED_TEST(Lanes_, AssignmentsDoWhatTheOperatorsDo) {
 }
 
 TYPED_TEST(Lanes_, AScalarStandsForEqualLanes) {
-    using Lane = typename TestFixture::Lane;
+    using L = typename TestFixture::Lane;
     typename TestFixture::Values out;
     for (auto x : this->special_) {
-        Lane(x).store(out.at);
+        L(x).store(out.at);
         for (auto y : out.at) EXPECT_TRUE(this->same_bits(y, x)) << y << " instead of " << x;
     }
 }
 
 TYPED_TEST(Lanes_, VectorsLoadAndStoreByComponent) {
-    using Real = typename TestFixture::Real;
+    using R = typename TestFixture::Real;
     constexpr int n = TestFixture::kLanes;
-    alignas(64) Real from[3][n];
-    alignas(64) Real to[3][n] = {};
+    alignas(64) R from[3][n];
+    alignas(64) R to[3][n] = {};
     for (int c = 0; c < 3; ++c)
-        for (int i = 0; i < n; ++i) from[c][i] = static_cast<Real>(100 * c + i);
-    store_vector(to, Vector3<Number<Real, n>>(load_vector(from)));
+        for (int i = 0; i < n; ++i) from[c][i] = static_cast<R>(100 * c + i);
+    store_vector(to, Vector3<Number<R, n>>(load_vector(from)));
     for (int c = 0; c < 3; ++c)
         for (int i = 0; i < n; ++i) EXPECT_EQ(to[c][i], from[c][i]);
 }

@@ -35,7 +35,8 @@ TEST(ExponentialMap, IsUndoneByTheRotationVectorAtEverySize) {
 
 TEST(RotationVector, TakesTheShorterWayRound) {
     const Vector3d axis = Vector3d(1, 2, -2) / 3;
-    EXPECT_LT((rotation_vector(exponential_map(1.5 * kPi * axis)) + 0.5 * kPi * axis).norm(), 1e-12);
+    EXPECT_LT((rotation_vector(exponential_map(1.5 * kPi * axis)) + 0.5 * kPi * axis).norm(),
+              1e-12);
     const Quaterniond q = exponential_map(0.3 * axis);
     const Quaterniond opposite(-q.coeffs());
     EXPECT_LT((rotation_vector(opposite) - 0.3 * axis).norm(), 1e-14);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "math/lanes.h"
 #include "math/symmetric.h"
+#include "math/lanes.h"
 #include "support/random.h"
 
 #include <gtest/gtest.h>

@@ -48,7 +48,9 @@ void expect_no_shared_body(const Colouring& colouring, const std::vector<BodyPai
         for (std::uint32_t i = batch.first; i < batch.last; ++i)
             for (std::int32_t row :
                  {pairs[colouring.order()[i]].row_a, pairs[colouring.order()[i]].row_b})
-                if (row < kDynamic) EXPECT_TRUE(bodies.insert(row).second) << "row " << row;
+                if (row < kDynamic) {
+                    EXPECT_TRUE(bodies.insert(row).second) << "row " << row;
+                }
     }
 }
 

@@ -47,7 +47,9 @@ void expect_every_pair_in_its_lane() {
         EXPECT_EQ(arrays.blocks[b].first_row, rows);
         rows += arrays.blocks[b].row_count;
         for (std::uint32_t lane = 0; lane < W; ++lane)
-            if (!places.count({b, lane})) EXPECT_EQ(arrays.blocks[b].row_a[lane], kZeroRow);
+            if (!places.count({b, lane})) {
+                EXPECT_EQ(arrays.blocks[b].row_a[lane], kZeroRow);
+            }
     }
     EXPECT_FALSE(batches.ranges().back().independent);
     EXPECT_EQ(arrays.turnings, nullptr);

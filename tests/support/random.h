@@ -16,7 +16,9 @@ public:
     double number(double low, double high) {
         return std::uniform_real_distribution<double>(low, high)(engine_);
     }
-    std::uint32_t below(std::uint32_t count) { return static_cast<std::uint32_t>(engine_() % count); }
+    std::uint32_t below(std::uint32_t count) {
+        return static_cast<std::uint32_t>(engine_() % count);
+    }
     Vector3d vector(double size = 1) {
         std::normal_distribution<double> normal;
         const double x = normal(engine_), y = normal(engine_), z = normal(engine_);
