@@ -82,7 +82,9 @@ struct Lanes {
     friend Lanes operator/(const Lanes& a, const Lanes& b) {
         return zip(a, b, [](Register x, Register y) { return x / y; });
     }
-    friend Lanes operator-(const Lanes& a) { return Lanes(T(0)) - a; }
+    friend Lanes operator-(const Lanes& a) {
+        return zip(a, a, [](Register x, Register) { return -x; });
+    }
 
     friend Lanes min(const Lanes& a, const Lanes& b) {
         return zip(a, b, [](Register x, Register y) { return x < y ? x : y; });
