@@ -6,7 +6,8 @@ set(PLUMB_CORE_SOURCES
   effects/plan.cpp
   step/choose_rebounds.cpp step/contact_pairs.cpp step/detect.cpp step/follow_contacts.cpp step/integrate.cpp
   step/match_contacts.cpp step/move_scripted.cpp step/row_solver.cpp step/step.cpp
-  measure/measure.cpp)
+  measure/contact_comparison.cpp measure/contact_patch.cpp measure/measure.cpp measure/mesh_resolution.cpp
+  measure/shape_support.cpp)
 
 # One unit an instruction set; what a processor cannot run is never called (kernels/dispatch.cpp).
 plumb_kernel_unit(baseline kernels/unit_baseline.cpp)
