@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/simulation.h"
 
+#include "host/add_bodies.h"
 #include "measure/measure.h"
 #include "scene/error.h"
 #include "step/step.h"
@@ -25,41 +26,7 @@ struct Simulation::Parts {
           collider_name(std::move(name)),
           collider_version(std::move(version)) {
         if (!stepper.plan.runs(Effect::contacts)) return;
-        add_shapes(scene);
-        exclude_linked(scene);
-    }
-
-    void add_shapes(const Scene& scene) {
-        for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-            const BodySpec& spec = scene.bodies[i];
-            if (spec.geometry == kNoIndex) continue;
-            ShapePlacement placement{};
-            placement.shape = world.shapes[spec.geometry];
-            const Placement& local = world.bodies.geometry_in_body[i];
-            placement.local = {to_plain(local.position), to_plain(local.rotation)};
-            placement.mobility = static_cast<Mobility>(spec.motion);
-            placement.group = spec.group;
-            placement.mask = spec.mask;
-            check(proximity.add(i, placement), "shape of body " + std::to_string(i));
-        }
-    }
-
-    void exclude_linked(const Scene& scene) {
-        for (const JointSpec& j : scene.joints) {
-            if (j.collide || j.body_b == kNoIndex) continue;
-            if (scene.bodies[j.body_a].geometry == kNoIndex ||
-                scene.bodies[j.body_b].geometry == kNoIndex)
-                continue;
-            check(
-                proximity.exclude(std::min(j.body_a, j.body_b), std::max(j.body_a, j.body_b), true),
-                "joint");
-        }
-    }
-
-    void check(const Status& status, const std::string& about) const {
-        if (status.code == Status::ok) return;
-        throw ColliderError("collider \"" + collider_name + "\" refused the " + about + ": " +
-                            (status.message ? status.message : "it gave no reason"));
+        add_bodies(proximity, world, scene, collider_name);
     }
 
     std::size_t checked(std::uint32_t body) const {
