@@ -12,7 +12,7 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/core/" DESTINATION "${CMAKE_INSTALL_INC
   PATTERN "app" EXCLUDE PATTERN "output" EXCLUDE PATTERN "reader" EXCLUDE PATTERN "study" EXCLUDE PATTERN "kernels" EXCLUDE)
 install(TARGETS plumb_app RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 if(PLUMB_BUILD_PLUGINS)
-  install(TARGETS plumb_collider_reference plumb_collider_ode plumb_collider_bullet
+  install(TARGETS plumb_collider_reference plumb_collider_ode plumb_collider_bullet plumb_collider_fcl
     LIBRARY DESTINATION "${PLUMB_PLUGIN_DIR}")
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/schema"

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/// The collider on FCL 0.7: dynamic tree, signed distance, shared support-face clipping.
+#include "fcl/broad.h"
+#include "fcl/narrow.h"
+#include "fcl/shapes.h"
+#include "manifold/collider.h"
+
+namespace plumb::by_fcl {
+namespace {
+
+constexpr Supported kSupported{
+    {true, true, true, true, true, true, true, true, false, true},
+    "fcl takes no height fields here; a height field can be given as a mesh"};
+
+class Fcl final : public Collider {
+public:
+    explicit Fcl(std::uint32_t threads) : Collider(kSupported, threads), narrow_(this->threads()) {}
+
+private:
+    void prepare(Part& part) override { part.backend = make_geometry(part); }
+
+    void find_pairs(std::vector<PartPair>& pairs) override { tree_.find_pairs(pairs, table_); }
+
+    void place_parts() override {
+        for (const Part& part : table_.parts())
+            if (part.present) place_geometry(part);
+    }
+
+    void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool raw,
+                       std::uint32_t worker) override {
+        for (std::size_t i = 0; i < count; ++i) {
+            try {
+                collide(narrow_[worker], out, table_.parts()[pairs[i].first],
+                        table_.parts()[pairs[i].second], raw);
+            } catch (const std::runtime_error&) {
+                ++out.failures;  // FCL gave up on this pair; the others go on
+            } catch (const std::logic_error&) {
+                ++out.failures;
+            }
+        }
+    }
+
+    static void collide(Narrow& narrow, const NarrowOutput& out, const Part& a, const Part& b,
+                        bool raw) {
+        const bool mesh = a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh;
+        if (raw)
+            narrow.collide_raw(out.contacts, out.stats, a, b);
+        else if (mesh)
+            narrow.collide_mesh(out.contacts, out.stats, a, b);
+        else
+            narrow.collide_convex(out.contacts, out.stats, a, b);
+    }
+
+    Tree tree_;
+    std::vector<Narrow> narrow_;  ///< [worker]
+};
+
+Proximity* create(const CreateRequest* request, const char** message) {
+    try {
+        return new Fcl(request->threads);
+    } catch (...) {
+        if (message) *message = "memory ran out";
+        return nullptr;
+    }
+}
+void destroy(Proximity* proximity) { delete static_cast<Fcl*>(proximity); }
+
+std::uint32_t ability(ShapeKind a, ShapeKind b) {
+    const auto has = [&](ShapeKind k) { return a == k || b == k; };
+    if (a == b && a == ShapeKind::plane) return kPairNone;
+    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
+    if (has(ShapeKind::compound)) return kPairPoint | kPairMovingMesh | kPairThreadSafe;
+    return kPairPoint | kPairManifold | kPairMovingMesh | kPairThreadSafe |
+           (has(ShapeKind::plane) ? kPairSeparated : 0u);
+}
+
+PluginTable make_table() {
+    PluginTable t = blank_table();
+    t.name = "fcl";
+    t.description = "Flexible Collision Library: dynamic tree, signed distance, shared clipping";
+    t.backend_version = "FCL 0.7.0";
+    for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
+        for (std::uint32_t j = 0; j < kShapeKindCount; ++j)
+            if (kSupported.kind[i] && kSupported.kind[j])
+                t.pairs[i][j] = ability(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
+    t.create = create;
+    t.destroy = destroy;
+    return t;
+}
+
+}  // namespace
+}  // namespace plumb::by_fcl
+
+extern "C" PLUMB_PLUGIN_EXPORT const plumb::PluginTable* plumb_collider_plugin(void) {
+    static const plumb::PluginTable table = plumb::by_fcl::make_table();
+    return &table;
+}

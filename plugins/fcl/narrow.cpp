@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: MIT
+/// Boxes by FCL's box test, on the true boxes where they overlap and on larger ones where they do
+/// not; other convex pairs by its signed distance, and where that gives up by its `collide`; meshes
+/// by its trees of boxes and spheres.
+///
+/// FCL's normals point from its first argument to its second, ours from b to a. A mesh always goes
+/// first: FCL's answer for a shape and a mesh points out of the mesh whatever the order.
+#include "fcl/narrow.h"
+
+#include "fcl/closest.h"
+#include "fcl/shapes.h"
+#include "fcl/triangles.h"
+#include "manifold/gjk.h"
+#include "manifold/mesh_points.h"
+#include "manifold/support.h"
+
+#include <fcl/narrowphase/collision.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/box_box.h>
+
+namespace plumb::by_fcl {
+namespace {
+
+constexpr std::size_t kMostFromFcl = 512;
+
+bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
+bool either(const Part& a, const Part& b, ShapeKind kind) { return is(a, kind) || is(b, kind); }
+
+/// The closest points of parts that FCL is silent or wrong about.
+bool ask_beside(Witness& witness, const Part& a, const Part& b) {
+    const bool found = closest_when_apart(witness, a, b) || closest_when_touching(witness, a, b);
+    witness.shared = true;
+    return found;
+}
+
+/// FCL can name a normal along which the true shapes overlap far more than it says. Then the
+/// closest points are computed beside it, and of both normals the one of less overlap is nearer to
+/// the truth.
+void doubt(Witness& witness, const Part& a, const Part& b) {
+    const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
+    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return;
+    Witness other;
+    witness.approximate = true;
+    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+}
+
+/// Index of the triangle that FCL names for a mesh.
+std::uint32_t triangle(const Part& part, intptr_t index) {
+    return is(part, ShapeKind::mesh) && index >= 0 ? static_cast<std::uint32_t>(index) : 0;
+}
+
+}  // namespace
+
+struct Narrow::Scratch {
+    fcl::CollisionRequestd request{kMostFromFcl, true};
+    fcl::CollisionResultd result;
+    std::vector<fcl::ContactPointd> points;
+    Triangles triangles;
+
+    void collide(const Part& first, const Part& second) {
+        const Geometry &p = geometry_of(first), &q = geometry_of(second);
+        result.clear();
+        fcl::collide(p.shape.get(), p.place, q.shape.get(), q.place, request, result);
+    }
+};
+
+Narrow::Narrow() : scratch_(std::make_unique<Scratch>()) {
+    scratch_->request.gjk_solver_type = fcl::GST_LIBCCD;
+}
+Narrow::~Narrow() = default;
+
+/// FCL's box against box with all half extents grown by `grown` [m].
+bool Narrow::ask_boxes(Witness& witness, const Part& a, const Part& b, double grown) {
+    const Vec3 more{grown, grown, grown};
+    fcl::Vector3d normal = fcl::Vector3d::Zero();
+    double depth = 0;
+    int code = 0;
+    scratch_->points.clear();
+    fcl::detail::boxBox2(to_fcl(2 * (a.shape.half_extents + more)), geometry_of(a).place,
+                         to_fcl(2 * (b.shape.half_extents + more)), geometry_of(b).place, normal,
+                         &depth, &code, 1, scratch_->points);
+    // Without a code an axis parts the boxes. With one there is a normal, even where FCL's own
+    // clipping lost the points.
+    if (code == 0) return false;
+    const Vec3 middle = 0.5 * (a.world.origin + b.world.origin);
+    const Vec3 point = scratch_->points.empty() ? middle : from_fcl(scratch_->points[0].pos);
+    witness = {-from_fcl(normal), point, 2 * grown - std::abs(depth)};
+    return true;
+}
+
+/// FCL's deepest point of an overlap.
+bool Narrow::ask_collide(Witness& witness, const Part& a, const Part& b) {
+    scratch_->collide(a, b);
+    bool found = false;
+    for (std::size_t i = 0; i < scratch_->result.numContacts(); ++i) {
+        const fcl::Contactd& c = scratch_->result.getContact(i);
+        if (found && -c.penetration_depth >= witness.gap) continue;
+        witness = {-from_fcl(c.normal), from_fcl(c.pos), -c.penetration_depth};
+        found = finite(witness.normal) && finite(witness.point);
+    }
+    return found;
+}
+
+bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
+    if (is(a, ShapeKind::box) && is(b, ShapeKind::box)) {
+        if (ask_boxes(witness, a, b, 0)) return doubt(witness, a, b), true;
+        // Apart: the normal of larger boxes will do where it parts the true ones too, and two
+        // points of them reach the gap that it implies.
+        if (!ask_boxes(witness, a, b, 0.5 * pair_margin(a, b))) return false;
+        const Vec3 n = unit_or(witness.normal, {0, 1, 0});
+        if (support_gap(a, b, n) >= 0 && gap_is_reached(a, b, n)) return true;
+    }
+    if (signed_distance(witness, a, b) == Answer::found || ask_collide(witness, a, b))
+        return doubt(witness, a, b), true;
+    return ask_beside(witness, a, b);
+}
+
+void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Part& a,
+                            const Part& b) {
+    // A half-space needs no question: its normal is the contact's.
+    Witness witness{{0, 1, 0}, is(a, ShapeKind::plane) ? b.world.origin : a.world.origin, 0};
+    if (either(a, b, ShapeKind::plane) || ask(witness, a, b))
+        build_manifold(contacts, stats, a, b, witness);
+}
+
+void Narrow::take_all(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
+    const bool turned = is(b, ShapeKind::mesh) && !is(a, ShapeKind::mesh);
+    turned ? scratch_->collide(b, a) : scratch_->collide(a, b);
+    for (std::size_t i = 0; i < scratch_->result.numContacts(); ++i) {
+        const fcl::Contactd& c = scratch_->result.getContact(i);
+        const Vec3 n = from_fcl(c.normal);
+        const std::uint32_t ta = triangle(a, turned ? c.b2 : c.b1);
+        const std::uint32_t tb = triangle(b, turned ? c.b1 : c.b2);
+        // The sign of a depth differs by pair; every point that FCL gives is an overlap.
+        const Witness w{turned ? n : -n, from_fcl(c.pos), -std::abs(c.penetration_depth),
+                        either(a, b, ShapeKind::mesh)};
+        const std::size_t before = contacts.size();
+        add_raw(contacts, stats, a, b, w, feature_key({ta, tb}));
+        if (contacts.size() == before) continue;
+        Contact& added = contacts.data()[before];
+        if (a.index == 0 && is(a, ShapeKind::mesh)) added.part_a = ta;
+        if (b.index == 0 && is(b, ShapeKind::mesh)) added.part_b = tb;
+        anchor_sphere(added, a, b);
+    }
+}
+
+void Narrow::collide_mesh(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
+    if (either(a, b, ShapeKind::plane)) return mesh_on_plane(contacts, stats, a, b);
+    const bool meshes = is(a, ShapeKind::mesh) && is(b, ShapeKind::mesh);
+    if (!meshes) return scratch_->triangles.collide(contacts, stats, a, b);
+    const std::size_t begin = contacts.size();
+    DetectStats all{};
+    take_all(contacts, all, a, b);
+    tidy_mesh_points(contacts, begin);
+    stats.from_backend += contacts.size() - begin;
+}
+
+void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
+    // FCL's hulls and meshes crash on its half-spaces.
+    const bool plane = either(a, b, ShapeKind::plane);
+    if (plane && either(a, b, ShapeKind::mesh)) return mesh_on_plane(contacts, stats, a, b);
+    if (plane && either(a, b, ShapeKind::hull)) return collide_convex(contacts, stats, a, b);
+    take_all(contacts, stats, a, b);
+}
+
+}  // namespace plumb::by_fcl
