@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/collider_library.h"
 
+#include "host/exception_text.h"
 #include "host/shape_pairs.h"
 #include "scene/error.h"
 
@@ -8,14 +9,12 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <cstring>
 #include <sstream>
 
 namespace plumb {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr const char* kFilePrefix = "plumb_collider_";
 
 /// Directories of a list separated by ':'.
 void add_directories(std::vector<std::string>& to, const char* list) {
@@ -35,49 +34,14 @@ fs::path own_directory() {
     return fs::canonical("/proc/self/exe", ignored).parent_path();
 }
 
-std::string name_of_file(const fs::path& file) {
-    const std::string stem = file.stem().string();
-    return stem.rfind(kFilePrefix, 0) == 0 ? stem.substr(std::strlen(kFilePrefix)) : stem;
-}
-
-/// Why a table cannot be used, or nothing.
-std::string refusal_of(const PluginTable& t) {
-    if (t.magic != kPluginMagic) return "its table does not begin with Plumb's magic number";
-    if (t.abi_major != kAbiMajor)
-        return "it was built for version " + std::to_string(t.abi_major) +
-               " of the plugin interface, and this is version " + std::to_string(kAbiMajor) +
-               "; rebuild it against the installed headers";
-    if (t.table_size < sizeof(PluginTable))
-        return "its table is smaller than this version's; rebuild it";
-    const AbiSizes mine = abi_sizes();
-    if (std::memcmp(&t.sizes, &mine, sizeof mine) != 0)
-        return "its structs have other sizes than this host's; rebuild it against the installed "
-               "headers";
-    if (!t.name || !t.create || !t.destroy) return "its table lacks a name or a function";
-    return {};
-}
-
-ColliderInfo load(const fs::path& file) {
-    ColliderInfo info{file, nullptr, name_of_file(file), {}};
-    void* handle = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!handle) {
-        const char* why = dlerror();
-        info.refusal = std::string("it cannot be loaded: ") + (why ? why : "no reason given");
-        return info;
-    }
-    const auto entry = reinterpret_cast<PluginEntry>(dlsym(handle, kPluginSymbol));
-    const PluginTable* table = entry ? entry() : nullptr;
-    if (!table)
-        info.refusal = std::string("it does not export ") + kPluginSymbol;
-    else
-        info.refusal = refusal_of(*table);
-    if (!info.refusal.empty()) {
-        dlclose(handle);
-        return info;
-    }
-    info.table = table;
-    info.name = table->name;
-    return info;
+/// Plugins of a directory in the order of their names; none where it cannot be read.
+std::vector<fs::path> plugin_files(const std::string& directory) {
+    std::error_code error;
+    std::vector<fs::path> files;
+    for (fs::directory_iterator i(directory, error), end; !error && i != end; i.increment(error))
+        if (is_plugin_file(i->path())) files.push_back(i->path());
+    std::sort(files.begin(), files.end());
+    return files;
 }
 
 std::string names_of(const std::vector<ColliderInfo>& colliders) {
@@ -103,21 +67,26 @@ ColliderLibrary::ColliderLibrary(const std::string& extra_path) {
     for (const char* relative : {"../lib/plumb/plugins", "plumb/plugins", "../plumb/plugins"})
         searched_.push_back((own / relative).lexically_normal().string());
 
-    for (const std::string& directory : searched_) {
-        std::error_code ignored;
-        std::vector<fs::path> files;
-        for (const auto& entry : fs::directory_iterator(directory, ignored))
-            if (entry.path().extension() == ".so" &&
-                entry.path().filename().string().rfind(kFilePrefix, 0) == 0)
-                files.push_back(entry.path());
-        std::sort(files.begin(), files.end());
-        for (const fs::path& file : files) {
-            const bool known = std::any_of(
-                colliders_.begin(), colliders_.end(),
-                [&](const ColliderInfo& c) { return c.table && c.name == name_of_file(file); });
-            if (!known) colliders_.push_back(load(file));
-        }
+    for (const std::string& directory : searched_)
+        for (const fs::path& file : plugin_files(directory)) add(file);
+}
+
+void ColliderLibrary::add(const fs::path& file) {
+    const auto usable = [this](const std::string& name) {
+        return std::find_if(colliders_.begin(), colliders_.end(),
+                            [&](const ColliderInfo& c) { return c.table && c.name == name; });
+    };
+    const auto shadowed_by = usable(plugin_name_of(file));
+    if (shadowed_by != colliders_.end() && shadowed_by->file.filename() == file.filename()) return;
+    ColliderInfo info = load_plugin(file);
+    const auto first = info.table ? usable(info.name) : colliders_.end();
+    if (first != colliders_.end()) {
+        info.refusal = "its name is \"" + info.name + "\", which " + first->file.string() +
+                       " has already taken";
+        info.name = plugin_name_of(file);
+        info.table = nullptr;
     }
+    colliders_.push_back(std::move(info));
 }
 
 const ColliderInfo& ColliderLibrary::find(const std::string& name) const {
@@ -169,7 +138,13 @@ void ColliderLibrary::check_abilities(const ColliderInfo& collider, const Scene&
 ProximityPtr ColliderLibrary::create(const ColliderInfo& collider, std::uint32_t threads) const {
     const CreateRequest request{threads, 0, nullptr};
     const char* message = nullptr;
-    Proximity* p = collider.table->create(&request, &message);
+    Proximity* p = nullptr;
+    try {
+        p = collider.table->create(&request, &message);
+    } catch (...) {
+        throw ColliderError("collider \"" + collider.name +
+                            "\" could not be made: it threw: " + exception_text());
+    }
     if (!p)
         throw ColliderError("collider \"" + collider.name +
                             "\" could not be made: " + (message ? message : "it gave no reason"));

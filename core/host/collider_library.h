@@ -4,22 +4,14 @@
 
 #include <plumb/plugin.h>
 
+#include "host/load_plugin.h"
 #include "scene/scene.h"
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace plumb {
-
-/// One plugin file: its table, or the reason why it cannot be used.
-struct ColliderInfo {
-    std::filesystem::path file;
-    const PluginTable* table = nullptr;  ///< nullptr when refused
-    std::string name;                    ///< of the table, or of the file
-    std::string refusal;                 ///< a sentence; empty when usable
-};
 
 struct ProximityDeleter {
     void (*destroy)(Proximity*) = nullptr;
@@ -31,8 +23,9 @@ using ProximityPtr = std::unique_ptr<Proximity, ProximityDeleter>;
 
 /// All plugins of the search path: `extra_path` (directories separated by ':'), then
 /// PLUMB_PLUGIN_PATH, then plumb/plugins beside the library or the program. A file that cannot be
-/// loaded stays listed with its reason and is never fatal to the others; of two of one name the
-/// first counts. Plugins stay loaded until the process ends.
+/// loaded stays listed with its reason and is never fatal to the others. Of two files of one name
+/// the first counts; of two files whose tables have one name the second is refused. Plugins stay
+/// loaded until the process ends.
 class ColliderLibrary {
 public:
     explicit ColliderLibrary(const std::string& extra_path = {});
@@ -54,6 +47,8 @@ public:
     ProximityPtr create(const ColliderInfo& collider, std::uint32_t threads) const;
 
 private:
+    void add(const std::filesystem::path& file);
+
     std::vector<ColliderInfo> colliders_;
     std::vector<std::string> searched_;
 };

@@ -54,6 +54,22 @@ expect 4 "able are: bullet" "$plumb" check "$work/cone.json" --collider ode
 expect 4 "version" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider oldabi
 expect 4 "cannot be loaded" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider junk
 expect 4 "does not export" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider nosymbol
+# refused NAME WORDS: a bad plugin is refused with the words when it is asked for.
+refused() { expect 4 "$2" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider "$1"; }
+refused tableless "returned no table"
+refused throws_loaded "threw: the entry will not have it"
+refused nameless "no name"
+refused untold "lacks a description, a version or a precision"
+refused imprecise '"half"'
+refused helpless "lacks the function that makes or destroys"
+refused short "smaller than this version's"
+refused resized "structs have other sizes"
+refused unmade 'collider "unmade" could not be made: it gave no reason'
+refused throws_made 'collider "throws_made" could not be made: it threw: no licence was found'
+# of two plugins of one name the first is taken; the other is refused with who was first
+good_plugins=$1/lib/plumb/plugins
+expect 4 "$good_plugins/plumb_collider_reference.so has already taken" \
+  "$plumb" check "$scenes/stack.json" --plugin-path "$good_plugins:$bad_plugins" --collider taken
 expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/absent/x.html"
 expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --summary "$work/absent/x.json"
 expect 6 ".html" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/x.hmtl"
@@ -82,7 +98,7 @@ expect 6 "stdout" bash -c "'$plumb' run '$scenes/stack.json' --collider ode --du
 
 # bad plugins are listed with their reason and do not stand in the way of good ones
 "$plumb" colliders --short --plugin-path "$bad_plugins" >"$work/list" || failures=$((failures + 1))
-for words in "refused" "reference" "ode" "bullet" "fcl"; do
+for words in "refused: its table has no name" "refused: its table is smaller" "refused: plumb_collider_plugin threw" "reference" "ode" "bullet" "fcl"; do
   grep -q "$words" "$work/list" || { echo "FAILED: plumb colliders does not say $words"; failures=$((failures + 1)); }
 done
 exit $((failures > 0))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// A plugin that answers every question with one contact full of NaN.
-#include <plumb/plugin.h>
+#include "bad_plugin.h"
 
 #include <limits>
 
@@ -8,11 +8,8 @@ namespace {
 
 using namespace plumb;
 
-class NotANumber final : public Proximity {
+class NotANumber final : public bad::Nothing {
 public:
-    Status add(std::uint32_t, const ShapePlacement&) noexcept override { return ok_status(); }
-    Status remove(std::uint32_t) noexcept override { return ok_status(); }
-    Status exclude(std::uint32_t, std::uint32_t, bool) noexcept override { return ok_status(); }
     Status detect(const DetectRequest& request, const ContactSink* sinks,
                   std::uint32_t) noexcept override {
         if (request.body_count < 2) return ok_status();
@@ -28,31 +25,11 @@ public:
         c->flags = kContactExact;
         return ok_status();
     }
-    DetectStats stats() const noexcept override { return {}; }
 };
-
-Proximity* create(const CreateRequest*, const char**) { return new NotANumber; }
-void destroy(Proximity* proximity) { delete static_cast<NotANumber*>(proximity); }
 
 }  // namespace
 
 extern "C" PLUMB_PLUGIN_EXPORT const plumb::PluginTable* plumb_collider_plugin(void) {
-    static const PluginTable table = [] {
-        PluginTable t{};
-        t.magic = kPluginMagic;
-        t.abi_major = kAbiMajor;
-        t.abi_minor = kAbiMinor;
-        t.table_size = sizeof(PluginTable);
-        t.sizes = abi_sizes();
-        t.name = "notanumber";
-        t.description = "answers NaN, for tests of the host";
-        t.backend_version = "none";
-        t.precision = "double";
-        for (auto& row : t.pairs)
-            for (auto& bits : row) bits = kPairPoint | kPairManifold | kPairSeparated;
-        t.create = create;
-        t.destroy = destroy;
-        return t;
-    }();
+    static const PluginTable table = bad::table_for<NotANumber>("notanumber");
     return &table;
 }
