@@ -123,6 +123,10 @@ void BodyTable::insert(std::uint32_t body, const ShapePlacement& placement) {
         if (compound) part.local = part.local * frame_of(shape.parts[i].local);
         if (part.shape.kind == ShapeKind::hull) part.faces = merged_faces(part.shape);
         if (part.shape.vertex_count) part.own_bounds = bounds_of_vertices(part.shape);
+        if (has_surface(part.shape.kind)) {
+            part.surface = surfaces_.of(part.shape);
+            if (!part.surface->tree().empty()) part.own_bounds = part.surface->tree().bounds();
+        }
         part.group = placement.group;
         part.mask = placement.mask;
         part.dynamic = placement.mobility == Mobility::dynamic;

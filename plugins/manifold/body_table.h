@@ -7,7 +7,7 @@
 #pragma once
 
 #include "manifold/hull_faces.h"
-#include "manifold/linear.h"
+#include "manifold/surface.h"
 
 #include <plumb/plugin.h>
 
@@ -18,24 +18,16 @@
 
 namespace plumb {
 
-/// A box along the world's axes.
-struct Aabb {
-    Vec3 low, high;  ///< [m]
-};
-inline bool overlap(const Aabb& a, const Aabb& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
-           b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
-}
-
 /// One single shape of a body.
 struct Part {
     std::uint32_t body = 0;
     std::uint32_t index = 0;  ///< in its compound; else 0
     Shape shape{};
-    Frame local{};                  ///< shape frame → body frame
-    std::vector<HullFace> faces;    ///< hulls only
-    Aabb own_bounds{};              ///< of the vertices, in the shape's frame (hull, mesh)
-    std::shared_ptr<void> backend;  ///< whatever the plugin hangs on it
+    Frame local{};                ///< shape frame → body frame
+    std::vector<HullFace> faces;  ///< hulls only
+    Aabb own_bounds{};  ///< of the vertices, in the shape's frame (hull, mesh, height field)
+    std::shared_ptr<const Surface> surface;  ///< mesh and height field only
+    std::shared_ptr<void> backend;           ///< whatever the plugin hangs on it
 
     Frame world{};         ///< shape frame → world, at the poses of the last `place`
     Aabb bounds{};         ///< world, grown by half the margin and the sweep
@@ -81,6 +73,7 @@ private:
     void refresh_exclusion_marks();
 
     std::vector<Part> parts_;
+    SurfaceStore surfaces_;
     std::unordered_set<std::uint64_t> excluded_;
     bool has_compounds_ = false;
     std::uint64_t version_ = 0;
