@@ -2,11 +2,13 @@
 /// The `plumb` program: results on stdout, all else on stderr, one clear sentence for each failure.
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "host/collider_call.h"
 #include "output/error.h"
 #include "scene/error.h"
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 #include <string>
@@ -86,6 +88,8 @@ int program(int argc, char** argv) {
         if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
         return complain(kUsage, usage_sentence(app, argc, argv, e));
     }
+    set_collider_end(
+        [](const std::string& sentence) { std::_Exit(complain(kColliderUnable, sentence)); });
     for (std::size_t i = 0; i < kVerbs.size(); ++i)
         if (commands[i]->parsed()) return guarded(verbs[i]);
     return kUsage;

@@ -7,6 +7,7 @@
 #include "app/statistics.h"
 #include "app/summary.h"
 #include "app/verbs.h"
+#include "host/collider_call.h"
 #include "host/simulation.h"
 
 #include <nlohmann/json.hpp>
@@ -148,6 +149,53 @@ void greet(const Simulation& simulation, const Outputs& outputs) {
                      simulation.collider_name().c_str());
 }
 
+/// A run under way.
+struct Run {
+    const Outputs& outputs;
+    const Scene& scene;
+    Simulation& simulation;
+    Recorder& recorder;
+    Statistics& statistics;
+    Progress& progress;
+};
+
+/// Completes the outputs, says how the run ended, and returns the exit code.
+int complete(const Run& run, Ending ending) {
+    Recorder& recorder = run.recorder;
+    if (recorder.size() > 0)
+        run.progress.end((ending.code == kInterrupted ? "interrupted; " : "") +
+                         ("completing the outputs: " + std::to_string(recorder.size())));
+    run.statistics.finish(run.simulation);
+    recorder.finish();
+    if (!recorder.failure().empty() && ending.code != kDiverged) ending.code = kCannotWrite;
+    auto figures = summary(run.outputs.run.scene, run.scene, run.simulation, run.statistics);
+    figures["ended"] = words_for(ending.code);
+    recorder.write_summary(figures.dump(2));
+    if (!recorder.failure().empty() && ending.code != kDiverged)
+        ending = {kCannotWrite, recorder.failure()};
+    if (ending.code != kColliderUnable) warn(run.simulation, run.statistics);
+    if (!ending.sentence.empty()) std::fprintf(stderr, "plumb: %s\n", ending.sentence.c_str());
+    return ending.code;
+}
+
+/// While it lives, a collider that ends in std::terminate does not take the run's outputs with it.
+class LastWords {
+public:
+    explicit LastWords(const Run& run)
+        : before_(set_collider_end([&run](const std::string& sentence) {
+              const int code =
+                  complete(run, {kColliderUnable, sentence + "; the frames so far are kept"});
+              std::fflush(nullptr);
+              std::_Exit(code);
+          })) {}
+    ~LastWords() { set_collider_end(before_); }
+    LastWords(const LastWords&) = delete;
+    LastWords& operator=(const LastWords&) = delete;
+
+private:
+    ColliderEnd before_;
+};
+
 int run(const Outputs& outputs) {
     const Scene scene = load_scene(outputs.run);
     const ColliderLibrary colliders(outputs.run.plugin_path);
@@ -161,23 +209,10 @@ int run(const Outputs& outputs) {
     Statistics statistics(simulation);
     catch_interrupts();
     Progress progress(steps, outputs.quiet);
-    Ending ending = simulate(simulation, recorder, statistics, progress, steps,
-                             steps_a_frame(scene.settings, outputs.frames_per_second));
-
-    if (recorder.size() > 0)
-        progress.end((ending.code == kInterrupted ? "interrupted; " : "") +
-                     ("completing the outputs: " + std::to_string(recorder.size())));
-    statistics.finish(simulation);
-    recorder.finish();
-    if (!recorder.failure().empty() && ending.code != kDiverged) ending.code = kCannotWrite;
-    auto figures = summary(outputs.run.scene, scene, simulation, statistics);
-    figures["ended"] = words_for(ending.code);
-    recorder.write_summary(figures.dump(2));
-    if (!recorder.failure().empty() && ending.code != kDiverged)
-        ending = {kCannotWrite, recorder.failure()};
-    if (ending.code != kColliderUnable) warn(simulation, statistics);
-    if (!ending.sentence.empty()) std::fprintf(stderr, "plumb: %s\n", ending.sentence.c_str());
-    return ending.code;
+    const Run all{outputs, scene, simulation, recorder, statistics, progress};
+    const LastWords last_words(all);
+    return complete(all, simulate(simulation, recorder, statistics, progress, steps,
+                                  steps_a_frame(scene.settings, outputs.frames_per_second)));
 }
 
 /// Checks --fps; the words are the parser's answer, none when it is well.

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "host/collider_library.h"
 
+#include "host/collider_call.h"
 #include "host/exception_text.h"
 #include "host/shape_pairs.h"
+#include "host/watched_collider.h"
 #include "scene/error.h"
 
 #include <dlfcn.h>
@@ -140,6 +142,7 @@ ProximityPtr ColliderLibrary::create(const ColliderInfo& collider, std::uint32_t
     const char* message = nullptr;
     Proximity* p = nullptr;
     try {
+        const ColliderCall call(collider.table->name, "create");
         p = collider.table->create(&request, &message);
     } catch (...) {
         throw ColliderError("collider \"" + collider.name +
@@ -148,7 +151,8 @@ ProximityPtr ColliderLibrary::create(const ColliderInfo& collider, std::uint32_t
     if (!p)
         throw ColliderError("collider \"" + collider.name +
                             "\" could not be made: " + (message ? message : "it gave no reason"));
-    return ProximityPtr(p, ProximityDeleter{collider.table->destroy});
+    const auto destroy = [](Proximity* watched) { delete static_cast<WatchedCollider*>(watched); };
+    return ProximityPtr(new WatchedCollider(*p, *collider.table), ProximityDeleter{destroy});
 }
 
 }  // namespace plumb

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# endings.sh BUILD SOURCE: runs that go wrong on the way end in order, with their exit code, one sentence, and their outputs.
+# endings.sh BUILD SOURCE BAD_PLUGINS: runs that go wrong on the way end in order, with their exit code, one sentence, and their outputs.
 set -u
-plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has source=$2 failing=$1/lib/plumb/failing_plugins
+plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has source=$2 failing=$1/lib/plumb/failing_plugins bad=$3
 spinner=$source/samples/scenes/spinner.json small=$source/tests/structure/small_pile.json
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -39,6 +39,21 @@ ends 0 'collider "hiccup" failed in 14 of 100 steps: made to fail' "$small" --co
 [ "$("$json_has" "$work/a.json" --print /clamps/collider_failures)" = 14 ] || fail "failures were not counted"
 ends 4 'collider "failing"' "$small" --collider failing --plugin-path "$failing" --duration 1
 [ "$("$json_has" "$work/a.json" --print /steps)" = 29 ] || fail "the run did not end after ten failures"
+
+# A collider that lets an exception out of a call ends the program, but not before its outputs are completed.
+threw="let an exception out of detect"
+ends 4 "collider \"throws\" $threw: the tree has lost its root" "$small" --collider throws --plugin-path "$bad"
+[ "$("$json_has" "$work/a.json" --print /steps)" = 19 ] || fail "the steps before the exception are not in the summary"
+[ "$("$json_has" "$work/a.json" --print /ended)" = '"the collider failed"' ] || fail "the summary does not tell how it ended"
+ends 4 "collider \"throws_on_a_thread\" $threw, on a thread of its own: the tree has lost its root" "$small" \
+  --collider throws_on_a_thread --plugin-path "$bad" --threads 2
+ends 4 'collider "terminates" called std::terminate in detect' "$small" --collider terminates --plugin-path "$bad"
+"$plumb" run "$small" --collider throws_at_once --plugin-path "$bad" 2>"$work/err"
+code=$?
+cat "$work/err"
+[ $code = 4 ] || fail "an exception before the run -> exit $code"
+[ "$(cat "$work/err")" = 'plumb: collider "throws_at_once" let an exception out of add: the tree has lost its root' ] ||
+  fail "an exception before the run was not told of in one sentence"
 
 # A file that cannot grow any more ends the run, and does not take the others with it.
 (trap '' XFSZ; ulimit -f 64; exec "$plumb" run "$small" --quiet --duration 20 --out "$work/b.plumb" --summary "$work/b.json" 2>"$work/err")
