@@ -11,6 +11,9 @@ install(DIRECTORY "${PROJECT_SOURCE_DIR}/core/" DESTINATION "${CMAKE_INSTALL_INC
   FILES_MATCHING PATTERN "*.h"
   PATTERN "app" EXCLUDE PATTERN "output" EXCLUDE PATTERN "reader" EXCLUDE PATTERN "study" EXCLUDE PATTERN "kernels" EXCLUDE)
 install(TARGETS plumb_app RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+if(TARGET plumb_check_collider)
+  install(TARGETS plumb_check_collider RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+endif()
 if(PLUMB_BUILD_PLUGINS)
   install(TARGETS plumb_collider_reference plumb_collider_ode plumb_collider_bullet plumb_collider_fcl
     LIBRARY DESTINATION "${PLUMB_PLUGIN_DIR}")

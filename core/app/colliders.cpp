@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// plumb colliders: what is installed, its version, and what it can do.
+#include "app/check_collider.h"
 #include "app/verbs.h"
 #include "host/collider_library.h"
 
@@ -108,7 +109,7 @@ int list(const std::string& path, bool pairs) {
 
 Verb add_colliders(CLI::App& command) {
     struct Options {
-        std::string path;
+        std::string path, checked;
         bool short_list = false, json = false;
     };
     auto options = std::make_shared<Options>();
@@ -116,7 +117,10 @@ Verb add_colliders(CLI::App& command) {
                        "directories to look for plugins in first, separated by ':'");
     command.add_flag("--short", options->short_list, "without the tables of pairs");
     command.add_flag("--json", options->json, "as JSON");
+    command.add_option("--check", options->checked,
+                       "run the conformance suite on one plugin, by name or by file");
     return [options] {
+        if (!options->checked.empty()) return check_collider(options->checked, options->path);
         if (options->json) return list_json(options->path);
         return list(options->path, !options->short_list);
     };

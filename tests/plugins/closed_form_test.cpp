@@ -177,24 +177,6 @@ TEST_P(ClosedForm, SweepsWidenTheMargin) {
     EXPECT_NEAR(world.last()[0].gap, 0.1, 1e-9);
 }
 
-TEST_P(ClosedForm, ClaimsThePairsThatEveryPluginHas) {
-    const ShapeKind kinds[] = {ShapeKind::plane, ShapeKind::sphere, ShapeKind::box,
-                               ShapeKind::capsule};
-    for (ShapeKind a : kinds)
-        for (ShapeKind b : kinds) {
-            const std::uint32_t wanted =
-                a == ShapeKind::plane && b == a ? 0 : kPairPoint | kPairManifold | kPairSeparated;
-            EXPECT_EQ(ability(GetParam(), a, b) & wanted, wanted)
-                << name_of(a) << " and " << name_of(b);
-        }
-    for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
-        for (std::uint32_t j = 0; j < i; ++j)
-            EXPECT_EQ(plugin(GetParam()).pairs[i][j], plugin(GetParam()).pairs[j][i]);
-    EXPECT_EQ(plugin(GetParam()).magic, kPluginMagic);
-    EXPECT_EQ(plugin(GetParam()).abi_major, kAbiMajor);
-    EXPECT_EQ(plugin(GetParam()).name, GetParam());
-}
-
 PLUMB_FOR_EACH_PLUGIN(ClosedForm);
 
 }  // namespace

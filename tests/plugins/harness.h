@@ -1,62 +1,24 @@
 // SPDX-License-Identifier: MIT
-/// What the conformance suite stands on: a plugin loaded as the host would load it, and a small
-/// world of bodies.
-///
-/// No back-end is linked here: its global symbols would take the place of the plugin's own.
+/// What the conformance suite stands on: a small world of bodies on a plugin's collider, and what
+/// holds for every contact set.
 #pragma once
 
-#include <plumb/plugin.h>
+#include "loading.h"
+#include "shapes.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Geometry>
+
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumb::test {
 
-using V = Eigen::Vector3d;
-using Q = Eigen::Quaterniond;
-
-struct Place {
-    V x = V::Zero();  ///< [m]
-    Q q = Q::Identity();
-};
-inline Place operator*(const Place& outer, const Place& inner) {
-    return {outer.x + outer.q * inner.x, outer.q * inner.q};
-}
-
-inline V v(const Vec3& p) { return {p.x, p.y, p.z}; }
-inline Vec3 vec(const V& p) { return {p.x(), p.y(), p.z()}; }
-Pose pose(const Place& place);
-
-/// A table of a plugin, loaded once a process with RTLD_NOW | RTLD_LOCAL. Fails the process where
-/// it is missing.
-const PluginTable& plugin(const std::string& name);
-
-/// Names of the plugins that were built, for INSTANTIATE_TEST_SUITE_P.
-std::vector<std::string> plugin_names();
-
-/// What a plugin can do with two kinds.
-std::uint32_t ability(const std::string& name, ShapeKind a, ShapeKind b);
-
-/// Shapes; memory behind hulls and meshes lives until the end of the process.
-Shape plane();
-Shape sphere(double radius);
-Shape box(double hx, double hy, double hz);
-Shape capsule(double radius, double half_height);
-Shape cylinder(double radius, double half_height);
-Shape cone(double radius, double half_height);
-Shape box_hull(double hx, double hy, double hz);
-Shape octahedron(double radius);
-Shape grid_mesh(double half, int cells);  ///< flat, at y = 0, facing +y
-Shape torus_mesh(double major, double minor, int around, int across);  ///< its axis is y
-Shape compound(const std::vector<std::pair<Shape, Place>>& parts);
-
 /// Bodies of one collider, and the last answer.
 class World {
 public:
-    explicit World(const std::string& name);
+    explicit World(const std::string& name, std::uint32_t threads = 1);
     ~World();
     World(const World&) = delete;
     World& operator=(const World&) = delete;
@@ -70,7 +32,11 @@ public:
     const std::vector<Contact>& last() const { return contacts_; }
     Status status() const { return status_; }
     Proximity& collider() { return *collider_; }
-    std::vector<double> sweeps;  ///< [body] or empty [m]
+
+    std::vector<double> sweeps;          ///< [body] or empty [m]
+    const PairFilter* filter = nullptr;  ///< of the next `detect`
+    const TaskRunner* runner = nullptr;  ///< of the next `detect`
+    std::uint32_t sinks = 1;             ///< handed to `detect`
 
 private:
     const PluginTable& table_;
@@ -83,16 +49,41 @@ private:
 /// The deepest of some contacts.
 const Contact& deepest(const std::vector<Contact>& contacts);
 
+/// Least gap of each pair of bodies [m].
+using Gaps = std::map<std::pair<std::uint32_t, std::uint32_t>, double>;
+Gaps deepest_of_pairs(const std::vector<Contact>& contacts);
+
+/// Whether two answers are the same bits.
+bool same(const std::vector<Contact>& p, const std::vector<Contact>& q);
+
 /// Area spanned by the contacts' points on a, seen along the normal of the first [m²].
 double spanned_area(const std::vector<Contact>& contacts);
 
 /// Checks what holds for every contact set: signs, units, order, unique features.
 void expect_sound(const std::vector<Contact>& contacts, double margin);
 
-class EachPlugin : public ::testing::TestWithParam<std::string> {};
+class EachPlugin : public ::testing::TestWithParam<std::string> {
+protected:
+    /// Whether the plugin claims any of these abilities for a pair.
+    bool claims(ShapeKind a, ShapeKind b, std::uint32_t wanted = ~0u) const {
+        return (ability(GetParam(), a, b) & wanted) != 0;
+    }
+    bool claims(const Shape& a, const Shape& b, std::uint32_t wanted = ~0u) const {
+        return claims(a.kind, b.kind, wanted);
+    }
+};
+
+/// A plugin's name, or a file, as part of a test's name.
+std::string printable(const std::string& name_or_file);
 
 }  // namespace plumb::test
 
-#define PLUMB_FOR_EACH_PLUGIN(Suite)                                                         \
-    INSTANTIATE_TEST_SUITE_P(All, Suite, ::testing::ValuesIn(::plumb::test::plugin_names()), \
-                             [](const auto& param_info) { return param_info.param; })
+#define PLUMB_FOR_EACH_PLUGIN(Suite)                                    \
+    GTEST_ALLOW_UNINSTANTIATED_PARAMETERIZED_TEST(Suite);               \
+    INSTANTIATE_TEST_SUITE_P(                                           \
+        All, Suite, ::testing::ValuesIn(::plumb::test::plugin_names()), \
+        [](const auto& param_info) { return ::plumb::test::printable(param_info.param); })
+
+/// For tests of what a plugin need not claim.
+#define PLUMB_NEEDS_CLAIM(...) \
+    if (!claims(__VA_ARGS__)) GTEST_SKIP() << "the plugin does not claim this"

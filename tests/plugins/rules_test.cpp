@@ -91,11 +91,6 @@ void fill(World& world, unsigned seed, const Place& frame = {}, bool backwards =
     }
 }
 
-bool same(const std::vector<Contact>& p, const std::vector<Contact>& q) {
-    return p.size() == q.size() &&
-           (p.empty() || std::memcmp(p.data(), q.data(), p.size() * sizeof(Contact)) == 0);
-}
-
 TEST_P(Rules, AnswersTheSameWhenAskedAgain) {
     World world(GetParam());
     fill(world, 1);
@@ -113,17 +108,6 @@ TEST_P(Rules, AnswersTheSameWhenAskedAgain) {
     World again(GetParam());
     fill(again, 1);
     EXPECT_TRUE(same(again.detect(0.01), first)) << "two worlds share a memory";
-}
-
-using Gaps = std::map<std::pair<std::uint32_t, std::uint32_t>, double>;
-
-Gaps deepest_of_pairs(const std::vector<Contact>& contacts) {
-    Gaps gaps;
-    for (const Contact& c : contacts) {
-        auto [it, fresh] = gaps.try_emplace({c.a, c.b}, c.gap);
-        it->second = std::min(it->second, c.gap);
-    }
-    return gaps;
 }
 
 TEST_P(Rules, DoesNotMindWhereTheWorldStands) {
