@@ -2,6 +2,7 @@
 #include "reader/polyhedra.h"
 
 #include "reader/bad_shape.h"
+#include "reader/height_fields.h"
 #include "reader/hull.h"
 #include "reader/obj.h"
 
@@ -76,6 +77,16 @@ const Table<PointsDraft>& mesh_table() {
         fields.push_back(
             field<PointsDraft>("triangles", TriangleList{}, &PointsDraft::triangles,
                                "three indices of vertices each, counter-clockwise from outside"));
+        fields.push_back(special<PointsDraft>(
+            "height_field", height_field_schema(),
+            [](PointsDraft& p, const Node& node) {
+                ShapeDraft field{nullptr, {}};
+                read_height_field(field, node);
+                Geometry mesh = mesh_of_height_field(field.geometry);
+                p.vertices = std::move(mesh.vertices);
+                p.triangles = std::move(mesh.triangles);
+            },
+            "a height field, whose surface becomes the mesh"));
         return fields;
     }();
     return table;
@@ -157,8 +168,9 @@ void read_hull(ShapeDraft& draft, const Node& node) {
 void read_mesh(ShapeDraft& draft, const Node& node) {
     PointsDraft points;
     read_object(points, node, mesh_table());
-    require_one_source(points, node);
-    if (points.obj.empty()) {
+    if (node.has("height_field")) {
+        if (node.size() > 1) node.fail("a mesh of a height field has no other source");
+    } else if (require_one_source(points, node); points.obj.empty()) {
         check_triangles(points, node);
     } else {
         if (node.has("triangles"))
@@ -191,7 +203,9 @@ std::vector<GeometryPart> hulls_of_file(const Node& node, double scale) {
 SchemaJson hull_schema() { return either_source(object_schema(hull_table()), {"vertices"}); }
 
 SchemaJson mesh_schema() {
-    return either_source(object_schema(mesh_table()), {"vertices", "triangles"});
+    SchemaJson json = either_source(object_schema(mesh_table()), {"vertices", "triangles"});
+    json["oneOf"].push_back({{"required", {"height_field"}}});
+    return json;
 }
 
 }  // namespace plumb::reader

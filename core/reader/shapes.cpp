@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "reader/drafts.h"
+#include "reader/height_fields.h"
 #include "reader/polyhedra.h"
+#include "reader/torus.h"
 
 namespace plumb::reader {
 
@@ -38,47 +40,6 @@ const Table<G>& round_table() {
         field<G>("radius", Number{kLength}, &G::radius, "[m]", Presence::required),
         field<G>("half_height", Number{kLength}, &G::half_height,
                  "half the height along y, of a capsule without its caps [m]", Presence::required)};
-    return table;
-}
-
-/// Heights of a field, row after row along z.
-struct HeightList {
-    std::vector<double> read(const Node& node) const {
-        if (!node.json().is_array()) node.fail_wanting("a list of heights");
-        std::vector<double> heights;
-        heights.reserve(node.size());
-        for (std::size_t i = 0; i < node.size(); ++i) {
-            heights.push_back(Number{{-1e6, 1e6}}.read(node.at(i)));
-        }
-        return heights;
-    }
-    SchemaJson schema() const {
-        return {{"type", "array"}, {"items", Number{{-1e6, 1e6}}.schema()}};
-    }
-};
-
-void read_spacing(G& g, const Node& node) {
-    require_list(node, 2, "distances: between columns along x, between rows along z");
-    g.spacing_x = Number{kLength}.read(node.at(0));
-    g.spacing_z = Number{kLength}.read(node.at(1));
-}
-
-const Table<G>& height_field_table() {
-    constexpr Range lines{2, 65536};
-    static const Table<G> table = {
-        field<G>("rows", Whole<std::uint32_t>{lines}, &G::rows,
-                 "rows, one behind the other along z", Presence::required),
-        field<G>("columns", Whole<std::uint32_t>{lines}, &G::columns, "columns along x",
-                 Presence::required),
-        special<G>("spacing",
-                   {{"type", "array"},
-                    {"items", Number{kLength}.schema()},
-                    {"minItems", 2},
-                    {"maxItems", 2}},
-                   read_spacing, "[x, z]: distance between columns, and between rows [m]",
-                   Presence::required),
-        field<G>("heights", HeightList{}, &G::heights, "rows × columns heights, row after row [m]",
-                 Presence::required)};
     return table;
 }
 
@@ -156,16 +117,6 @@ void read_box(ShapeDraft& draft, const Node& node) {
     }
 }
 
-void read_height_field(ShapeDraft& draft, const Node& node) {
-    reads(ShapeKind::height_field, height_field_table())(draft, node);
-    const G& g = draft.geometry;
-    const std::uint64_t wanted = std::uint64_t{g.rows} * g.columns;
-    if (g.heights.size() != wanted) {
-        node.at("heights").fail("must have rows × columns = " + std::to_string(wanted) +
-                                " heights, but has " + std::to_string(g.heights.size()));
-    }
-}
-
 void read_compound(ShapeDraft& draft, const Node& node) {
     CompoundDraft compound{draft.scene, {}};
     read_object(compound, node, compound_table());
@@ -201,8 +152,10 @@ const Table<ShapeDraft>& shape_table() {
         plain("cone", ShapeKind::cone, round_table(), "cone along y, apex at +half_height"),
         special<D>("hull", hull_schema(), read_hull, "convex hull of points"),
         special<D>("mesh", mesh_schema(), read_mesh, "triangles"),
-        special<D>("height_field", object_schema(height_field_table()), read_height_field,
+        special<D>("height_field", height_field_schema(), read_height_field,
                    "heights over a grid in x and z, centred on the origin; solid below"),
+        special<D>("torus", torus_schema(), read_torus,
+                   "ring about y, as a compound of convex wedges that contain it"),
         special<D>("compound", with_alternatives(object_schema(compound_table()), "parts", "obj"),
                    read_compound, "several shapes as one"),
     };
@@ -241,6 +194,7 @@ void add_shape_definitions(SchemaJson& definitions) {
     definitions["shape"] = shape;
     definitions["shape_or_name"] = {{"anyOf", {{{"type", "string"}}, reference_to("shape")}}};
     definitions["part"] = object_schema(part_table());
+    add_height_field_definitions(definitions);
 }
 
 }  // namespace plumb::reader

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "reading.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace plumb::test {
 
 namespace {
@@ -118,6 +121,88 @@ TEST(Shapes, HeightField) {
         with_shape(
             R"({"height_field": {"rows": 1, "columns": 3, "spacing": [1, 1], "heights": []}})"),
         kAt + "/height_field/rows", "from 2");
+}
+
+TEST(Shapes, HillsAreSmoothAndTheSameForASeed) {
+    const auto hills = [](const std::string& keys) {
+        return R"({"rows": 41, "columns": 61, "spacing": [0.25, 0.5], "hills": {)" + keys + "}}";
+    };
+    const auto field = [&](const std::string& keys) {
+        return shape_of(R"({"height_field": )" + hills(keys) + "}");
+    };
+    const Geometry g = field(R"("amplitude": 2, "wavelength": 5, "seed": 3)");
+    ASSERT_EQ(g.heights.size(), 41u * 61u);
+    const auto [low, high] = std::minmax_element(g.heights.begin(), g.heights.end());
+    EXPECT_GE(*low, -2);
+    EXPECT_LE(*high, 2);
+    EXPECT_GT(*high - *low, 1.5);
+    // The blend's steepest slope is 15/8 of the lattice's, whose heights differ by 4 at most.
+    for (std::size_t i = 1; i < 61; ++i)
+        EXPECT_LE(std::abs(g.heights[i] - g.heights[i - 1]), 15.0 / 8 * 4 / 5 * 0.25);
+    EXPECT_EQ(g.heights, field(R"("amplitude": 2, "wavelength": 5, "seed": 3)").heights);
+    EXPECT_NE(g.heights, field(R"("amplitude": 2, "wavelength": 5, "seed": 4)").heights);
+
+    const Geometry mesh = shape_of(R"({"mesh": {"height_field": )" +
+                                   hills(R"("amplitude": 2, "wavelength": 5, "seed": 3)") + "}}");
+    EXPECT_EQ(mesh.kind, ShapeKind::mesh);
+    EXPECT_EQ(mesh.triangles.size(), 2u * 40 * 60);
+    EXPECT_EQ(mesh.vertices[61], Eigen::Vector3d(-7.5, g.heights[61], -9.5));
+    for (const auto& [a, b, c] : mesh.triangles) {
+        const Eigen::Vector3d u = mesh.vertices[b] - mesh.vertices[a];
+        EXPECT_GT(u.cross(mesh.vertices[c] - mesh.vertices[a]).y(), 0);
+    }
+}
+
+TEST(Shapes, RefuseBadHills) {
+    const auto field = [](const std::string& keys) {
+        return with_shape(R"({"height_field": {"rows": 3, "columns": 3, "spacing": [1, 1])" + keys +
+                          "}}");
+    };
+    const std::string at = kAt + "/height_field";
+    expect_error(field(""), at, "either \"heights\" or \"hills\"");
+    expect_error(field(R"(, "hill": {})"), at + "/hill", "did you mean \"hills\"?");
+    expect_error(field(R"(, "hills": {"amplitude": 1})"), at + "/hills",
+                 "\"wavelength\" is missing");
+    expect_error(field(R"(, "hills": {"amplitude": 1, "wavelength": 1e-5})"), at + "/hills",
+                 "too fine");
+}
+
+TEST(Shapes, TorusOfWedgesContainsTheTorus) {
+    const Geometry g =
+        shape_of(R"({"torus": {"ring_radius": 0.5, "tube_radius": 0.2, "segments": 16}})");
+    ASSERT_EQ(g.parts.size(), 16u);
+    const auto depth = [&](const Eigen::Vector3d& p) {
+        double most = -1;
+        for (const GeometryPart& part : g.parts) {
+            double least = 1;
+            for (const auto& face : part.geometry.faces) {
+                const auto& v = part.geometry.vertices;
+                const Eigen::Vector3d normal =
+                    (v[face[1]] - v[face[0]]).cross(v[face[2]] - v[face[0]]).normalized();
+                least = std::min(least, normal.dot(v[face[0]] - p));
+            }
+            most = std::max(most, least);
+        }
+        return most;
+    };
+    double deepest = 0;
+    for (int i = 0; i < 97; ++i)
+        for (int k = 0; k < 31; ++k) {
+            const double phi = 2 * 3.14159265358979 * i / 97, t = 2 * 3.14159265358979 * k / 31;
+            const double rho = 0.5 + 0.2 * std::cos(t);
+            const double d = depth({rho * std::cos(phi), 0.2 * std::sin(t), rho * std::sin(phi)});
+            EXPECT_GE(d, -1e-12) << i << " " << k;
+            deepest = std::max(deepest, d);
+        }
+    // No point of the surface lies deeper than the corners of the outline stand out.
+    EXPECT_LT(deepest, 0.7 * (1 / std::cos(3.14159265358979 / 16) - 1) +
+                           0.2 * (1 / std::cos(3.14159265358979 / 12) - 1));
+
+    expect_error(with_shape(R"({"torus": {"ring_radius": 0.5, "tube_radius": 0.5}})"),
+                 kAt + "/torus", "no hole");
+    expect_error(with_shape(R"({"torus": {"ring_radius": 0.5}})"), kAt + "/torus",
+                 "\"tube_radius\" is missing");
+    expect_error(with_shape(R"({"tours": {}})"), kAt + "/tours", "did you mean \"torus\"?");
 }
 
 TEST(Shapes, CompoundFromParts) {
