@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Boxes by FCL's box test, on the true boxes where they overlap and on larger ones where they do
-/// not; other convex pairs by its signed distance, and where that gives up by its `collide`; meshes
-/// by its trees of boxes and spheres.
+/// not; spheres with spheres and boxes by its closed forms; other convex pairs by its signed
+/// distance, and where that gives up by its `collide`; meshes by its trees of boxes and spheres.
 ///
 /// FCL's normals point from its first argument to its second, ours from b to a. A mesh always goes
 /// first: FCL's answer for a shape and a mesh points out of the mesh whatever the order.
@@ -16,6 +16,8 @@
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/box_box.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_box.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_sphere.h>
 
 namespace plumb::by_fcl {
 namespace {
@@ -24,6 +26,9 @@ constexpr std::size_t kMostFromFcl = 512;
 
 bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 bool either(const Part& a, const Part& b, ShapeKind kind) { return is(a, kind) || is(b, kind); }
+bool both_among(const Part& a, const Part& b, ShapeKind p, ShapeKind q) {
+    return (is(a, p) || is(a, q)) && (is(b, p) || is(b, q));
+}
 
 /// The closest points of parts that FCL is silent or wrong about.
 bool ask_beside(Witness& witness, const Part& a, const Part& b) {
@@ -87,6 +92,29 @@ bool Narrow::ask_boxes(Witness& witness, const Part& a, const Part& b, double gr
     return true;
 }
 
+/// FCL's closed forms for a sphere with a sphere or a box. The sphere is asked about larger by the
+/// distance of detection, which is exact for it.
+bool Narrow::ask_sphere(Witness& witness, const Part& a, const Part& b) {
+    const bool sphere_first = is(a, ShapeKind::sphere);
+    const Part &sphere = sphere_first ? a : b, &other = sphere_first ? b : a;
+    const double margin = pair_margin(a, b);
+    const fcl::Sphered wide(sphere.shape.radius + margin);
+    const Geometry &p = geometry_of(sphere), &q = geometry_of(other);
+    auto& points = scratch_->points;
+    points.clear();
+    const bool near =
+        is(other, ShapeKind::box)
+            ? fcl::detail::sphereBoxIntersect(
+                  wide, p.place, static_cast<const fcl::Boxd&>(*q.shape), q.place, &points)
+            : fcl::detail::sphereSphereIntersect(
+                  wide, p.place, static_cast<const fcl::Sphered&>(*q.shape), q.place, &points);
+    if (!near || points.empty()) return false;
+    const Vec3 n = from_fcl(points[0].normal);
+    witness = {sphere_first ? -n : n, from_fcl(points[0].pos),
+               margin - points[0].penetration_depth};
+    return true;
+}
+
 /// FCL's deepest point of an overlap.
 bool Narrow::ask_collide(Witness& witness, const Part& a, const Part& b) {
     scratch_->collide(a, b);
@@ -101,7 +129,8 @@ bool Narrow::ask_collide(Witness& witness, const Part& a, const Part& b) {
 }
 
 bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
-    if (is(a, ShapeKind::box) && is(b, ShapeKind::box)) {
+    if (both_among(a, b, ShapeKind::sphere, ShapeKind::box)) {
+        if (either(a, b, ShapeKind::sphere)) return ask_sphere(witness, a, b);
         if (ask_boxes(witness, a, b, 0)) return doubt(witness, a, b), true;
         // Apart: the normal of larger boxes will do where it parts the true ones too, and two
         // points of them reach the gap that it implies.

@@ -26,6 +26,7 @@ public:
 private:
     bool ask(Witness& witness, const Part& a, const Part& b);
     bool ask_boxes(Witness& witness, const Part& a, const Part& b, double grown);
+    bool ask_sphere(Witness& witness, const Part& a, const Part& b);
     bool ask_collide(Witness& witness, const Part& a, const Part& b);
     void take_all(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b);
 

@@ -203,13 +203,25 @@ bool BodyTable::wanted(const Part& a, const Part& b) const {
 }
 
 void sort_pairs(std::vector<PartPair>& pairs, const std::vector<Part>& parts) {
-    // Parts stand in the order of their bodies, so only compounds make bodies and parts disagree.
-    std::sort(pairs.begin(), pairs.end(), [&](const PartPair& p, const PartPair& q) {
-        const auto key = [&](const PartPair& x) {
-            return std::tuple(parts[x.first].body, parts[x.second].body, x.first, x.second);
-        };
-        return key(p) < key(q);
-    });
+    // First by counting, into one heap for each first body; the heaps are small. Parts stand in the
+    // order of their bodies, so a body's parts share the heap of its first part.
+    std::vector<std::uint32_t> heap(parts.size()), begin(parts.size() + 1, 0);
+    for (std::uint32_t i = 0; i < parts.size(); ++i)
+        heap[i] = i > 0 && parts[i].body == parts[i - 1].body ? heap[i - 1] : i;
+    for (const PartPair& pair : pairs) ++begin[heap[pair.first] + 1];
+    for (std::size_t i = 1; i < begin.size(); ++i) begin[i] += begin[i - 1];
+    std::vector<PartPair> sorted(pairs.size());
+    std::vector<std::uint32_t> end(begin.begin(), begin.end() - 1);
+    for (const PartPair& pair : pairs) sorted[end[heap[pair.first]]++] = pair;
+
+    // Only compounds make bodies and parts disagree about the order.
+    const auto before = [&](const PartPair& p, const PartPair& q) {
+        return std::tuple(parts[p.second].body, p.first, p.second) <
+               std::tuple(parts[q.second].body, q.first, q.second);
+    };
+    for (std::size_t i = 0; i + 1 < begin.size(); ++i)
+        std::sort(sorted.begin() + begin[i], sorted.begin() + begin[i + 1], before);
+    pairs.swap(sorted);
 }
 
 }  // namespace plumb
