@@ -6,6 +6,7 @@
 #include "bullet/narrow.h"
 
 #include "manifold/gjk.h"
+#include "manifold/least_overlap.h"
 #include "manifold/mesh_points.h"
 #include "manifold/support.h"
 
@@ -61,18 +62,6 @@ btDiscreteCollisionDetectorInterface::ClosestPointInput input_of(const Part& a, 
     input.m_transformB = shapes_of(b).place;
     input.m_maximumDistanceSquared = reach * reach;
     return input;
-}
-
-/// Last resort, for cores that coincide: of all axes of both frames, the one of least overlap.
-Witness least_overlap(const Part& a, const Part& b) {
-    Witness best{{0, 1, 0}, 0.5 * (a.world.origin + b.world.origin), -1e300, true, true};
-    for (const Part* part : {&a, &b})
-        for (const Vec3& axis : part->world.axis)
-            for (double side : {1.0, -1.0}) {
-                const double gap = support_gap(a, b, side * axis);
-                if (gap > best.gap + 1e-9) best.gap = gap, best.normal = side * axis;
-            }
-    return best;
 }
 
 /// Overlapping parts that Bullet leaves out or gets wrong: the closest points of the parts a little

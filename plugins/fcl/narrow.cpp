@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Boxes by FCL's box test, on the true boxes where they overlap and on larger ones where they do
-/// not; spheres with spheres and boxes by its closed forms; other convex pairs by its signed
+/// not; spheres with simple shapes by its closed forms; other convex pairs by its signed
 /// distance, and where that gives up by its `collide`; meshes by its trees of boxes and spheres.
 ///
 /// FCL's normals point from its first argument to its second, ours from b to a. A mesh always goes
@@ -11,41 +11,77 @@
 #include "fcl/shapes.h"
 #include "fcl/triangles.h"
 #include "manifold/gjk.h"
+#include "manifold/least_overlap.h"
 #include "manifold/mesh_points.h"
 #include "manifold/support.h"
 
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/box_box.h>
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_box.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_capsule.h>
+#include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_cylinder.h>
 #include <fcl/narrowphase/detail/primitive_shape_algorithm/sphere_sphere.h>
 
 namespace plumb::by_fcl {
 namespace {
 
 constexpr std::size_t kMostFromFcl = 512;
+constexpr double kDeep =
+    0.01;  ///< overlap, as a share of size, that is compared with other ways out
 
 bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 bool either(const Part& a, const Part& b, ShapeKind kind) { return is(a, kind) || is(b, kind); }
-bool both_among(const Part& a, const Part& b, ShapeKind p, ShapeKind q) {
-    return (is(a, p) || is(a, q)) && (is(b, p) || is(b, q));
-}
-
-/// The closest points of parts that FCL is silent or wrong about.
-bool ask_beside(Witness& witness, const Part& a, const Part& b) {
-    const bool found = closest_when_apart(witness, a, b) || closest_when_touching(witness, a, b);
+/// The closest points of parts that FCL is silent or wrong about, or the best axis.
+Witness ask_beside(const Part& a, const Part& b) {
+    Witness witness;
+    if (!closest_when_apart(witness, a, b) && !closest_when_touching(witness, a, b))
+        return least_overlap(a, b);
     witness.shared = true;
-    return found;
+    return witness;
 }
 
-/// FCL can name a normal along which the true shapes overlap far more than it says. Then the
-/// closest points are computed beside it, and of both normals the one of less overlap is nearer to
-/// the truth.
+/// Of FCL's normal and the one found beside it, the one of less overlap is nearer to the truth.
+void compare_beside(Witness& witness, const Part& a, const Part& b) {
+    const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
+    const Witness other = ask_beside(a, b);
+    witness.approximate = true;
+    const double better = implied + 1e-5 * (size_of(a) + size_of(b));
+    if (support_gap(a, b, other.normal) > better) witness = other;
+}
+
+/// FCL can name a normal along which the true shapes overlap far more than it says.
 void doubt(Witness& witness, const Part& a, const Part& b) {
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
-    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return;
-    Witness other;
-    witness.approximate = true;
-    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    if (implied <= witness.gap - 1e-4 * (size_of(a) + size_of(b))) compare_beside(witness, a, b);
+}
+
+bool has_closed_form(const Part& sphere, const Part& other) {
+    return is(sphere, ShapeKind::sphere) &&
+           (is(other, ShapeKind::sphere) || is(other, ShapeKind::box) ||
+            is(other, ShapeKind::capsule) || is(other, ShapeKind::cylinder));
+}
+
+/// FCL's closed form for a sphere and a shape that has one.
+bool meet_sphere(const fcl::Sphered& sphere, const fcl::Transform3d& sphere_place,
+                 const fcl::CollisionGeometryd& other, const fcl::Transform3d& other_place,
+                 std::vector<fcl::ContactPointd>& points) {
+    const auto meet = [&](auto test, const auto& shape) {
+        return test(sphere, sphere_place, shape, other_place, &points);
+    };
+    switch (other.getNodeType()) {
+        case fcl::GEOM_SPHERE:
+            return meet(fcl::detail::sphereSphereIntersect<double>,
+                        static_cast<const fcl::Sphered&>(other));
+        case fcl::GEOM_BOX:
+            return meet(fcl::detail::sphereBoxIntersect<double>,
+                        static_cast<const fcl::Boxd&>(other));
+        case fcl::GEOM_CAPSULE:
+            return meet(fcl::detail::sphereCapsuleIntersect<double>,
+                        static_cast<const fcl::Capsuled&>(other));
+        default:
+            return meet(fcl::detail::sphereCylinderIntersect<double>,
+                        static_cast<const fcl::Cylinderd&>(other));
+    }
 }
 
 /// Index of the triangle that FCL names for a mesh.
@@ -92,23 +128,17 @@ bool Narrow::ask_boxes(Witness& witness, const Part& a, const Part& b, double gr
     return true;
 }
 
-/// FCL's closed forms for a sphere with a sphere or a box. The sphere is asked about larger by the
+/// FCL's closed forms for a sphere with something simple. The sphere is asked about larger by the
 /// distance of detection, which is exact for it.
 bool Narrow::ask_sphere(Witness& witness, const Part& a, const Part& b) {
-    const bool sphere_first = is(a, ShapeKind::sphere);
+    const bool sphere_first = has_closed_form(a, b);
     const Part &sphere = sphere_first ? a : b, &other = sphere_first ? b : a;
     const double margin = pair_margin(a, b);
     const fcl::Sphered wide(sphere.shape.radius + margin);
     const Geometry &p = geometry_of(sphere), &q = geometry_of(other);
     auto& points = scratch_->points;
     points.clear();
-    const bool near =
-        is(other, ShapeKind::box)
-            ? fcl::detail::sphereBoxIntersect(
-                  wide, p.place, static_cast<const fcl::Boxd&>(*q.shape), q.place, &points)
-            : fcl::detail::sphereSphereIntersect(
-                  wide, p.place, static_cast<const fcl::Sphered&>(*q.shape), q.place, &points);
-    if (!near || points.empty()) return false;
+    if (!meet_sphere(wide, p.place, *q.shape, q.place, points) || points.empty()) return false;
     const Vec3 n = from_fcl(points[0].normal);
     witness = {sphere_first ? -n : n, from_fcl(points[0].pos),
                margin - points[0].penetration_depth};
@@ -129,8 +159,11 @@ bool Narrow::ask_collide(Witness& witness, const Part& a, const Part& b) {
 }
 
 bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
-    if (both_among(a, b, ShapeKind::sphere, ShapeKind::box)) {
-        if (either(a, b, ShapeKind::sphere)) return ask_sphere(witness, a, b);
+    if (has_closed_form(a, b) || has_closed_form(b, a)) {
+        if (!ask_sphere(witness, a, b)) return false;
+        return doubt(witness, a, b), true;
+    }
+    if (is(a, ShapeKind::box) && is(b, ShapeKind::box)) {
         if (ask_boxes(witness, a, b, 0)) return doubt(witness, a, b), true;
         // Apart: the normal of larger boxes will do where it parts the true ones too, and two
         // points of them reach the gap that it implies.
@@ -138,9 +171,12 @@ bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
         const Vec3 n = unit_or(witness.normal, {0, 1, 0});
         if (support_gap(a, b, n) >= 0 && gap_is_reached(a, b, n)) return true;
     }
-    if (signed_distance(witness, a, b) == Answer::found || ask_collide(witness, a, b))
+    const bool found = signed_distance(witness, a, b) == Answer::found;
+    if (found && witness.gap > -kDeep * (size_of(a) + size_of(b)))
         return doubt(witness, a, b), true;
-    return ask_beside(witness, a, b);
+    // Of parts that just touch, or whose middles coincide, FCL may name any way out.
+    if (!found && !ask_collide(witness, a, b)) return witness = ask_beside(a, b), true;
+    return compare_beside(witness, a, b), true;
 }
 
 void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Part& a,
