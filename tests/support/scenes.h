@@ -99,9 +99,9 @@ inline std::string where_name(const testing::TestParamInfo<Where>& info) {
 }
 
 inline auto every_collider() {
-    return testing::Combine(
-        testing::Values(std::string("reference"), std::string("ode"), std::string("bullet")),
-        testing::Values(Precision::single, Precision::double_));
+    return testing::Combine(testing::Values(std::string("reference"), std::string("ode"),
+                                            std::string("bullet"), std::string("fcl")),
+                            testing::Values(Precision::single, Precision::double_));
 }
 
 }  // namespace plumb::test
