@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// FCL's own passage through libccd: GJK while parts are apart, its expanding polytope when they
-/// overlap. The steps are called one by one, in place of `fcl::distance`, for four reasons:
+/// overlap. The steps are called one by one, in place of `fcl::distance`, for five reasons:
 ///
-///  * this file is compiled without assertions, which in the installed library end the process in
-///    configurations that are merely degenerate;
+///  * FCL's assertions, which in the installed library end the process in configurations that are
+///    merely degenerate, are exceptions here;
 ///  * support points come from the true shapes, with no object to build for each question;
+///  * questions are asked at unit size about the origin, since FCL's tolerances are absolute;
 ///  * round shapes are asked about by their cores (a point, a segment), so that they overlap only
 ///    when the cores do;
 ///  * the polytope's loop has no end of its own where rounding keeps it going: here it has.
@@ -12,10 +13,21 @@
 
 #include "manifold/support.h"
 
-#ifndef NDEBUG
-#error "FCL's assertions must be off here: they would end the process"
-#endif
+#include <fcl/geometry/shape/convex.h>
+
+#include <cassert>
+#include <stdexcept>
+
+namespace plumb::by_fcl {
+[[noreturn]] static void refuse() { throw std::logic_error("FCL's assertion does not hold"); }
+}  // namespace plumb::by_fcl
+
+// All that FCL's header needs stands above, so that nothing in it defines the macro again.
+#undef NDEBUG
+#undef assert
+#define assert(holds) ((holds) ? static_cast<void>(0) : ::plumb::by_fcl::refuse())
 #include <fcl/narrowphase/detail/convexity_based_algorithm/gjk_libccd.h>
+#undef assert
 
 namespace plumb::by_fcl {
 namespace {
@@ -27,8 +39,9 @@ constexpr int kMostSupports = 400;  ///< of one part, in one question
 /// One part in a question.
 struct Asked {
     const Part& part;
-    const Vec3 middle;
     const double radius;  ///< of the skin that is part of the question [m]
+    const Vec3 origin;    ///< of the question, and
+    const double unit;    ///< its unit of length, in the world [m]
     int calls = 0;
 
     bool exhausted() const { return calls > kMostSupports; }
@@ -47,22 +60,28 @@ void support(const void* object, const ccd_vec3_t* direction, ccd_vec3_t* point)
     }
     Vec3 p = core_support(asked.part, d);
     if (asked.radius > 0) p = p + asked.radius * unit_or(d, {0, 1, 0});
-    *point = to_ccd(p);
+    *point = to_ccd(1 / asked.unit * (p - asked.origin));
 }
 
-void first_direction(const void* a, const void* b, ccd_vec3_t* direction) {
-    const Vec3 d = static_cast<const Asked*>(b)->middle - static_cast<const Asked*>(a)->middle;
-    *direction = to_ccd(unit_or(d, {1, 0, 0}));
+Vec3 middle_of(const Part& part) {
+    return to_outer(part.world, 0.5 * (part.own_bounds.low + part.own_bounds.high));
 }
 
-ccd_t question(double size) {
+/// From the middle of a towards that of b, which is the origin.
+void first_direction(const void* a, const void*, ccd_vec3_t* direction) {
+    const Asked& asked = *static_cast<const Asked*>(a);
+    *direction =
+        to_ccd(unit_or(1 / asked.unit * (asked.origin - middle_of(asked.part)), {1, 0, 0}));
+}
+
+ccd_t question() {
     ccd_t ccd;
     CCD_INIT(&ccd);
     ccd.support1 = ccd.support2 = support;
     ccd.first_dir = first_direction;
     ccd.max_iterations = 100;
-    ccd.dist_tolerance = 1e-12 * size;
-    ccd.epa_tolerance = 1e-9 * size;
+    ccd.dist_tolerance = 1e-12;
+    ccd.epa_tolerance = 1e-7;
     return ccd;
 }
 
@@ -97,16 +116,13 @@ bool way_out(Way& way, Asked& a, Asked& b, const ccd_t& ccd, ccd_simplex_t& simp
     return true;
 }
 
-Vec3 middle_of(const Part& part) {
-    return to_outer(part.world, 0.5 * (part.own_bounds.low + part.own_bounds.high));
-}
-
 bool ask_cores(Witness& witness, const Part& part_a, const Part& part_b, bool with_skins) {
     const double ra = core_radius(part_a), rb = core_radius(part_b);
     const double size = size_of(part_a) + size_of(part_b);
-    Asked a{part_a, middle_of(part_a), with_skins ? ra : 0};
-    Asked b{part_b, middle_of(part_b), with_skins ? rb : 0};
-    const ccd_t ccd = question(size);
+    const Vec3 origin = middle_of(part_b);
+    Asked a{part_a, with_skins ? ra : 0, origin, size},
+        b{part_b, with_skins ? rb : 0, origin, size};
+    const ccd_t ccd = question();
     ccd_simplex_t simplex;
     Way way;
     double side = 1;
@@ -116,15 +132,16 @@ bool ask_cores(Witness& witness, const Part& part_a, const Part& part_b, bool wi
     } else {
         ccd_vec3_t on_a = {}, on_b = {};
         const double distance = steps::_ccdDist(&a, &b, &ccd, &simplex, &on_a, &on_b);
-        if (a.exhausted() || b.exhausted() || !(distance > 1e-9 * size)) return false;
+        if (a.exhausted() || b.exhausted() || !(distance > 1e-9)) return false;
         way = {from_ccd(on_a) - from_ccd(on_b), from_ccd(on_a), from_ccd(on_b)};
     }
     const double length = norm(way.direction);
-    if (!(length > 1e-14 * size * size)) return false;
+    if (!(length > 1e-14)) return false;
     const Vec3 n = (side / length) * way.direction;
     const double skin_a = with_skins ? 0 : ra, skin_b = with_skins ? 0 : rb;
-    witness = {n, 0.5 * (way.on_a - skin_a * n + way.on_b + skin_b * n),
-               dot(n, way.on_a - way.on_b) - skin_a - skin_b};
+    const Vec3 middle = origin + 0.5 * size * (way.on_a + way.on_b);
+    witness = {n, middle + 0.5 * (skin_b - skin_a) * n,
+               size * dot(n, way.on_a - way.on_b) - skin_a - skin_b};
     return finite(n) && finite(witness.point);
 }
 
