@@ -1,6 +1,9 @@
 # The `plumb` program. It links no back-end: colliders are loaded when it runs.
 find_package(CLI11 REQUIRED)
-add_executable(plumb_app app/main.cpp app/check.cpp app/check_collider.cpp app/colliders.cpp app/effects.cpp app/energy_watch.cpp app/export.cpp
+add_executable(plumb_app app/main.cpp app/check.cpp app/check_collider.cpp app/colliders.cpp
+  app/compare.cpp app/comparison.cpp app/comparison_json.cpp app/comparison_rows.cpp app/comparison_text.cpp
+  app/contact_sources.cpp
+  app/effects.cpp app/energy_watch.cpp app/export.cpp
   app/interrupt.cpp app/progress.cpp app/recorder.cpp app/run.cpp app/run_options.cpp app/statistics.cpp app/summary.cpp
   app/usage.cpp)
 set_target_properties(plumb_app PROPERTIES OUTPUT_NAME plumb)

@@ -28,11 +28,14 @@ constexpr std::array kVerbs{
     Registered{"effects", "tell which effects a scene calls for, why, and what each costs",
                add_effects},
     Registered{"check", "validate a scene without running it", add_check},
+    Registered{"compare", "measure the contact sets of several colliders against each other",
+               add_compare},
     Registered{"export", "make a replay, picture or table of a recording", add_export},
 };
 
 constexpr const char* kFooter =
-    "Exit codes: 0 done, 1 internal error, 2 usage, 3 bad scene, 4 collider missing or unable,\n"
+    "Exit codes: 0 done, 1 internal error (of compare: the colliders differ), 2 usage, 3 bad "
+    "scene, 4 collider missing or unable,\n"
     "5 diverged (the last good frames are kept), 6 cannot write, 130 interrupted (outputs are "
     "completed).";
 

@@ -54,11 +54,15 @@ void apply(Settings& settings, const std::string& key, const std::string& value,
 }  // namespace
 
 void add_scene_options(CLI::App& command, RunOptions& o) {
-    command.add_option("scene", o.scene, "the scene's file")->required()->type_name("FILE");
+    add_scene_options_but_collider(command, o);
     command
         .add_option("--collider", o.collider,
                     "collision plugin; auto = the first that can do the scene")
         ->type_name("NAME");
+}
+
+void add_scene_options_but_collider(CLI::App& command, RunOptions& o) {
+    command.add_option("scene", o.scene, "the scene's file")->required()->type_name("FILE");
     command
         .add_option("--plugin-path", o.plugin_path,
                     "directories to look for plugins in first, separated by ':'")

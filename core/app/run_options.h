@@ -24,6 +24,9 @@ struct RunOptions {
 /// Options that every verb has that loads a scene.
 void add_scene_options(CLI::App& command, RunOptions& options);
 
+/// The same for a verb that takes several colliders.
+void add_scene_options_but_collider(CLI::App& command, RunOptions& options);
+
 /// Reads the scene and applies the command line to its settings. Throws SceneError, or UsageError
 /// for what the command line says.
 Scene load_scene(const RunOptions& options);

@@ -11,6 +11,7 @@ namespace plumb::app {
 enum ExitCode {
     kDone = 0,
     kInternalError = 1,
+    kDiffer = 1,  ///< of compare: the colliders do not agree
     kUsage = 2,
     kBadScene = 3,
     kColliderUnable = 4,
@@ -25,6 +26,7 @@ Verb add_run(CLI::App& command);
 Verb add_colliders(CLI::App& command);
 Verb add_effects(CLI::App& command);
 Verb add_check(CLI::App& command);
+Verb add_compare(CLI::App& command);
 Verb add_export(CLI::App& command);
 
 }  // namespace plumb::app

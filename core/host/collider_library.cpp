@@ -62,7 +62,7 @@ bool supports(const ColliderInfo& c, const ShapePairNeed& need) {
 
 }  // namespace
 
-ColliderLibrary::ColliderLibrary(const std::string& extra_path) {
+ColliderLibrary::ColliderLibrary(const std::string& extra_path, const std::string& only) {
     add_directories(searched_, extra_path.c_str());
     add_directories(searched_, std::getenv("PLUMB_PLUGIN_PATH"));
     const fs::path own = own_directory();
@@ -70,7 +70,8 @@ ColliderLibrary::ColliderLibrary(const std::string& extra_path) {
         searched_.push_back((own / relative).lexically_normal().string());
 
     for (const std::string& directory : searched_)
-        for (const fs::path& file : plugin_files(directory)) add(file);
+        for (const fs::path& file : plugin_files(directory))
+            if (only.empty() || plugin_name_of(file) == only) add(file);
 }
 
 void ColliderLibrary::add(const fs::path& file) {

@@ -28,7 +28,9 @@ using ProximityPtr = std::unique_ptr<Proximity, ProximityDeleter>;
 /// loaded until the process ends.
 class ColliderLibrary {
 public:
-    explicit ColliderLibrary(const std::string& extra_path = {});
+    /// `only`, where given, is the one plugin that is opened, by its file's name: for a process
+    /// that must not even load the others.
+    explicit ColliderLibrary(const std::string& extra_path = {}, const std::string& only = {});
 
     const std::vector<ColliderInfo>& all() const { return colliders_; }
 

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+/// plumb compare: the contact sets of several colliders, measured against each other on the same
+/// poses.
+#include "app/comparison.h"
+#include "app/comparison_json.h"
+#include "app/comparison_text.h"
+#include "app/contact_sources.h"
+#include "app/interrupt.h"
+#include "app/usage.h"
+#include "app/verbs.h"
+#include "output/file.h"
+#include "reader/nearest.h"
+#include "scene/error.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <set>
+
+namespace plumb::app {
+namespace {
+
+struct Options {
+    RunOptions run;
+    std::vector<std::string> colliders;
+    std::string drive, answer_only, json;
+    std::uint64_t every = 1;
+    bool isolate = false, quiet = false;
+};
+
+std::string listed(const std::vector<std::string>& names) {
+    std::string text;
+    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+    return text;
+}
+
+/// What the command line alone can tell.
+void check(const Options& o) {
+    const std::set<std::string> distinct(o.colliders.begin(), o.colliders.end());
+    if (o.colliders.empty())
+        throw UsageError("--colliders is required; write --colliders ode,bullet");
+    if (o.colliders.size() < 2) throw UsageError("--colliders names one collider; two are needed");
+    if (distinct.size() < o.colliders.size())
+        throw UsageError("--colliders " + listed(o.colliders) + ": names a collider twice");
+    if (!o.drive.empty() && !distinct.contains(o.drive))
+        throw UsageError("--drive " + o.drive + ": is none of the colliders that are compared (" +
+                         listed(o.colliders) + ")" + reader::advice(o.drive, o.colliders));
+}
+
+/// Opens what shall be written before the comparison runs.
+std::optional<WholeFile> opened(const std::string& path) {
+    if (path.empty() || path == "-") return std::nullopt;
+    return std::optional<WholeFile>(std::in_place, path);
+}
+
+int compare(const Options& o) {
+    check(o);
+    RunOptions run = o.run;
+    run.collider = o.drive.empty() ? o.colliders.front() : o.drive;
+    const Scene scene = load_scene(run);
+    const ColliderLibrary colliders(run.plugin_path);
+    const std::unique_ptr<Simulation> simulation = start(scene, colliders, run);
+    Sources sources = make_sources({o.colliders, run.collider, o.isolate}, scene, colliders, run);
+    const auto driver = std::find(o.colliders.begin(), o.colliders.end(), run.collider);
+    std::optional<WholeFile> json_file = opened(o.json);
+
+    catch_interrupts();
+    const auto steps =
+        static_cast<std::uint64_t>(std::llround(scene.settings.duration / scene.settings.dt));
+    Progress progress(steps, o.quiet);
+    const ComparisonResult result =
+        compare_colliders({scene, sources.all, sources.own_process,
+                           static_cast<std::size_t>(driver - o.colliders.begin()), o.every},
+                          *simulation, progress);
+    progress.end(result.was_interrupted ? "interrupted" : "done");
+
+    const auto json = comparison_json(scene, simulation->world().bodies, result);
+    const std::string json_text =
+        json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    std::fputs(o.json == "-" ? json_text.c_str() : comparison_text(scene, result).c_str(), stdout);
+    if (json_file) {
+        json_file->append(json_text);
+        json_file->commit();
+    }
+    if (result.was_interrupted) return kInterrupted;
+    return result.agrees() ? kDone : kDiffer;
+}
+
+}  // namespace
+
+Verb add_compare(CLI::App& command) {
+    auto o = std::make_shared<Options>();
+    add_scene_options_but_collider(command, o->run);
+    command
+        .add_option("--colliders", o->colliders,
+                    "the collision plugins, two or more, separated by ','")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("NAMES");
+    command
+        .add_option("--drive", o->drive,
+                    "the one of them that steps the scene; the first unless told")
+        ->type_name("NAME");
+    command.add_option("--every", o->every, "compare every Nth step; 1 unless told")
+        ->type_name("N")
+        ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
+    command.add_flag("--isolate", o->isolate,
+                     "run every collider but the driving one in a process of its own");
+    command
+        .add_option("--json", o->json,
+                    "write the comparison as JSON to a file, or to stdout (-) in place of the text")
+        ->type_name("FILE");
+    command.add_flag("--quiet", o->quiet, "no progress bar");
+    command.add_option("--answer-only", o->answer_only, "")->group("");
+    return [o] {
+        if (o->answer_only.empty()) return compare(*o);
+        answer_only(o->answer_only, o->run);
+        return static_cast<int>(kDone);
+    };
+}
+
+}  // namespace plumb::app

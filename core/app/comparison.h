@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+/// Several colliders asked about the same poses, and what came of it.
+///
+/// One collider, the driver, steps the scene; before each step that is looked at all are asked
+/// which contacts there are, once for their full answer (clipped) and once for what their
+/// back-ends themselves say (raw). Every two of them are then measured against each other.
+#pragma once
+
+#include "app/progress.h"
+#include "host/contact_source.h"
+#include "host/simulation.h"
+#include "measure/contact_comparison.h"
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace plumb::app {
+
+/// What a collider answered, clipped or raw, over all poses.
+struct AnswerFigures {
+    std::vector<double> milliseconds;  ///< [pose], inside the collider's call
+    DetectStats sum{};                 ///< of all poses
+    std::uint64_t contacts = 0, rejected = 0;
+    std::uint64_t failures = 0;  ///< poses at which the collider failed on a part
+    std::string first_failure;
+};
+
+struct ColliderFigures {
+    SourceInfo info;
+    bool own_process = false;
+    AnswerFigures clipped, raw;
+};
+
+/// Two colliders against each other.
+struct PairFigures {
+    std::size_t first, second;  ///< indices into ComparisonResult::colliders
+    ContactComparison clipped, raw;
+};
+
+struct ComparisonResult {
+    std::vector<ColliderFigures> colliders;
+    std::vector<PairFigures> pairs;
+    std::size_t driver = 0;
+    std::uint64_t poses = 0;  ///< moments that all were asked about
+    std::uint64_t steps = 0;
+    double time = 0;  ///< simulated [s]
+    bool was_interrupted = false;
+
+    bool agrees() const;  ///< clipped sets of all pairs of colliders
+};
+
+/// What is to be compared.
+struct ComparisonPlan {
+    const Scene& scene;
+    std::vector<std::unique_ptr<ContactSource>>& sources;
+    std::vector<bool> own_process;  ///< [source]
+    std::size_t driver;             ///< index of the source whose collider steps the scene
+    std::uint64_t every;            ///< steps from one look to the next
+};
+
+/// Runs the scene to its end (or an interrupt) and compares. Throws ColliderError when a collider
+/// gives no more answers.
+ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simulation,
+                                   Progress& progress);
+
+}  // namespace plumb::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+/// A comparison as data: what --json writes and the page reads.
+#pragma once
+
+#include "app/comparison.h"
+
+#include <nlohmann/json.hpp>
+
+namespace plumb::app {
+
+/// `bodies`: of a world of the scene, for where shapes sit in their bodies.
+nlohmann::ordered_json comparison_json(const Scene& scene, const Bodies& bodies,
+                                       const ComparisonResult& result);
+
+}  // namespace plumb::app

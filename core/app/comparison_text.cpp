@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: MIT
+#include "app/comparison_text.h"
+
+#include "app/comparison_rows.h"
+#include "measure/measure.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <map>
+#include <tuple>
+
+namespace plumb::app {
+namespace {
+
+constexpr std::size_t kListed = 2, kListedRaw = 1;  // of each aspect of a pair of colliders
+
+template <class... Args>
+std::string printed(const char* format, Args... args) {
+    char text[400];
+    std::snprintf(text, sizeof text, format, args...);
+    return text;
+}
+
+/// Fills a cell of so many columns; a letter may be several bytes long.
+std::string cell(const std::string& text, int width, bool right = true) {
+    int letters = 0;
+    for (const char c : text) letters += (c & 0xc0) != 0x80;
+    const std::string space(static_cast<std::size_t>(std::max(0, width - letters)), ' ');
+    return right ? space + text : text + space;
+}
+
+/// Never rounds up to 100 %.
+std::string percent(double share) {
+    if (share >= 1) return "100 %";
+    const double shown = std::min(100 * share, 99.9999);
+    return printed(shown > 99.99 ? "%.4f %%" : "%.2f %%", shown);
+}
+
+std::string share_of(std::uint64_t part, std::uint64_t whole) {
+    return whole > 0 ? percent(static_cast<double>(part) / static_cast<double>(whole)) : "–";
+}
+
+double own_normals(const AnswerFigures& f) {
+    return f.contacts > 0
+               ? 1 - static_cast<double>(f.sum.shared_normals) / static_cast<double>(f.contacts)
+               : 1;
+}
+
+std::string collider_table(const ComparisonResult& r) {
+    std::string text = cell("collider", 14, false) + cell("version", 18, false) +
+                       cell("ms a pose", 10) + cell("raw ms", 9) + cell("contacts", 10) +
+                       cell("back-end", 10) + cell("clip", 10) + cell("fallback", 10) +
+                       cell("own normals", 13) + "\n";
+    for (const ColliderFigures& c : r.colliders) {
+        const DetectStats& s = c.clipped.sum;
+        const double poses = static_cast<double>(std::max<std::uint64_t>(1, r.poses));
+        text += cell(c.info.name + (c.own_process ? " *" : ""), 14, false) +
+                cell(c.info.version, 18, false) +
+                cell(printed("%.3f", percentile(c.clipped.milliseconds, 0.5)), 10) +
+                cell(printed("%.3f", percentile(c.raw.milliseconds, 0.5)), 9) +
+                cell(printed("%.0f", static_cast<double>(c.clipped.contacts) / poses), 10) +
+                cell(share_of(s.from_backend, c.clipped.contacts), 10) +
+                cell(share_of(s.from_clip, c.clipped.contacts), 10) +
+                cell(share_of(s.from_fallback, c.clipped.contacts), 10) +
+                cell(percent(own_normals(c.clipped)), 13) + "\n";
+    }
+    text +=
+        "ms: median inside the collider's call; contacts: mean a pose, by where they come from;\n"
+        "own normals: contacts whose normal is the back-end's own, or the plane's.\n";
+    for (const ColliderFigures& c : r.colliders)
+        if (c.own_process) text += "* " + c.info.name + " ran in a process of its own.\n";
+    return text;
+}
+
+std::string figure(double value, const AspectRow& row) {
+    if (row.unit.empty() || row.compared == 0) return "–";
+    if (row.unit == "ratio") return printed("%.4f", value);
+    return printed("%.2g %s", value, row.unit.c_str());
+}
+
+std::string totals_table(const ComparisonTotals& t, const ComparisonKind& kind, bool meshes,
+                         const std::string& title) {
+    std::string text = cell("  " + title, 25, false) + cell("tolerance", 11) + cell("wanted", 8) +
+                       cell("compared", 10) + cell("within", 10) + cell("median", 11) +
+                       cell("99 %", 11) + cell("worst", 11) + "\n";
+    for (const AspectRow& row : rows_of(t, kind, meshes)) {
+        text += cell("    " + row.label, 25, false) + cell(row.tolerance, 11) +
+                cell(row.wanted < 0 ? "–" : percent(row.wanted), 8) +
+                cell(std::to_string(row.compared), 10) +
+                cell(row.compared > 0 ? percent(row.within) : "–", 10) +
+                cell(figure(row.median, row), 11) + cell(figure(row.p99, row), 11) +
+                cell(figure(row.worst, row), 11) + (kind.raw ? "" : "  " + row.verdict) + "\n";
+    }
+    const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
+    text += printed(
+        "    left out: %llu grazing pairs, %llu pairs that are apart, "
+        "%llu normals of two equally good axes\n",
+        count(t.grazing), count(t.apart), count(t.ambiguous));
+    return text;
+}
+
+std::string comparison_tables(const ContactComparison& c, const ComparisonKind& kind) {
+    const std::string what = kind.raw ? "raw, for information" : "clipped";
+    std::string text;
+    if (c.convex().compared() > 0) text += totals_table(c.convex(), kind, false, what);
+    if (c.meshes().compared() > 0) text += totals_table(c.meshes(), kind, true, what + ", meshes");
+    return text.empty() ? "  " + what + ": neither reports any pair\n" : text;
+}
+
+std::string pair_section(const ComparisonResult& r, const PairFigures& pair) {
+    const SourceInfo &first = r.colliders[pair.first].info, &second = r.colliders[pair.second].info;
+    const bool single = first.precision == "single" || second.precision == "single";
+    return "\n" + first.name + " and " + second.name +
+           (pair.clipped.agrees() ? ": they agree\n" : ": THEY DIFFER\n") +
+           comparison_tables(pair.clipped, {single, false}) +
+           comparison_tables(pair.raw, {single, true});
+}
+
+std::string finding_text(const Scene& scene, const ComparisonResult& r, const Finding& f) {
+    const Disagreement& d = f.disagreement;
+    const std::string &first = r.colliders[f.first].info.name,
+                      &second = r.colliders[f.second].info.name;
+    const int width = static_cast<int>(std::max(first.size(), second.size())) + 1;
+    return printed("  %s, ", name_of(d.aspect)) + first + " and " + second + ": " +
+           difference_text(f) + "\n    " + body_name(scene, d.a) + " (" + shape_text(scene, d.a) +
+           ") and " + body_name(scene, d.b) + " (" + shape_text(scene, d.b) +
+           printed(") at %.4g s, step %llu\n", d.time, static_cast<unsigned long long>(d.step)) +
+           "    " + cell(first + ":", width, false) + " " + answer_text(d.first) + "\n    " +
+           cell(second + ":", width, false) + " " + answer_text(d.second) + "\n";
+}
+
+std::string finding_list(const Scene& scene, const ComparisonResult& r,
+                         const std::vector<Finding>& findings, bool raw) {
+    std::string text;
+    std::size_t left_out = 0;
+    std::map<std::tuple<std::size_t, std::size_t, Aspect>, std::size_t> listed;
+    for (const Finding& f : findings) {
+        if (f.raw != raw) continue;
+        const bool enough =
+            listed[{f.first, f.second, f.disagreement.aspect}]++ >= (raw ? kListedRaw : kListed);
+        left_out += enough;
+        if (!enough) text += finding_text(scene, r, f);
+    }
+    if (text.empty()) return {};
+    const std::string rest =
+        left_out > 0 ? printed("  … and %zu more (--json, --out)\n", left_out) : std::string();
+    return std::string("\nWorst disagreements, ") +
+           (raw ? "raw (what the back-ends themselves say):\n" : "clipped:\n") + text + rest;
+}
+
+std::string troubles(const ComparisonResult& r) {
+    std::string text;
+    for (const ColliderFigures& c : r.colliders) {
+        for (const bool raw : {false, true}) {
+            const AnswerFigures& f = raw ? c.raw : c.clipped;
+            if (f.failures > 0)
+                text +=
+                    c.info.name + (raw ? ", raw" : "") +
+                    printed(": failed on a part of %llu poses: %s\n",
+                            static_cast<unsigned long long>(f.failures), f.first_failure.c_str());
+            if (f.rejected > 0)
+                text += c.info.name + (raw ? ", raw" : "") +
+                        printed(
+                            ": gave %llu contacts that are not finite or of no body; they were "
+                            "left out\n",
+                            static_cast<unsigned long long>(f.rejected));
+        }
+    }
+    return text.empty() ? text : "\n" + text;
+}
+
+}  // namespace
+
+std::string comparison_text(const Scene& scene, const ComparisonResult& r) {
+    std::string text =
+        scene.name +
+        printed(": %llu poses over %.4g s", static_cast<unsigned long long>(r.poses), r.time) +
+        ", driven by " + r.colliders[r.driver].info.name + "; margin " +
+        length_text(scene.settings.margin) + "\n\n" + collider_table(r);
+    for (const PairFigures& pair : r.pairs) text += pair_section(r, pair);
+    text +=
+        "\nL: longest side of the smaller body; s.: sagitta of the meshes' facets. Raw answers are "
+        "what the back-ends themselves "
+        "say;\nthey do not count for the verdict, nor do normals deeper than 5 % L.\n";
+    const std::vector<Finding> findings = findings_of(r);
+    text += finding_list(scene, r, findings, false) + finding_list(scene, r, findings, true);
+    text += troubles(r);
+    return text + (r.agrees() ? "\nThe colliders agree.\n" : "\nThe colliders differ.\n");
+}
+
+}  // namespace plumb::app
