@@ -64,7 +64,7 @@ std::vector<AspectRow> rows_of(const ComparisonTotals& t, const ComparisonKind& 
             error_row(t.deep_gap, "deep_gap", "gap, deeper", "2 % L, 2 s.", kDeepGapShare, "s."),
             error_row(t.normal, "normal", "mean normal", "6 or 12°", kNormalShare, "°"),
             error_row(t.deep_normal, "deep_normal", "normal, deeper", "6 or 12°", -1, "°"),
-            error_row(t.extent, "extent", "footprints apart", "1 edge", kExtentShare, "edges")};
+            error_row(t.extent, "extent", "footprints apart", "1 e.", kExtentShare, "e.")};
     const PairTolerances tolerances = convex_tolerances(kind, 1);
     return {pair_row(t),
             error_row(t.gap, "gap", "gap, to 1 % L deep", printed("%.0e L", tolerances.gap),

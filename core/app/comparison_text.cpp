@@ -81,15 +81,15 @@ std::string figure(double value, const AspectRow& row) {
 std::string totals_table(const ComparisonTotals& t, const ComparisonKind& kind, bool meshes,
                          const std::string& title) {
     std::string text = cell("  " + title, 25, false) + cell("tolerance", 11) + cell("wanted", 8) +
-                       cell("compared", 10) + cell("within", 10) + cell("median", 11) +
-                       cell("99 %", 11) + cell("worst", 11) + "\n";
+                       cell("compared", 10) + cell("within", 10) + cell("median", 12) +
+                       cell("99 %", 12) + cell("worst", 12) + "\n";
     for (const AspectRow& row : rows_of(t, kind, meshes)) {
         text += cell("    " + row.label, 25, false) + cell(row.tolerance, 11) +
                 cell(row.wanted < 0 ? "–" : percent(row.wanted), 8) +
                 cell(std::to_string(row.compared), 10) +
                 cell(row.compared > 0 ? percent(row.within) : "–", 10) +
-                cell(figure(row.median, row), 11) + cell(figure(row.p99, row), 11) +
-                cell(figure(row.worst, row), 11) + (kind.raw ? "" : "  " + row.verdict) + "\n";
+                cell(figure(row.median, row), 12) + cell(figure(row.p99, row), 12) +
+                cell(figure(row.worst, row), 12) + (kind.raw ? "" : "  " + row.verdict) + "\n";
     }
     const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     text += printed(
@@ -100,7 +100,7 @@ std::string totals_table(const ComparisonTotals& t, const ComparisonKind& kind, 
 }
 
 std::string comparison_tables(const ContactComparison& c, const ComparisonKind& kind) {
-    const std::string what = kind.raw ? "raw, for information" : "clipped";
+    const std::string what = kind.raw ? "raw" : "clipped";
     std::string text;
     if (c.convex().compared() > 0) text += totals_table(c.convex(), kind, false, what);
     if (c.meshes().compared() > 0) text += totals_table(c.meshes(), kind, true, what + ", meshes");
@@ -179,9 +179,11 @@ std::string comparison_text(const Scene& scene, const ComparisonResult& r) {
         length_text(scene.settings.margin) + "\n\n" + collider_table(r);
     for (const PairFigures& pair : r.pairs) text += pair_section(r, pair);
     text +=
-        "\nL: longest side of the smaller body; s.: sagitta of the meshes' facets. Raw answers are "
-        "what the back-ends themselves "
-        "say;\nthey do not count for the verdict, nor do normals deeper than 5 % L.\n";
+        "\nL: longest side of the smaller body; s.: sagitta, e.: longest edge of the meshes' "
+        "facets.\n"
+        "Raw answers are what the back-ends themselves say; they do not count for the verdict, nor "
+        "do\n"
+        "normals deeper than 5 % L.\n";
     const std::vector<Finding> findings = findings_of(r);
     text += finding_list(scene, r, findings, false) + finding_list(scene, r, findings, true);
     text += troubles(r);

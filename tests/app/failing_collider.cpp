@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// A collider that finds nothing and fails: in every seventh call, or from the twentieth on
-/// (PLUMB_FAILS_FOR_GOOD).
+/// (PLUMB_FAILS_FOR_GOOD); or one that ends its process in the twentieth call (PLUMB_ABORTS).
 #include <plumb/plugin.h>
 
 #include <cstdint>
+#include <cstdlib>
 
 namespace {
 
@@ -16,6 +17,9 @@ public:
     Status exclude(std::uint32_t, std::uint32_t, bool) noexcept override { return ok_status(); }
     Status detect(const DetectRequest&, const ContactSink*, std::uint32_t) noexcept override {
         ++calls_;
+#ifdef PLUMB_ABORTS
+        if (calls_ >= 20) std::abort();
+#endif
 #ifdef PLUMB_FAILS_FOR_GOOD
         const bool fails = calls_ >= 20;
 #else

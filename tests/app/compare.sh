@@ -1,0 +1,68 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# compare.sh BUILD SOURCE: colliders that agree, colliders that do not, one in a process of its own, one whose process
+# dies, and mistakes on the command line.
+set -u
+plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has source=$2 failing=$1/lib/plumb/failing_plugins
+scenes=$source/samples/scenes small=$source/tests/structure/small_pile.json
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+fail() { echo "FAILED: $*"; failures=$((failures + 1)); }
+value() { "$json_has" "$1" --print "$2"; }
+
+# ends CODE WORDS ARGUMENTS…: the comparison ends with the code; the words stand in what it says.
+ends() {
+  local code=$1 words=$2 got
+  shift 2
+  "$plumb" compare "$@" --quiet >"$work/out" 2>"$work/err"
+  got=$?
+  echo "$got: $(tail -n 1 "$work/out")$(cat "$work/err")"
+  [ $got = "$code" ] || fail "compare $* -> exit $got, wanted $code"
+  grep -qF -- "$words" "$work/out" "$work/err" || fail "compare $* did not say \"$words\""
+  [ "$(wc -l <"$work/err")" -le 1 ] || fail "compare $* said more than one line on stderr"
+}
+
+# Three colliders on a pile that falls: they agree, all of them, and most normals are the back-ends' own (ODE is silent on
+# most shapes that are apart).
+ends 0 "The colliders agree." "$small" --colliders ode,bullet,reference --every 5 --json "$work/small.json"
+"$json_has" "$work/small.json" /pairs/2/clipped/convex/rows/5/within /colliders/2/clipped/ms/median || fail "JSON lacks figures"
+for pair in 0 1 2; do
+  [ "$(value "$work/small.json" /pairs/$pair/agrees)" = true ] || fail "pair $pair of colliders differs"
+  [ "$(value "$work/small.json" /pairs/$pair/clipped/convex/compared)" -gt 1000 ] || fail "pair $pair of colliders: nothing was compared"
+  awk "BEGIN { exit !($(value "$work/small.json" /colliders/$pair/clipped/own_normal_share) >= 0.9) }" || fail "collider $pair: normals are not its own"
+done
+
+# The same, but two of them in processes of their own and another driver's poses: not a figure of what was compared changes.
+ends 0 "The colliders agree." "$small" --colliders ode,bullet,reference --every 5 --isolate --json "$work/apart.json"
+[ "$(value "$work/apart.json" /colliders/1/own_process)" = true ] || fail "bullet ran in the same process"
+[ "$(value "$work/apart.json" /pairs)" = "$(value "$work/small.json" /pairs)" ] || fail "a process of its own changes the figures"
+[ "$(value "$work/apart.json" /disagreements)" = "$(value "$work/small.json" /disagreements)" ] || fail "a process of its own changes the answers"
+ends 0 "driven by bullet" "$small" --colliders ode,bullet --drive bullet --every 50
+
+# Deep boxes: two colliders take the exact axes for others than the third. Both answers are kept whole.
+ends 1 "The colliders differ." "$scenes/deep_boxes.json" --colliders ode,reference --duration 0.5 --json "$work/deep.json"
+grep -q "THEY DIFFER" "$work/out" || fail "no verdict for the pair of colliders"
+"$json_has" "$work/deep.json" /disagreements/0/answers/0/contacts/0/normal /disagreements/0/answers/1/contacts/0/point \
+  /disagreements/0/bodies/1/rotation /disagreements/0/words || fail "JSON lacks the answers"
+ends 1 "torus" "$scenes/coarse_tori.json" --colliders bullet,ode --duration 0.3
+
+# JSON on stdout is JSON alone.
+"$plumb" compare "$small" --colliders ode,reference --every 50 --quiet --json - >"$work/stdout.json" || fail "--json - failed"
+[ "$(value "$work/stdout.json" /agrees)" = true ] || fail "--json - is no comparison"
+
+# A collider that ends its process ends the comparison, in order; so does one that cannot do the scene.
+ends 4 'collider "dying" gave no answer' "$small" --colliders ode,dying --isolate --plugin-path "$failing"
+ends 4 "cannot detect" "$scenes/shapes.json" --colliders bullet,reference --isolate
+# One that fails on parts goes on, and is told of; what it leaves out counts.
+ends 1 "made to fail" "$small" --colliders ode,hiccup --every 10 --plugin-path "$failing"
+
+ends 2 "--colliders is required" "$small"
+ends 2 "two are needed" "$small" --colliders ode
+ends 2 "twice" "$small" --colliders ode,ode
+ends 2 'did you mean "bullet"' "$small" --colliders ode,bullet --drive bulet
+ends 2 "--every" "$small" --colliders ode,bullet --every 0
+ends 3 "absent.json" "$work/absent.json" --colliders ode,bullet
+ends 4 "installed are" "$small" --colliders ode,bulet
+ends 6 "No such file" "$small" --colliders ode,bullet --json "$work/absent/x.json"
+exit $((failures > 0))
