@@ -80,8 +80,8 @@ ccd_t question() {
     ccd.support1 = ccd.support2 = support;
     ccd.first_dir = first_direction;
     ccd.max_iterations = 100;
-    ccd.dist_tolerance = 1e-12;
-    ccd.epa_tolerance = 1e-7;
+    ccd.dist_tolerance = 1e-9;
+    ccd.epa_tolerance = 1e-6;
     return ccd;
 }
 
