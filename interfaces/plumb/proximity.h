@@ -72,7 +72,8 @@ struct CandidatePair {
 /// to 1 or 0, and pairs with 0 are not reported.
 struct PairFilter {
     void* ctx;
-    void (*choose)(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uint8_t* wanted);
+    void (*choose)(void* ctx, const CandidatePair* pairs, std::uint32_t count,
+                   std::uint8_t* wanted);
 };
 
 /// The host's worker threads. `run` calls task(arg, worker) once for each worker in 0…workers − 1,
@@ -107,18 +108,19 @@ struct DetectStats {
                                    ///< it found the normal where it was silent or wrong
 };
 
+/// A ray meets the bodies with (group & mask) != 0.
 struct RayRequest {
     Vec3 origin;     ///< [m]
     Vec3 direction;  ///< unit
-    double length;   ///< [m]
+    double length;   ///< at least 0, may be infinite [m]
     std::uint32_t mask, reserved;
 };
 
 struct RayHit {
     std::uint32_t body;  ///< kNoBody when nothing was hit
-    std::uint32_t part;
-    double distance;  ///< [m]
-    Vec3 normal;      ///< surface normal of the body, unit
+    std::uint32_t part;  ///< part of a compound, triangle of a mesh; else 0
+    double distance;     ///< [m]
+    Vec3 normal;         ///< surface normal of the body, unit
 };
 inline constexpr std::uint32_t kNoBody = 0xffffffffu;
 
@@ -128,7 +130,12 @@ struct ParticleRequest {
     const double* radii;    ///< [count], [m]
     std::uint32_t count;
     std::uint32_t flags;
-    double margin;  ///< [m]
+    double margin;  ///< every contact with gap ≤ margin is wanted [m]
+
+    /// Of all particles: one meets a body if (group & mask_of_body) != 0 and (group_of_body & mask)
+    /// != 0.
+    std::uint32_t group = ~0u, mask = ~0u;
+    const TaskRunner* runner = nullptr;  ///< nullptr: work on the calling thread
 };
 
 class Proximity {
@@ -150,19 +157,24 @@ public:
 
     virtual DetectStats stats() const noexcept = 0;
 
-    /// Nearest hit of each ray at the poses of the last `detect`.
+    /// Nearest hit of each ray at the poses of the last `detect`. A ray that begins inside a solid
+    /// hits it at distance 0 with the normal −direction; a mesh that is not closed has no inside
+    /// and is hit from both sides. Rays with bad numbers hit nothing and are counted in the status.
     virtual Status cast_rays(const RayRequest* rays, RayHit* hits, std::uint32_t count) noexcept {
         (void)rays, (void)hits, (void)count;
         return {Status::unsupported, 0, "this collider casts no rays"};
     }
 
-    /// Deepest or nearest contact of two bodies at any distance, at the poses of the last `detect`.
+    /// Deepest or nearest contact of two bodies at any distance, at the poses of the last `detect`,
+    /// with the body of the lower id as a. Filters do not matter.
     virtual Status closest(std::uint32_t body_a, std::uint32_t body_b, Contact* result) noexcept {
         (void)body_a, (void)body_b, (void)result;
         return {Status::unsupported, 0, "this collider has no closest points"};
     }
 
-    /// Contacts of particles with bodies: `a` is the particle's index and `b` the body.
+    /// Contacts of particles with bodies, at the poses of the last `detect`: `a` is the particle's
+    /// index and `b` the body, with one contact for each part of it; sorted, and spread over the
+    /// sinks, as in `detect`. Particles with bad numbers are left out and counted in the status.
     virtual Status detect_particles(const ParticleRequest& request, const ContactSink* sinks,
                                     std::uint32_t sink_count) noexcept {
         (void)request, (void)sinks, (void)sink_count;

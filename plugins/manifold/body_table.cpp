@@ -118,6 +118,7 @@ void BodyTable::insert(std::uint32_t body, const ShapePlacement& placement) {
         Part& part = fresh[i];
         part.body = body;
         part.index = i;
+        part.in_compound = compound;
         part.shape = compound ? shape.parts[i].shape : shape;
         part.local = frame_of(placement.local);
         if (compound) part.local = part.local * frame_of(shape.parts[i].local);

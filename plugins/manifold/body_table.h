@@ -22,6 +22,7 @@ namespace plumb {
 struct Part {
     std::uint32_t body = 0;
     std::uint32_t index = 0;  ///< in its compound; else 0
+    bool in_compound = false;
     Shape shape{};
     Frame local{};                ///< shape frame → body frame
     std::vector<HullFace> faces;  ///< hulls only

@@ -77,16 +77,17 @@ private:
             std::uint32_t node;
             double reach;
         };
+        const auto wanted = [&](double distance) { return distance < kFar && distance <= limit(); };
         Open open[2 * kDeepest];
         int count = 0;
         if (!nodes_.empty()) open[count++] = {0, reach(nodes_[0].box)};
         while (count > 0) {
             const Open next = open[--count];
-            if (!(next.reach <= limit())) continue;
+            if (!wanted(next.reach)) continue;
             const Node& node = nodes_[next.node];
             if (node.count > 0) {
                 for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-                    if (reach(boxes_[i]) <= limit()) visit(items_[i]);
+                    if (wanted(reach(boxes_[i]))) visit(items_[i]);
                 continue;
             }
             const Open left{node.first, reach(nodes_[node.first].box)};

@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "manifold/collider.h"
 
-#include <new>
+#include "manifold/guarded.h"
 
 namespace plumb {
-namespace {
-
-template <class F>
-Status guarded(F f) noexcept {
-    try {
-        return f();
-    } catch (const std::bad_alloc&) {
-        return {Status::out_of_memory, 0, "memory ran out"};
-    } catch (...) {
-        return {Status::failed, 0, "an unexpected exception was caught"};
-    }
-}
-
-}  // namespace
 
 Status Collider::add(std::uint32_t body, const ShapePlacement& placement) noexcept {
     return guarded([&] {
@@ -60,9 +46,19 @@ Status Collider::detect_all(const DetectRequest& request, const ContactSink* sin
     stats_.broad_pairs = pairs_.size();
     if (request.filter) candidates_.apply(*request.filter, pairs_, table_);
     place_parts();
+    queries_.forget();
     run_blocks(request,
                request.runner ? std::min({threads_, request.runner->workers, sink_count}) : 1);
     return worse_of(gather(sinks), placed);
+}
+
+Status Collider::detect_particles(const ParticleRequest& request, const ContactSink* sinks,
+                                  std::uint32_t sink_count) noexcept {
+    return guarded([&] { return queries_.detect_particles(request, sinks, sink_count, threads_); });
+}
+
+Status Collider::cast_rays(const RayRequest* rays, RayHit* hits, std::uint32_t count) noexcept {
+    return guarded([&] { return queries_.cast_rays(rays, hits, count); });
 }
 
 void Collider::run_blocks(const DetectRequest& request, std::uint32_t count) {

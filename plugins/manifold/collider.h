@@ -6,6 +6,7 @@
 
 #include "manifold/candidates.h"
 #include "manifold/manifold.h"
+#include "manifold/queries.h"
 
 namespace plumb {
 
@@ -35,6 +36,9 @@ public:
     Status detect(const DetectRequest& request, const ContactSink* sinks,
                   std::uint32_t sink_count) noexcept final;
     DetectStats stats() const noexcept final { return stats_; }
+    Status detect_particles(const ParticleRequest& request, const ContactSink* sinks,
+                            std::uint32_t sink_count) noexcept final;
+    Status cast_rays(const RayRequest* rays, RayHit* hits, std::uint32_t count) noexcept final;
 
 protected:
     /// Called once for each new part, before it is first placed.
@@ -75,6 +79,7 @@ private:
     const Supported& supported_;
     std::uint32_t threads_;
     Candidates candidates_;
+    Queries queries_{table_};
     std::vector<PartPair> pairs_;
     std::vector<Block> blocks_;  ///< [worker]
     DetectStats stats_{};

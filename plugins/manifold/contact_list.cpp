@@ -35,6 +35,14 @@ Contact& ContactList::add(const Part& a, const Part& b) {
     return c;
 }
 
+Contact& ContactList::add_particle(std::uint32_t particle, const Part& b) {
+    Contact& c = contacts_.emplace_back();
+    c.a = particle;
+    c.b = b.body;
+    c.part_b = b.index;
+    return c;
+}
+
 void ContactList::finish() {
     // Narrow phases run pair after pair, so mostly only short runs are out of order.
     if (!std::is_sorted(contacts_.begin(), contacts_.end(), [](const Contact& p, const Contact& q) {

@@ -20,6 +20,9 @@ public:
     /// Room for one contact of two parts; ids and parts are filled in, the caller fills the rest.
     Contact& add(const Part& a, const Part& b);
 
+    /// The same for a particle and a part.
+    Contact& add_particle(std::uint32_t particle, const Part& b);
+
     std::size_t size() const { return contacts_.size(); }
     Contact* data() { return contacts_.data(); }
     void shrink(std::size_t count) { contacts_.resize(count); }
