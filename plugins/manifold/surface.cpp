@@ -167,6 +167,7 @@ SurfaceHit Surface::hit(const Ray& ray, double length) const {
         [&](std::uint32_t t) {
             const double distance = ray_to_triangle(ray.origin, ray.direction, corner(t, 0),
                                                     corner(t, 1), corner(t, 2));
+            if (!std::isfinite(distance)) return;
             const std::uint32_t number = triangles_[t].number;
             const bool first =
                 distance < best.distance ||
