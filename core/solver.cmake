@@ -4,7 +4,8 @@ set(PLUMB_CORE_SOURCES
   schedule/colouring.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/plan.cpp
-  step/choose_rebounds.cpp step/contact_pairs.cpp step/detect.cpp step/follow_contacts.cpp step/integrate.cpp
+  step/choose_rebounds.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp
+  step/follow_contacts.cpp step/integrate.cpp
   step/match_contacts.cpp step/move_scripted.cpp step/row_solver.cpp step/step.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/shape_support.cpp)

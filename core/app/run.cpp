@@ -97,6 +97,9 @@ Ending judge(const Simulation& simulation, const StepReport& report, const Stati
         return {};
     }
     const std::string who = "collider \"" + simulation.collider_name() + "\"";
+    if (report.collider_unusable)
+        return {kColliderUnable, who + " cannot be used any more: in step " + step + " " +
+                                     report.message + "; the frames so far are kept"};
     if (++failures_in_a_row >= kFailuresInARow)
         return {kColliderUnable, who + " failed " + std::to_string(kFailuresInARow) +
                                      " steps in a row (" + report.message +
@@ -124,14 +127,22 @@ Ending simulate(Simulation& simulation, Recorder& recorder, Statistics& statisti
     return {};
 }
 
+/// "3 not finite, 7 of unknown bodies"
+std::string faults_in_words(const Statistics& statistics) {
+    std::string words;
+    for (std::size_t i = 0; i < kContactFaultCount; ++i)
+        if (statistics.faults[i] > 0)
+            words += (words.empty() ? "" : ", ") + std::to_string(statistics.faults[i]) + " " +
+                     std::string(kContactFaultNames[i]);
+    return words;
+}
+
 /// What is worth knowing although the run went on.
 void warn(const Simulation& simulation, const Statistics& statistics) {
     if (statistics.rejected_contacts > 0)
         std::fprintf(stderr,
-                     "plumb: warning: collider \"%s\" gave %llu contacts that are not finite or of "
-                     "no body; they were left out\n",
-                     simulation.collider_name().c_str(),
-                     static_cast<unsigned long long>(statistics.rejected_contacts));
+                     "plumb: warning: collider \"%s\" gave contacts that were left out: %s\n",
+                     simulation.collider_name().c_str(), faults_in_words(statistics).c_str());
     if (statistics.collider_failures > 0)
         std::fprintf(stderr, "plumb: warning: collider \"%s\" failed in %llu of %llu steps: %s\n",
                      simulation.collider_name().c_str(),

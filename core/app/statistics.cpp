@@ -57,6 +57,7 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     contact_max = std::max(contact_max, report.contacts);
     clamped_recoveries += report.clamped_recoveries;
     rejected_contacts += report.rejected_contacts;
+    for (std::size_t i = 0; i < kContactFaultCount; ++i) faults[i] += report.faults[i];
     if (report.collider_failed && collider_failures == 0) first_failure = report.message;
     collider_failures += report.collider_failed;
     finite_ &= report.finite;

@@ -54,7 +54,8 @@ public:
     double contact_sum = 0;
     std::uint32_t contact_max = 0;
     std::uint64_t clamped_recoveries = 0, rejected_contacts = 0, collider_failures = 0;
-    std::string first_failure;  ///< what the collider said
+    std::array<std::uint64_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
+    std::string first_failure;                               ///< what the collider said
 
 private:
     void add_times(const Ledger& ledger);

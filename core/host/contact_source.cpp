@@ -2,6 +2,7 @@
 #include "host/contact_source.h"
 
 #include "host/add_bodies.h"
+#include "scene/error.h"
 
 #include <algorithm>
 #include <chrono>
@@ -10,13 +11,6 @@
 
 namespace plumb {
 namespace {
-
-Contact* grow(void* ctx, std::uint32_t count) {
-    auto& contacts = *static_cast<std::vector<Contact>*>(ctx);
-    const std::size_t before = contacts.size();
-    contacts.resize(before + count);
-    return contacts.data() + before;
-}
 
 bool usable(const Contact& c, std::size_t bodies) {
     const double sum = c.gap + c.radius_a + c.radius_b + c.point_a.x + c.point_a.y + c.point_a.z +
@@ -55,7 +49,8 @@ LocalSource::LocalSource(const Scene& scene, const ColliderLibrary& colliders,
 
 ContactAnswer LocalSource::ask(const ContactQuestion& question) {
     ContactAnswer answer;
-    const ContactSink sink{&answer.contacts, grow};
+    room_.clear();
+    const ContactSink sink = room_.sink();
     DetectRequest request{};
     request.poses = question.poses.data();
     request.body_count = static_cast<std::uint32_t>(question.poses.size());
@@ -67,6 +62,10 @@ ContactAnswer LocalSource::ask(const ContactQuestion& question) {
     answer.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 
+    if (room_.overrun())
+        throw ColliderError("collider \"" + info_.name +
+                            "\" wrote more contacts than it had asked room for");
+    answer.contacts.assign(room_.begin(), room_.end());
     answer.stats = collider_->stats();
     if (status.code != Status::ok)
         answer.trouble = status.message ? status.message : "it failed without a message";

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host/collider_library.h"
+#include "step/contact_room.h"
 #include "world/world.h"
 
 #include <cstdint>
@@ -58,6 +59,7 @@ public:
 private:
     World world_;
     ProximityPtr collider_;
+    ContactRoom room_;
     SourceInfo info_;
 };
 

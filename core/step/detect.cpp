@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "step/contact_faults.h"
 #include "step/stages.h"
 
 #include <algorithm>
@@ -6,13 +7,6 @@
 
 namespace plumb {
 namespace {
-
-Contact* grow(void* ctx, std::uint32_t count) {
-    auto& contacts = *static_cast<std::vector<Contact>*>(ctx);
-    const std::size_t before = contacts.size();
-    contacts.resize(before + count);
-    return contacts.data() + before;
-}
 
 /// How far a body may come in dt beyond what the margin covers already [m].
 double sweep(const World& world, std::size_t i, double dt) {
@@ -22,17 +16,6 @@ double sweep(const World& world, std::size_t i, double dt) {
     const double spin = turn * b.reach[i];
     const double travel = b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
     return std::max(0.0, travel - world.settings.margin / 2);
-}
-
-bool usable(const Contact& c, const World& world) {
-    const auto n = world.bodies.size();
-    if (c.a >= n || c.b >= n || c.a >= c.b) return false;
-    if (world.bodies.motion[c.a] != Motion::dynamic && world.bodies.motion[c.b] != Motion::dynamic)
-        return false;
-    const double sum = c.gap + c.radius_a + c.radius_b + c.point_a.x + c.point_a.y + c.point_a.z +
-                       c.point_b.x + c.point_b.y + c.point_b.z;
-    const double length = to_eigen(c.normal).squaredNorm();
-    return std::isfinite(sum) && std::abs(length - 1) < 1e-6;
 }
 
 bool before(const Contact& x, const Contact& y) {
@@ -50,23 +33,43 @@ void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
         buffers.poses[i] = {to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
         buffers.sweeps[i] = sweep(world, i, dt);
     }
-    buffers.contacts.resize(std::max<std::size_t>(1, world.settings.threads));
+    buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
     buffers.sinks.clear();
-    for (auto& contacts : buffers.contacts) {
-        contacts.clear();
-        buffers.sinks.push_back({&contacts, grow});
+    for (ContactRoom& room : buffers.rooms) {
+        room.clear();
+        buffers.sinks.push_back(room.sink());
+    }
+}
+
+/// Trouble that the collider does not know of itself, or tells less of.
+void look_at_rooms(const DetectBuffers& buffers, StepReport& report) {
+    for (const ContactRoom& room : buffers.rooms) {
+        if (room.refused() > 0) {
+            report.collider_failed = true;
+            report.message = "it asked for room for " + std::to_string(room.refused()) +
+                             " contacts, and a sink takes " + std::to_string(kMaxContacts) +
+                             " at most";
+        }
+        if (!room.overrun()) continue;
+        report.collider_failed = report.collider_unusable = true;
+        report.message = "it wrote more contacts than it had asked room for";
+        return;
     }
 }
 
 void take_contacts(World& world, const DetectBuffers& buffers, StepReport& report) {
     std::vector<Contact>& found = world.contacts.found;
     found.clear();
-    for (const auto& contacts : buffers.contacts)
-        for (const Contact& c : contacts) {
-            if (usable(c, world))
+    if (report.collider_unusable) return;
+    for (const ContactRoom& room : buffers.rooms)
+        for (const Contact& c : room) {
+            const ContactFault fault = fault_of(c, world, buffers.sweeps);
+            if (fault == ContactFault::none) {
                 found.push_back(c);
-            else
-                ++report.rejected_contacts;
+                continue;
+            }
+            ++report.faults[static_cast<std::size_t>(fault)];
+            ++report.rejected_contacts;
         }
     world.contacts.rejected += report.rejected_contacts;
     if (!std::is_sorted(found.begin(), found.end(), before))
@@ -96,6 +99,7 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
         report.message = status.message ? status.message : "the collider failed without a message";
     }
     const StageTimer timer(ledger, Stage::match);
+    look_at_rooms(buffers, report);
     take_contacts(world, buffers, report);
 }
 

@@ -3,18 +3,36 @@
 /// computed.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace plumb {
+
+/// Why a contact of the collider was left out.
+enum class ContactFault : std::uint32_t {
+    unknown_body,   ///< of a body that there is not, or not with a < b
+    not_finite,     ///< a number of it is NaN or infinite
+    bad_normal,     ///< the normal is not of unit length
+    unwanted_pair,  ///< of two bodies that the scene keeps apart, or of which none is dynamic
+    too_far,        ///< the gap is wider than was asked for
+    none
+};
+inline constexpr std::size_t kContactFaultCount = 5;
+inline constexpr std::array<std::string_view, kContactFaultCount> kContactFaultNames{
+    "of unknown bodies", "not finite", "with a normal that is not of unit length",
+    "of pairs that must not touch", "with a gap beyond the margin"};
 
 struct StepReport {
     std::uint32_t contacts = 0;            ///< contact points
     std::uint32_t clamped_recoveries = 0;  ///< contacts, summed over substeps, whose overlap was
                                            ///< deeper than one substep may push out
-    std::uint32_t rejected_contacts = 0;   ///< left out: not finite, or of an unknown body
-    bool finite = true;                    ///< no position or velocity is NaN or infinite
-    bool collider_failed = false;          ///< the collider reported trouble: see `message`
+    std::uint32_t rejected_contacts = 0;   ///< left out for one of the faults
+    std::array<std::uint32_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
+    bool finite = true;              ///< no position or velocity is NaN or infinite
+    bool collider_failed = false;    ///< the collider reported trouble: see `message`
+    bool collider_unusable = false;  ///< it wrote where it must not: it should not be called again
     std::string message;
 };
 

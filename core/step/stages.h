@@ -5,6 +5,7 @@
 
 #include "effects/ledger.h"
 #include "effects/plan.h"
+#include "step/contact_room.h"
 #include "step/report.h"
 #include "step/row_solver.h"
 #include "world/world.h"
@@ -19,8 +20,8 @@ namespace plumb {
 struct DetectBuffers {
     std::vector<Pose> poses;
     std::vector<double> sweeps;
-    std::vector<std::vector<Contact>> contacts;  ///< [worker]
-    std::vector<ContactSink> sinks;              ///< [worker]
+    std::vector<ContactRoom> rooms;  ///< [worker], behind the sinks
+    std::vector<ContactSink> sinks;  ///< [worker]
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far

@@ -31,6 +31,7 @@ struct Bodies {
         geometry_in_body;       ///< where the geometry's frame sits in the body's frame
     std::vector<double> reach;  ///< radius about the centre of mass that holds the geometry [m]
     std::vector<std::uint32_t> material;
+    std::vector<std::uint32_t> group, mask;  ///< as in ShapePlacement; 0 for bodies without a shape
     std::vector<MotionScript>
         script;  ///< of kinematic bodies: where the centre of mass and principal axes are
 

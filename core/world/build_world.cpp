@@ -131,6 +131,8 @@ void add_body(World& world, const Scene& scene, std::size_t i) {
                                                 : reach_from(scene.geometries[spec.geometry],
                                                              m.body_in_geometry.position));
     b.material.push_back(spec.material);
+    b.group.push_back(spec.geometry == kNoIndex ? 0 : spec.group);
+    b.mask.push_back(spec.geometry == kNoIndex ? 0 : spec.mask);
     b.script.push_back(spec.script);
     b.world_inverse_inertia.push_back(Symmetric3<double>{});
     b.angular_momentum.push_back(Vector3d::Zero());
@@ -195,6 +197,9 @@ void add_joint(World& world, const Scene& scene, std::size_t i) {
     world.balls.b.push_back(spec.body_b);
     world.balls.anchor_a.push_back(local(spec.body_a));
     world.balls.anchor_b.push_back(local(spec.body_b));
+    if (spec.body_b != kNoIndex && !spec.collide)
+        world.excluded.push_back(
+            pair_key(std::min(spec.body_a, spec.body_b), std::max(spec.body_a, spec.body_b)));
 }
 
 }  // namespace
@@ -211,6 +216,7 @@ World build_world(const Scene& scene) {
     assign_rows(world);
     add_surface_pairs(world, scene);
     for (std::size_t i = 0; i < scene.joints.size(); ++i) add_joint(world, scene, i);
+    std::sort(world.excluded.begin(), world.excluded.end());
     return world;
 }
 

@@ -25,12 +25,18 @@ struct BallJoints {
     std::size_t size() const { return a.size(); }
 };
 
+/// Two bodies as one number that sorts as (a, b) does; a < b.
+constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
+    return std::uint64_t(a) << 32 | b;
+}
+
 struct World {
     Settings settings;
     Bodies bodies;
     BallJoints balls;
     std::vector<SurfacePair> surface_pairs;  ///< [material_a × material_count + material_b]
     std::uint32_t material_count = 1;
+    std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that a joint keeps apart, sorted
     ContactTable contacts;
     ShapeStore shapes;
     std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table

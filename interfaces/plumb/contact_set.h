@@ -43,9 +43,13 @@ struct Contact {
     std::uint32_t reserved;        ///< zero
 };
 
+/// Most contacts that a sink takes in one detection (512 MiB).
+inline constexpr std::uint32_t kMaxContacts = 1u << 22;
+
 /// Where a collider puts what it found. `grow(ctx, n)` returns room for n more contacts, next to
-/// each other, or nullptr when the core will take no more; the room stays valid until the next call
-/// of `grow` on the same sink.
+/// each other, or nullptr when the core will take no more (kMaxContacts in all, or memory ran out);
+/// it never throws. The room stays valid until the next call of `grow` on the same sink. Nothing
+/// may be written behind it: the core looks, and does without a collider that did.
 struct ContactSink {
     void* ctx;
     Contact* (*grow)(void* ctx, std::uint32_t count);

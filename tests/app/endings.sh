@@ -48,6 +48,16 @@ ends 4 "collider \"throws\" $threw: the tree has lost its root" "$small" --colli
 ends 4 "collider \"throws_on_a_thread\" $threw, on a thread of its own: the tree has lost its root" "$small" \
   --collider throws_on_a_thread --plugin-path "$bad" --threads 2
 ends 4 'collider "terminates" called std::terminate in detect' "$small" --collider terminates --plugin-path "$bad"
+
+# One that writes where it must not is not asked again; one that asks for too much is refused, and fails.
+ends 4 'collider "overruns" cannot be used any more: in step 20 it wrote more contacts than it had asked room for' "$small" \
+  --collider overruns --plugin-path "$bad"
+ends 4 'it asked for room for 300000000 contacts, and a sink takes 4194304 at most' "$small" --collider floods --plugin-path "$bad"
+
+# Contacts with a fault are left out, and told of once.
+ends 0 'collider "notanumber" gave contacts that were left out: 100 not finite' "$small" --collider notanumber \
+  --plugin-path "$bad" --duration 1 --dt 0.01
+
 "$plumb" run "$small" --collider throws_at_once --plugin-path "$bad" 2>"$work/err"
 code=$?
 cat "$work/err"
