@@ -14,6 +14,7 @@ add_custom_command(OUTPUT "${PLUMB_PLAYER_SOURCE}"
   VERBATIM)
 
 add_library(plumb_output STATIC
+  output/comparison_page.cpp
   output/csv.cpp
   output/deflate.cpp
   output/exporters.cpp
@@ -21,6 +22,7 @@ add_library(plumb_output STATIC
   output/header_json.cpp
   output/html.cpp
   output/html_json.cpp
+  output/html_page.cpp
   output/motion_code.cpp
   output/picture.cpp
   output/png.cpp

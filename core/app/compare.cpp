@@ -3,17 +3,21 @@
 /// poses.
 #include "app/comparison.h"
 #include "app/comparison_json.h"
+#include "app/comparison_rows.h"
 #include "app/comparison_text.h"
 #include "app/contact_sources.h"
 #include "app/interrupt.h"
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "output/comparison_page.h"
 #include "output/file.h"
 #include "reader/nearest.h"
 #include "scene/error.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <set>
@@ -24,7 +28,7 @@ namespace {
 struct Options {
     RunOptions run;
     std::vector<std::string> colliders;
-    std::string drive, answer_only, json;
+    std::string drive, answer_only, json, page;
     std::uint64_t every = 1;
     bool isolate = false, quiet = false;
 };
@@ -37,6 +41,11 @@ std::string listed(const std::vector<std::string>& names) {
 
 /// What the command line alone can tell.
 void check(const Options& o) {
+    const std::string ending = std::filesystem::path(o.page).extension().string();
+    if (!o.page.empty() && ending != ".html")
+        throw UsageError("--out " + o.page + ": a comparison is written to a .html file");
+    if (!o.page.empty() && o.page == o.json)
+        throw UsageError("\"" + o.page + "\" is named twice among the outputs");
     const std::set<std::string> distinct(o.colliders.begin(), o.colliders.end());
     if (o.colliders.empty())
         throw UsageError("--colliders is required; write --colliders ode,bullet");
@@ -46,6 +55,23 @@ void check(const Options& o) {
     if (!o.drive.empty() && !distinct.contains(o.drive))
         throw UsageError("--drive " + o.drive + ": is none of the colliders that are compared (" +
                          listed(o.colliders) + ")" + reader::advice(o.drive, o.colliders));
+}
+
+/// The shapes that the findings need drawn; nullptr for all others.
+std::vector<const Geometry*> drawn_shapes(const Scene& scene, const ComparisonResult& result) {
+    std::vector<const Geometry*> shapes(scene.geometries.size());
+    for (const Finding& f : findings_of(result))
+        for (const std::uint32_t body : {f.disagreement.a, f.disagreement.b}) {
+            const std::uint32_t geometry = scene.bodies[body].geometry;
+            shapes[geometry] = &scene.geometries[geometry];
+        }
+    return shapes;
+}
+
+void write(std::optional<WholeFile>& file, const std::string& text) {
+    if (!file) return;
+    file->append(text);
+    file->commit();
 }
 
 /// Opens what shall be written before the comparison runs.
@@ -63,7 +89,7 @@ int compare(const Options& o) {
     const std::unique_ptr<Simulation> simulation = start(scene, colliders, run);
     Sources sources = make_sources({o.colliders, run.collider, o.isolate}, scene, colliders, run);
     const auto driver = std::find(o.colliders.begin(), o.colliders.end(), run.collider);
-    std::optional<WholeFile> json_file = opened(o.json);
+    std::optional<WholeFile> json_file = opened(o.json), page_file = opened(o.page);
 
     catch_interrupts();
     const auto steps =
@@ -79,10 +105,9 @@ int compare(const Options& o) {
     const std::string json_text =
         json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
     std::fputs(o.json == "-" ? json_text.c_str() : comparison_text(scene, result).c_str(), stdout);
-    if (json_file) {
-        json_file->append(json_text);
-        json_file->commit();
-    }
+    write(json_file, json_text);
+    if (page_file)
+        write(page_file, comparison_page(scene.name, json_text, drawn_shapes(scene, result)));
     if (result.was_interrupted) return kInterrupted;
     return result.agrees() ? kDone : kDiffer;
 }
@@ -110,6 +135,11 @@ Verb add_compare(CLI::App& command) {
     command
         .add_option("--json", o->json,
                     "write the comparison as JSON to a file, or to stdout (-) in place of the text")
+        ->type_name("FILE");
+    command
+        .add_option(
+            "--out", o->page,
+            "write a page with the tables and the worst disagreements drawn to a .html file")
         ->type_name("FILE");
     command.add_flag("--quiet", o->quiet, "no progress bar");
     command.add_option("--answer-only", o->answer_only, "")->group("");

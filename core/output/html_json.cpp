@@ -2,6 +2,7 @@
 #include "output/html_json.h"
 
 #include "output/bytes.h"
+#include "output/html_page.h"
 #include "output/palette.h"
 #include "output/triangles.h"
 
@@ -150,16 +151,9 @@ json view_to_json(const View& view, const Eigen::Vector3d& origin) {
             {"field_of_view", view.field_of_view}};
 }
 
-/// JSON that cannot end the element it stands in, nor open a comment.
+/// The text of a JSON value as it may stand in a page.
 std::string safe_text(const json& j) {
-    std::string text;
-    for (const char c : j.dump(-1, ' ', false, json::error_handler_t::replace)) {
-        if (c == '<')
-            text += "\\u003c";
-        else
-            text += c;
-    }
-    return text;
+    return without_tags(j.dump(-1, ' ', false, json::error_handler_t::replace));
 }
 
 }  // namespace
@@ -185,6 +179,15 @@ ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>
     put_motion(scene, parts.motion, header, motions);
     parts.scene = safe_text(scene);
     return parts;
+}
+
+ShapeTexts shape_texts(const std::vector<const Geometry*>& geometries) {
+    ShapeTexts texts;
+    json shapes = json::array();
+    for (const Geometry* g : geometries)
+        shapes.push_back(g ? shape_to_json(texts.meshes, *g) : json());
+    texts.shapes = safe_text(shapes);
+    return texts;
 }
 
 }  // namespace plumb

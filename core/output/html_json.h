@@ -24,4 +24,12 @@ ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>
                          const std::vector<std::vector<PoseSample>>& motions,
                          const std::vector<Ball>& balls);
 
+struct ShapeTexts {
+    std::string shapes;  ///< JSON: an array, null where there was no geometry; no "<" in it
+    std::string meshes;  ///< as in ReplayParts
+};
+
+/// Shapes alone, for pages that draw some of them.
+ShapeTexts shape_texts(const std::vector<const Geometry*>& geometries);
+
 }  // namespace plumb

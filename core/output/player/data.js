@@ -85,9 +85,12 @@ export class Motion {
     }
 }
 
-export function readScene() {
-    return JSON.parse(document.getElementById('plumb-scene').textContent);
-}
+const readJson = (id) => JSON.parse(document.getElementById(id).textContent);
+
+export const readScene = () => readJson('plumb-scene');
+
+/// A comparison of colliders, and the shapes that its bodies name (null where none is drawn).
+export const readComparison = () => ({ ...readJson('plumb-comparison'), shapes: readJson('plumb-shapes') });
 
 /// Bytes of all meshes; `meshArrays` cuts one out.
 export function readMeshes() {

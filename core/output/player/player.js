@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// The replay of a run: draws the frames that the page carries, and lets time be played and scrubbed.
+// What a page of Plumb shows: a comparison of colliders where it carries one (comparison.js), else the replay of a run: draws the frames that the page carries, and lets time be played and scrubbed.
 // "#t=2.5" behind the address opens it paused at 2.5 s.
 import * as THREE from 'three';
+import { ComparisonPage } from './comparison.js';
 import { Motion, readMeshes, readScene } from './data.js';
 import { ShapeLibrary } from './shapes.js';
 import { Stage } from './stage.js';
@@ -228,7 +229,8 @@ class Player {
 }
 
 try {
-    new Player();
+    if (document.getElementById('plumb-comparison')) new ComparisonPage();
+    else new Player();
 } catch (error) {
     showFailure(error);
     throw error;
