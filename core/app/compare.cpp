@@ -6,6 +6,7 @@
 #include "app/comparison_rows.h"
 #include "app/comparison_text.h"
 #include "app/contact_sources.h"
+#include "app/free_run.h"
 #include "app/interrupt.h"
 #include "app/usage.h"
 #include "app/verbs.h"
@@ -30,7 +31,7 @@ struct Options {
     std::vector<std::string> colliders;
     std::string drive, answer_only, json, page;
     std::uint64_t every = 1;
-    bool isolate = false, quiet = false;
+    bool isolate = false, quiet = false, free_run = false;
 };
 
 std::string listed(const std::vector<std::string>& names) {
@@ -80,35 +81,66 @@ std::optional<WholeFile> opened(const std::string& path) {
     return std::optional<WholeFile>(std::in_place, path);
 }
 
+/// All that a comparison needs, made before it runs.
+struct Prepared {
+    RunOptions run;
+    Scene scene;
+    ColliderLibrary colliders;
+    std::unique_ptr<Simulation> simulation;
+    Sources sources;
+    std::size_t driver;
+
+    explicit Prepared(const Options& o)
+        : run(driven_by(o)),
+          scene(load_scene(run)),
+          colliders(run.plugin_path),
+          simulation(start(scene, colliders, run)),
+          sources(make_sources({o.colliders, run.collider, o.isolate}, scene, colliders, run)),
+          driver(static_cast<std::size_t>(
+              std::find(o.colliders.begin(), o.colliders.end(), run.collider) -
+              o.colliders.begin())) {}
+
+    static RunOptions driven_by(const Options& o) {
+        RunOptions run = o.run;
+        run.collider = o.drive.empty() ? o.colliders.front() : o.drive;
+        return run;
+    }
+};
+
+ComparisonResult compared(const Options& o, Prepared& p, std::uint64_t steps) {
+    Progress progress(steps, o.quiet);
+    return compare_colliders({p.scene, p.sources.all, p.sources.own_process, p.driver, o.every},
+                             *p.simulation, progress);
+}
+
+std::optional<FreeRuns> run_freely(const Options& o, Prepared& p, std::uint64_t steps) {
+    if (!o.free_run || interrupted()) return std::nullopt;
+    Progress progress(steps, o.quiet);
+    return free_runs(p.scene, p.colliders, p.sources.all, p.sources.own_process, progress);
+}
+
 int compare(const Options& o) {
     check(o);
-    RunOptions run = o.run;
-    run.collider = o.drive.empty() ? o.colliders.front() : o.drive;
-    const Scene scene = load_scene(run);
-    const ColliderLibrary colliders(run.plugin_path);
-    const std::unique_ptr<Simulation> simulation = start(scene, colliders, run);
-    Sources sources = make_sources({o.colliders, run.collider, o.isolate}, scene, colliders, run);
-    const auto driver = std::find(o.colliders.begin(), o.colliders.end(), run.collider);
+    Prepared p(o);
     std::optional<WholeFile> json_file = opened(o.json), page_file = opened(o.page);
+    const Settings& s = p.scene.settings;
+    const auto steps = static_cast<std::uint64_t>(std::llround(s.duration / s.dt));
 
     catch_interrupts();
-    const auto steps =
-        static_cast<std::uint64_t>(std::llround(scene.settings.duration / scene.settings.dt));
-    Progress progress(steps, o.quiet);
-    const ComparisonResult result =
-        compare_colliders({scene, sources.all, sources.own_process,
-                           static_cast<std::size_t>(driver - o.colliders.begin()), o.every},
-                          *simulation, progress);
-    progress.end(result.was_interrupted ? "interrupted" : "done");
+    const ComparisonResult result = compared(o, p, steps);
+    const std::optional<FreeRuns> runs = run_freely(o, p, steps);
 
-    const auto json = comparison_json(scene, simulation->world().bodies, result);
+    auto json = comparison_json(p.scene, p.simulation->world().bodies, result);
+    if (runs) json["free_run"] = free_runs_json(result, *runs);
     const std::string json_text =
         json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-    std::fputs(o.json == "-" ? json_text.c_str() : comparison_text(scene, result).c_str(), stdout);
+    const std::string text =
+        o.json == "-" ? json_text : comparison_text(p.scene, result, runs ? &*runs : nullptr);
+    std::fputs(text.c_str(), stdout);
     write(json_file, json_text);
     if (page_file)
-        write(page_file, comparison_page(scene.name, json_text, drawn_shapes(scene, result)));
-    if (result.was_interrupted) return kInterrupted;
+        write(page_file, comparison_page(p.scene.name, json_text, drawn_shapes(p.scene, result)));
+    if (interrupted()) return kInterrupted;
     return result.agrees() ? kDone : kDiffer;
 }
 
@@ -141,6 +173,9 @@ Verb add_compare(CLI::App& command) {
             "--out", o->page,
             "write a page with the tables and the worst disagreements drawn to a .html file")
         ->type_name("FILE");
+    command.add_flag(
+        "--free-run", o->free_run,
+        "also let each collider drive a run of its own, and show how they drift apart");
     command.add_flag("--quiet", o->quiet, "no progress bar");
     command.add_option("--answer-only", o->answer_only, "")->group("");
     return [o] {

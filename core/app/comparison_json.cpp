@@ -139,4 +139,18 @@ Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonR
     return j;
 }
 
+Json free_runs_json(const ComparisonResult& r, const FreeRuns& runs) {
+    Json j{{"times", runs.times}, {"colliders", Json::array()}, {"pairs", Json::array()}};
+    for (std::size_t i = 0; i < r.colliders.size(); ++i)
+        j["colliders"].push_back({{"name", r.colliders[i].info.name},
+                                  {"height", runs.height[i]},
+                                  {"energy", runs.energy[i]}});
+    for (const Drift& d : runs.drifts)
+        j["pairs"].push_back({{"first", r.colliders[d.first].info.name},
+                              {"second", r.colliders[d.second].info.name},
+                              {"mean", d.mean},
+                              {"largest", d.largest}});
+    return j;
+}
+
 }  // namespace plumb::app

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/comparison.h"
+#include "app/free_run.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,5 +12,8 @@ namespace plumb::app {
 /// `bodies`: of a world of the scene, for where shapes sit in their bodies.
 nlohmann::ordered_json comparison_json(const Scene& scene, const Bodies& bodies,
                                        const ComparisonResult& result);
+
+/// How free runs drift apart; the colliders are those of `result`.
+nlohmann::ordered_json free_runs_json(const ComparisonResult& result, const FreeRuns& runs);
 
 }  // namespace plumb::app

@@ -16,7 +16,7 @@ constexpr std::size_t kListed = 2, kListedRaw = 1;  // of each aspect of a pair 
 
 template <class... Args>
 std::string printed(const char* format, Args... args) {
-    char text[400];
+    char text[2000];
     std::snprintf(text, sizeof text, format, args...);
     return text;
 }
@@ -166,12 +166,38 @@ std::string troubles(const ComparisonResult& r) {
                             static_cast<unsigned long long>(f.rejected));
         }
     }
-    return text.empty() ? text : "\n" + text;
+    return text;
+}
+
+/// The samples nearest to fifths of the time: a chart in few rows.
+std::string free_run_text(const ComparisonResult& r, const FreeRuns& runs) {
+    const std::size_t last = runs.times.size() - 1;
+    std::string text =
+        printed("\nFree runs: each collider drives a run of its own\n%-38s", "  time");
+    for (std::size_t k = 0; k <= 5; ++k)
+        text += cell(printed("%.3g s", runs.times[k * last / 5]), 12);
+    const auto row = [&](const std::string& name, const std::vector<double>& values,
+                         const char* unit) {
+        text += cell(printed("\n  %s", name.c_str()), 39, false);
+        for (std::size_t k = 0; k <= 5; ++k)
+            text += cell(printed("%.3g %s", values[k * last / 5], unit), 12);
+    };
+    for (const Drift& d : runs.drifts) {
+        const std::string names =
+            r.colliders[d.first].info.name + ", " + r.colliders[d.second].info.name;
+        row(names + ": apart, mean", d.mean, "m");
+        row(names + ": apart, largest", d.largest, "m");
+    }
+    for (std::size_t i = 0; i < r.colliders.size(); ++i) {
+        row(r.colliders[i].info.name + ": mean height", runs.height[i], "m");
+        row(r.colliders[i].info.name + ": energy", runs.energy[i], "J");
+    }
+    return text + "\n";
 }
 
 }  // namespace
 
-std::string comparison_text(const Scene& scene, const ComparisonResult& r) {
+std::string comparison_text(const Scene& scene, const ComparisonResult& r, const FreeRuns* runs) {
     std::string text =
         scene.name +
         printed(": %llu poses over %.4g s", static_cast<unsigned long long>(r.poses), r.time) +
@@ -186,7 +212,9 @@ std::string comparison_text(const Scene& scene, const ComparisonResult& r) {
         "normals deeper than 5 % L.\n";
     const std::vector<Finding> findings = findings_of(r);
     text += finding_list(scene, r, findings, false) + finding_list(scene, r, findings, true);
-    text += troubles(r);
+    const std::string trouble = troubles(r);
+    if (!trouble.empty()) text += printed("\n%s", trouble.c_str());
+    if (runs) text += free_run_text(r, *runs);
     return text + (r.agrees() ? "\nThe colliders agree.\n" : "\nThe colliders differ.\n");
 }
 

@@ -3,11 +3,14 @@
 #pragma once
 
 #include "app/comparison.h"
+#include "app/free_run.h"
 
 #include <string>
 
 namespace plumb::app {
 
-std::string comparison_text(const Scene& scene, const ComparisonResult& result);
+/// `runs` may be nullptr.
+std::string comparison_text(const Scene& scene, const ComparisonResult& result,
+                            const FreeRuns* runs);
 
 }  // namespace plumb::app

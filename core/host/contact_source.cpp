@@ -56,6 +56,7 @@ ContactAnswer LocalSource::ask(const ContactQuestion& question) {
     request.body_count = static_cast<std::uint32_t>(question.poses.size());
     request.flags = question.raw ? kDetectRaw : 0u;
     request.margin = question.margin;
+    request.sweeps = question.sweeps;
 
     const auto start = std::chrono::steady_clock::now();
     const Status status = collider_->detect(request, &sink, 1);

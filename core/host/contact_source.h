@@ -18,11 +18,12 @@ struct SourceInfo {
     std::string name, version, precision;
 };
 
-/// One question, without filter, sweeps or history: every collider is asked the same.
+/// One question, without filter or history: every collider is asked the same.
 struct ContactQuestion {
     const std::vector<Pose>& poses;  ///< [body]
     double margin;                   ///< [m]
     bool raw;                        ///< what the back-end itself says
+    const double* sweeps = nullptr;  ///< [body] as in DetectRequest [m], or none
 };
 
 struct ContactAnswer {

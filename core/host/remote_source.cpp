@@ -23,7 +23,7 @@ namespace {
 struct QuestionHead {
     std::uint64_t bodies;
     double margin;
-    std::uint64_t raw;
+    std::uint64_t raw, has_sweeps;
 };
 struct AnswerHead {
     std::uint64_t contacts, rejected;
@@ -76,12 +76,22 @@ int start(const std::vector<std::string>& command, pid_t& child, const std::stri
                         "\": its process could not be started: " + std::strerror(error));
 }
 
-bool answer_one(Channel& channel, ContactSource& source, std::vector<Pose>& poses) {
+/// What a question brings, its memory used again for the next.
+struct QuestionData {
+    std::vector<Pose> poses;
+    std::vector<double> sweeps;
+};
+
+bool answer_one(Channel& channel, ContactSource& source, QuestionData& data) {
     QuestionHead head{};
     if (!channel.receive(&head, sizeof head)) return false;
-    poses.resize(head.bodies);
-    if (!channel.receive(poses.data(), poses.size() * sizeof(Pose))) return false;
-    const ContactAnswer answer = source.ask({poses, head.margin, head.raw != 0});
+    data.poses.resize(head.bodies);
+    data.sweeps.resize(head.has_sweeps ? head.bodies : 0);
+    if (!channel.receive(data.poses.data(), data.poses.size() * sizeof(Pose)) ||
+        !channel.receive(data.sweeps.data(), data.sweeps.size() * sizeof(double)))
+        return false;
+    const double* sweeps = head.has_sweeps ? data.sweeps.data() : nullptr;
+    const ContactAnswer answer = source.ask({data.poses, head.margin, head.raw != 0, sweeps});
     const AnswerHead reply{answer.contacts.size(), answer.rejected, answer.stats, answer.seconds};
     return channel.send(&reply, sizeof reply) &&
            channel.send(answer.contacts.data(), answer.contacts.size() * sizeof(Contact)) &&
@@ -151,11 +161,14 @@ void RemoteSource::greet() {
 
 ContactAnswer RemoteSource::ask(const ContactQuestion& question) {
     if (child_ < 0) throw ColliderError("collider \"" + info_.name + "\": its process is gone");
-    const QuestionHead head{question.poses.size(), question.margin, question.raw ? 1u : 0u};
+    const QuestionHead head{question.poses.size(), question.margin, question.raw ? 1u : 0u,
+                            question.sweeps ? 1u : 0u};
     AnswerHead reply{};
     ContactAnswer answer;
     const bool asked = channel_.send(&head, sizeof head) &&
-                       channel_.send(question.poses.data(), question.poses.size() * sizeof(Pose));
+                       channel_.send(question.poses.data(), question.poses.size() * sizeof(Pose)) &&
+                       (!question.sweeps ||
+                        channel_.send(question.sweeps, question.poses.size() * sizeof(double)));
     if (!asked || !channel_.receive(&reply, sizeof reply)) give_up();
     answer.contacts.resize(reply.contacts);
     if (!channel_.receive(answer.contacts.data(), answer.contacts.size() * sizeof(Contact)) ||
@@ -190,8 +203,8 @@ void serve(int descriptor, ContactSource* (*make)(void* ctx), void* ctx) {
     if (!send_text(channel, "") || !send_text(channel, source->info().version) ||
         !send_text(channel, source->info().precision))
         return;
-    std::vector<Pose> poses;
-    while (answer_one(channel, *source, poses)) {
+    QuestionData data;
+    while (answer_one(channel, *source, data)) {
     }
 }
 

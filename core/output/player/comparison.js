@@ -25,7 +25,7 @@ function percent(share) {
 
 const count = (n) => Math.round(n).toLocaleString('en');
 const short = (value, unit) => (unit === 'ratio' ? value.toFixed(4)
-    : `${value === 0 ? 0 : Number(value.toPrecision(2))} ${unit}`);
+    : `${value > 0 && value < 1e-3 ? value.toExponential(1) : Number(value.toPrecision(2))} ${unit}`);
 
 function table(head, rows) {
     const cells = (tag, values) => element('tr', '', values.map((value, i) => {

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// A source of contacts as a collider: what lets a simulation run on a plugin in another process.
+#pragma once
+
+#include "host/contact_source.h"
+
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+/// The source knows its bodies already, so that adding them again does nothing. A source that
+/// gives no more answers fails each detection with its sentence.
+class SourceProximity final : public Proximity {
+public:
+    explicit SourceProximity(ContactSource& source) : source_(source) {}
+
+    Status add(std::uint32_t, const ShapePlacement&) noexcept override { return ok_status(); }
+    Status remove(std::uint32_t) noexcept override;
+    Status exclude(std::uint32_t, std::uint32_t, bool) noexcept override { return ok_status(); }
+    Status detect(const DetectRequest& request, const ContactSink* sinks,
+                  std::uint32_t sink_count) noexcept override;
+    DetectStats stats() const noexcept override { return stats_; }
+
+private:
+    Status ask(const DetectRequest& request, const ContactSink& sink);
+
+    ContactSource& source_;
+    std::vector<Pose> poses_;
+    DetectStats stats_{};
+    std::string trouble_;
+};
+
+}  // namespace plumb
