@@ -47,6 +47,17 @@ grep -q "THEY DIFFER" "$work/out" || fail "no verdict for the pair of colliders"
   /disagreements/0/bodies/1/rotation /disagreements/0/words || fail "JSON lacks the answers"
 ends 1 "torus" "$scenes/coarse_tori.json" --colliders bullet,ode --duration 0.3
 
+# The page carries the comparison, the shapes of its findings, and charts of free runs; nothing of it comes from elsewhere.
+# A run through a process of its own is the same run.
+ends 1 "Free runs" "$scenes/deep_boxes.json" --colliders ode,reference --duration 0.5 --free-run --out "$work/deep.html" \
+  --json "$work/here.json"
+for part in plumb-comparison plumb-shapes plumb-meshes '"free_run"' '"half_extents"' "</html>"; do
+  grep -qF -- "$part" "$work/deep.html" || fail "the page has no $part"
+done
+ends 1 "Free runs" "$scenes/deep_boxes.json" --colliders ode,reference --duration 0.5 --free-run --isolate --json "$work/there.json"
+[ "$(value "$work/here.json" /free_run)" = "$(value "$work/there.json" /free_run)" ] || fail "a process of its own changes the run"
+awk "BEGIN { exit !($(value "$work/here.json" /free_run/pairs/0/largest/20) > 0) }" || fail "runs on different answers do not part"
+
 # JSON on stdout is JSON alone.
 "$plumb" compare "$small" --colliders ode,reference --every 50 --quiet --json - >"$work/stdout.json" || fail "--json - failed"
 [ "$(value "$work/stdout.json" /agrees)" = true ] || fail "--json - is no comparison"
@@ -61,6 +72,8 @@ ends 2 "--colliders is required" "$small"
 ends 2 "two are needed" "$small" --colliders ode
 ends 2 "twice" "$small" --colliders ode,ode
 ends 2 'did you mean "bullet"' "$small" --colliders ode,bullet --drive bulet
+ends 2 ".html" "$small" --colliders ode,bullet --out "$work/x.png"
+ends 2 "named twice" "$small" --colliders ode,bullet --out "$work/x.html" --json "$work/x.html"
 ends 2 "--every" "$small" --colliders ode,bullet --every 0
 ends 3 "absent.json" "$work/absent.json" --colliders ode,bullet
 ends 4 "installed are" "$small" --colliders ode,bulet

@@ -20,7 +20,7 @@ function ticks(low, high, wanted) {
 }
 
 const label = (value, span) => (value === 0 ? '0'
-    : Math.abs(value) >= 1e5 || span < 1e-3 ? value.toExponential(1) : String(Number(value.toPrecision(4))));
+    : span >= 1e5 || span < 1e-3 ? value.toExponential(1) : String(Number(value.toPrecision(4))));
 
 /// lines: [{name, color, y: [value at each x]}]
 export function lineChart({ title, x, lines }) {
