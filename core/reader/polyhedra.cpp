@@ -2,6 +2,7 @@
 #include "reader/polyhedra.h"
 
 #include "reader/bad_shape.h"
+#include "reader/decompose.h"
 #include "reader/height_fields.h"
 #include "reader/hull.h"
 #include "reader/obj.h"
@@ -58,6 +59,7 @@ struct PointsDraft {
     std::vector<Triangle> triangles;
     std::string obj;
     double scale = 1;
+    std::optional<DecomposeOptions> decompose;
 };
 
 const Table<PointsDraft>& hull_table() {
@@ -87,6 +89,14 @@ const Table<PointsDraft>& mesh_table() {
                 p.triangles = std::move(mesh.triangles);
             },
             "a height field, whose surface becomes the mesh"));
+        fields.push_back(special<PointsDraft>(
+            "decompose", decompose_schema(),
+            [](PointsDraft& p, const Node& node) {
+                DecomposeOptions options;
+                read_decompose(options, node);
+                if (node.json() != false) p.decompose = options;
+            },
+            "turn the mesh, which must be closed, into a compound of convex hulls"));
         return fields;
     }();
     return table;
@@ -169,7 +179,10 @@ void read_mesh(ShapeDraft& draft, const Node& node) {
     PointsDraft points;
     read_object(points, node, mesh_table());
     if (node.has("height_field")) {
-        if (node.size() > 1) node.fail("a mesh of a height field has no other source");
+        if (node.size() > 1)
+            node.fail(
+                "a mesh of a height field has no other source, and is open, so it cannot be "
+                "decomposed");
     } else if (require_one_source(points, node); points.obj.empty()) {
         check_triangles(points, node);
     } else {
@@ -183,6 +196,10 @@ void read_mesh(ShapeDraft& draft, const Node& node) {
     draft.geometry.kind = ShapeKind::mesh;
     draft.geometry.vertices = std::move(points.vertices);
     draft.geometry.triangles = std::move(points.triangles);
+    if (points.decompose) {
+        draft.geometry = at_node(node.at("decompose"),
+                                 [&] { return decomposed(draft.geometry, *points.decompose); });
+    }
 }
 
 std::vector<GeometryPart> hulls_of_file(const Node& node, double scale) {

@@ -39,6 +39,8 @@ struct Geometry {
     double spacing_x = 0, spacing_z = 0;  ///< [m]
 
     std::vector<GeometryPart> parts;  ///< compound
+    double concavity = 0;  ///< compound made from a mesh: how deep the mesh's surface lies within
+                           ///< the parts [m]
 };
 
 struct GeometryPart {
