@@ -6,9 +6,20 @@
 
 #include <cstdio>
 #include <memory>
+#include <string>
 
 namespace plumb::app {
 namespace {
+
+/// How meshes that move were cut into hulls.
+void print_decomposed(const Scene& scene) {
+    for (const Geometry& g : scene.geometries)
+        if (g.concavity)
+            std::printf(
+                "  %s: a mesh as %zu convex hulls, whose surface lies up to %.3g m within\n",
+                g.name.empty() ? "a shape without a name" : ("shape \"" + g.name + "\"").c_str(),
+                g.parts.size(), *g.concavity);
+}
 
 int check(const RunOptions& options) {
     const Scene scene = load_scene(options);
@@ -22,6 +33,7 @@ int check(const RunOptions& options) {
         options.scene.c_str(), world.bodies.size(), world.dynamic_count, world.kinematic_count,
         scene.joints.size(), scene.geometries.size(), scene.materials.size(),
         simulation.collider_name().c_str());
+    print_decomposed(scene);
     for (const std::string& warning : simulation.plan().warnings)
         std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
     return kDone;

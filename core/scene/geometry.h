@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,8 @@ struct Geometry {
     double spacing_x = 0, spacing_z = 0;  ///< [m]
 
     std::vector<GeometryPart> parts;  ///< compound
-    double concavity = 0;  ///< compound made from a mesh: how deep the mesh's surface lies within
-                           ///< the parts [m]
+    std::optional<double> concavity;  ///< compound made from a mesh: how deep the mesh's surface
+                                      ///< lies within the parts [m]
 };
 
 struct GeometryPart {
