@@ -84,27 +84,34 @@ Vec3 middle(const Part& part) {
     return to_outer(part.world, 0.5 * (part.own_bounds.low + part.own_bounds.high));
 }
 
-Vertex support(const Part& a, const Part& b, Vec3 d, double scale) {
+/// How the parts are changed before they are asked about.
+struct Change {
+    double scale = 1;  ///< of both, about their middles
+    Vec3 shift{};      ///< of a [m]
+};
+
+Vertex support(const Part& a, const Part& b, Vec3 d, const Change& change) {
     Vec3 p = core_support(a, -d), q = core_support(b, d);
-    if (scale != 1) {
-        p = middle(a) + scale * (p - middle(a));
-        q = middle(b) + scale * (q - middle(b));
+    if (change.scale != 1) {
+        p = middle(a) + change.scale * (p - middle(a));
+        q = middle(b) + change.scale * (q - middle(b));
     }
+    p = p + change.shift;
     return {p, q, p - q};
 }
 
-bool closest(Witness& witness, const Part& a, const Part& b, double scale) {
+bool closest(Witness& witness, const Part& a, const Part& b, const Change& change) {
     const double size = size_of(a) + size_of(b), tiny = 1e-9 * size;
     Simplex s;
     Vec3 v = middle(a) - middle(b);
     if (dot(v, v) < tiny * tiny) v = {0, 1, 0};
-    s.vertex[0] = support(a, b, v, scale);
+    s.vertex[0] = support(a, b, v, change);
     s.count = 1;
     v = nearest_point(s);
     for (int i = 0; i < 64; ++i) {
         const double vv = dot(v, v);
         if (vv < tiny * tiny) return false;
-        const Vertex next = support(a, b, v, scale);
+        const Vertex next = support(a, b, v, change);
         // No further progress: v is the shortest difference.
         if (vv - dot(v, next.w) <= 1e-12 * vv + 1e-16 * size * std::sqrt(vv)) break;
         if (s.count == 4) return false;
@@ -135,12 +142,20 @@ bool closest(Witness& witness, const Part& a, const Part& b, double scale) {
 }  // namespace
 
 bool closest_when_apart(Witness& witness, const Part& a, const Part& b) {
-    return closest(witness, a, b, 1);
+    return closest(witness, a, b, {});
 }
 
 bool closest_when_touching(Witness& witness, const Part& a, const Part& b) {
-    if (!closest(witness, a, b, 0.98)) return false;
+    if (!closest(witness, a, b, {0.98, {}})) return false;
     witness.gap = support_gap(a, b, witness.normal);
+    return true;
+}
+
+bool touching_point(Vec3& point, const Part& a, const Part& b, Vec3 n, double gap) {
+    const double apart = std::max(0.0, 0.01 * (size_of(a) + size_of(b)) - gap);
+    Witness witness;
+    if (!closest(witness, a, b, {1, apart * n})) return false;
+    point = witness.point - 0.5 * apart * n;
     return true;
 }
 

@@ -16,4 +16,8 @@ bool closest_when_apart(Witness& witness, const Part& a, const Part& b);
 /// the true shapes.
 bool closest_when_touching(Witness& witness, const Part& a, const Part& b);
 
+/// The point where two parts touch that overlap along the unit normal n by −gap: both are drawn
+/// apart along n before they are asked. False where that finds none.
+bool touching_point(Vec3& point, const Part& a, const Part& b, Vec3 n, double gap);
+
 }  // namespace plumb

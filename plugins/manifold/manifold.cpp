@@ -2,6 +2,7 @@
 #include "manifold/manifold.h"
 
 #include "manifold/clip.h"
+#include "manifold/gjk.h"
 
 namespace plumb {
 namespace {
@@ -53,21 +54,29 @@ void fallback_contact(ContactList& out, const Pair& pair, Vec3 point) {
     c.feature = feature_key({2, pair.a.index, pair.b.index});
 }
 
+/// The first of the deepest points.
+int deepest_of(const FacingPoints& points) {
+    int best = 0;
+    for (int i = 1; i < points.count; ++i)
+        if (points.point[i].gap < points.point[best].gap) best = i;
+    return best;
+}
+
 /// Leaves at most kMostPoints of an outline: drops the corner that costs least area, never the
 /// deepest.
 void reduce(FacingPoints& points) {
     while (points.count > kMostPoints) {
+        const int deepest = deepest_of(points);
         int least = -1;
         double least_area = 1e300;
         for (int i = 0; i < points.count; ++i) {
-            if (points.point[i].gap <= points.deepest) continue;
+            if (i == deepest) continue;
             const Vec3& p = points.point[(i + points.count - 1) % points.count].on_a;
             const Vec3& q = points.point[i].on_a;
             const Vec3& r = points.point[(i + 1) % points.count].on_a;
             const double area = norm(cross(q - p, r - q));
             if (area < least_area) least_area = area, least = i;
         }
-        if (least < 0) least = points.count - 1;
         for (int i = least; i + 1 < points.count; ++i) points.point[i] = points.point[i + 1];
         --points.count;
     }
@@ -114,7 +123,10 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
 
     if (points.deepest > pair.gap + 1e-6 * size) {
         ++stats.from_fallback;
-        fallback_contact(out, pair, witness.point);
+        const bool plane = a.shape.kind == ShapeKind::plane || b.shape.kind == ShapeKind::plane;
+        Vec3 point = witness.point;
+        if (!plane) touching_point(point, a, b, pair.n, pair.gap);
+        fallback_contact(out, pair, point);
     }
     keep_near(points, margin);
     reduce(points);

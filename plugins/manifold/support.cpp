@@ -4,7 +4,7 @@
 namespace plumb {
 namespace {
 
-constexpr int kRim = 12;  ///< corners of the polygon that stands for a flat round end
+constexpr int kRim = 8;  ///< corners of the polygon that stands for a flat round end
 
 Vec3 hull_support(const Part& part, Vec3 d_own) {
     const Shape& s = part.shape;

@@ -85,6 +85,16 @@ void doubt(Witness& witness, const Part& a, const Part& b) {
     if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
 }
 
+/// ODE's convex test stops at some way out of an overlap, which need not be the shortest. Where
+/// parts overlap little, their cores or the parts a little smaller are apart, and their closest
+/// points show a shorter one.
+void shorten(Witness& witness, const Part& a, const Part& b) {
+    const Vec3 n = unit_or(witness.normal, {0, 1, 0});
+    const double implied = support_gap(a, b, n);
+    Witness other;
+    if (ask_beside(other, a, b) && other.gap > implied) witness = other;
+}
+
 /// Boxes that an axis parts: the normal of larger boxes will do where it parts the true ones too,
 /// and two points of them reach the gap that it implies.
 bool ask_boxes_apart(Witness& witness, const Part& a, const Part& b) {
@@ -97,6 +107,7 @@ bool ask_any(Witness& witness, const Part& a, const Part& b) {
     const bool boxes = is(a, ShapeKind::box) && is(b, ShapeKind::box);
     const bool overlap = boxes ? ask_boxes(witness, a, b, 0) : ask(witness, a, b);
     if (overlap) doubt(witness, a, b);
+    if (overlap && (is(a, ShapeKind::hull) || is(b, ShapeKind::hull))) shorten(witness, a, b);
     return overlap || (boxes ? ask_boxes_apart(witness, a, b) : ask_beside(witness, a, b));
 }
 

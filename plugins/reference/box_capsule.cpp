@@ -87,16 +87,28 @@ Vec3 least_overlap(const Core& c, Vec3 h) {
     return best;
 }
 
-/// How far the box reaches from `p` along n: where the line leaves it. `face` tells through which
-/// face.
-double way_out(Vec3 p, Vec3 n, Vec3 h, unsigned& face) {
+/// Names the box's face that looks most along n. Where a line leaves the box is no feature: at an
+/// edge it may be either face.
+int main_axis(Vec3 n) {
+    const int k = std::abs(n.x) > std::abs(n.y) ? 0 : 1;
+    return std::abs(n.z) > std::abs(at(n, k)) ? 2 : k;
+}
+unsigned facing(Vec3 n) {
+    const int k = main_axis(n);
+    return 2 * static_cast<unsigned>(k) + (at(n, k) > 0 ? 1 : 0);
+}
+
+/// How far the box reaches from `p` along n: where the line leaves it. Faces that n all but grazes
+/// count as ending where the face across n does, which errs by 4e-6 of their height: else the end
+/// of a core would stand beside the far edge of such a face.
+double way_out(Vec3 p, Vec3 n, Vec3 h) {
     double best = 1e300;
     for (unsigned i = 0; i < 3; ++i) {
         const double ni = at(n, static_cast<int>(i));
-        if (std::abs(ni) < 1e-9) continue;
+        if (std::abs(ni) < 2e-3) continue;
         const double s =
             ((ni > 0 ? 1 : -1) * at(h, static_cast<int>(i)) - at(p, static_cast<int>(i))) / ni;
-        if (s < best) best = s, face = 2 * i + (ni > 0 ? 1 : 0);
+        best = std::min(best, s);
     }
     return best;
 }
@@ -109,7 +121,9 @@ struct Stretch {
 
 Stretch in_shadow(const Core& c, Vec3 n, Vec3 h) {
     Stretch r;
-    for (int k = 0; k < 3; ++k) {
+    // The axis nearest to n comes last: its edges make an outline of their own only at corners.
+    for (int i = 1; i <= 3; ++i) {
+        const int k = (main_axis(n) + i) % 3;
         // The shadow's outline runs along n × e_k; its width that way is the box's.
         Vec3 axis{};
         at(axis, k) = 1;
@@ -157,16 +171,12 @@ void box_capsule(const Emitter& e) {
     const Vec3 n = apart ? (1 / norm(way)) * way : least_overlap(c, h);
 
     const auto touch = [&](double t, std::uint64_t id) {
-        unsigned face = 0;
         const Vec3 p = c.p + t * c.d;
-        const Vec3 q = p + way_out(p, n, h, face) * n;
+        const Vec3 q = p + way_out(p, n, h) * n;
         e.point(to_outer(e.x.world, q), to_outer(e.x.world, p), -rotated(e.x.world, n), 0,
-                e.y.shape.radius, feature_key({id, face}));
+                e.y.shape.radius, feature_key({id, facing(n)}));
     };
-    const auto height = [&](double t) {
-        unsigned face = 0;
-        return -way_out(c.p + t * c.d, n, h, face);
-    };
+    const auto height = [&](double t) { return -way_out(c.p + t * c.d, n, h); };
 
     // Both ends of the stretch, and its lowest point where that is lower still.
     const Stretch s = in_shadow(c, n, h);

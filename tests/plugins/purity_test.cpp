@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+/// A collider is a function of shapes and poses: what was asked or stood there before does not
+/// show.
+#include "population.h"
+#include "standing.h"
+
+namespace plumb::test {
+namespace {
+
+constexpr double kMargin = 0.01;
+
+class Purity : public EachPlugin {
+protected:
+    std::vector<Contact> fresh(unsigned seed) const {
+        World world(GetParam());
+        throw_heap(world, GetParam(), seed, 60);
+        return world.detect(kMargin);
+    }
+};
+
+TEST_P(Purity, AnswersTheSameAfterOtherMarginsAndPlaces) {
+    if (mutual_kinds(GetParam()).empty()) GTEST_SKIP() << "no kind that meets its own kind";
+    const std::vector<Contact> expected = fresh(1);
+    ASSERT_FALSE(expected.empty());
+    expect_sound(expected, kMargin);
+    World world(GetParam());
+    throw_heap(world, GetParam(), 1, 60);
+    EXPECT_TRUE(same(world.detect(kMargin), expected));
+    EXPECT_GT(world.detect(0.2).size(), expected.size());
+    EXPECT_TRUE(same(world.detect(kMargin), expected)) << "after a wide margin";
+    world.detect(kMargin, kDetectRaw);
+    EXPECT_TRUE(same(world.detect(kMargin), expected)) << "after a raw answer";
+
+    // All bodies go through other places, far and near, and come back.
+    Dice dice(9);
+    for (double spread : {1e-4, 1e-2, 1.0, 100.0}) {
+        World wandering(GetParam());
+        throw_heap(wandering, GetParam(), 1, 60);
+        for (int i = 0; i < 5; ++i) {
+            for (std::uint32_t id = 0; id < 60; ++id)
+                wandering.move(id, {spread * dice.way(), dice.turn()});
+            wandering.detect(kMargin);
+        }
+        World again(GetParam());
+        throw_heap(again, GetParam(), 1, 60);
+        for (std::uint32_t id = 0; id < 60; ++id) wandering.collider().remove(id);
+        throw_heap(wandering, GetParam(), 1, 60);
+        EXPECT_TRUE(same(wandering.detect(kMargin), expected)) << "after wandering by " << spread;
+    }
+}
+
+TEST_P(Purity, SmallStepsAndOneJumpEndAlike) {
+    for (const Stack& stack : stacks(GetParam())) {
+        SCOPED_TRACE(stack.name());
+        World stepping(GetParam()), jumping(GetParam());
+        build(stepping, stack, 0.05);
+        build(jumping, stack, -0.002);
+        for (int i = 0; i <= 25; ++i) {
+            Place at = stack.upper.place;
+            at.x.y() += 0.05 - 0.002 * i;
+            stepping.move(2, at);
+            stepping.detect(kMargin);
+        }
+        Place end = stack.upper.place;
+        end.x.y() += -0.002;
+        stepping.move(2, end);
+        EXPECT_TRUE(same(stepping.detect(kMargin), jumping.detect(kMargin)));
+    }
+}
+
+TEST_P(Purity, BodiesComeAndGo) {
+    if (mutual_kinds(GetParam()).empty()) GTEST_SKIP() << "no kind that meets its own kind";
+    World world(GetParam());
+    throw_heap(world, GetParam(), 6, 60);
+    std::vector<Contact> expected;
+    for (const Contact& c : world.detect(kMargin))
+        if (c.a % 2 == 0 && c.b % 2 == 0) expected.push_back(c);
+    for (std::uint32_t id = 1; id < 60; id += 2) {
+        EXPECT_EQ(world.collider().remove(id).code, Status::ok);
+        EXPECT_EQ(world.collider().remove(id).code, Status::bad_argument) << "removed already";
+    }
+    EXPECT_TRUE(same(world.detect(kMargin), expected));
+    const ShapeKind kind = mutual_kinds(GetParam())[0];
+    Dice dice(3);
+    const Shape shape = any_shape(kind, dice);
+    const ShapePlacement second{shape, pose({}), Mobility::dynamic, 1, ~0u, 0};
+    EXPECT_EQ(world.collider().add(2, second).code, Status::bad_argument) << "the id is in use";
+    EXPECT_EQ(world.collider().remove(500).code, Status::bad_argument) << "never added";
+    // Two fresh bodies in the air meet each other alone.
+    EXPECT_EQ(world.add(1, shape, {V(50, 50, 50), Q::Identity()}).code, Status::ok);
+    EXPECT_EQ(world.add(3, shape, {V(50, 50, 50), Q::Identity()}).code, Status::ok);
+    EXPECT_GT(world.detect(kMargin).size(), expected.size());
+}
+
+TEST_P(Purity, SortedByBodiesAndFeature) {
+    World world(GetParam());
+    throw_heap(world, GetParam(), 7, 120);
+    expect_sound(world.detect(0.05), 0.05);
+}
+
+PLUMB_FOR_EACH_PLUGIN(Purity);
+
+}  // namespace
+}  // namespace plumb::test
