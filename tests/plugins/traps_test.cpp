@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+/// Traps that back-ends are known for, one test each: a right answer, or none that was claimed.
+#include "harness.h"
+
+#include <atomic>
+#include <thread>
+
+namespace plumb::test {
+namespace {
+
+class Traps : public EachPlugin {
+protected:
+    /// All contacts of two bodies, the first fixed.
+    std::vector<Contact> meet(const Shape& lower, const Place& at_lower, const Shape& upper,
+                              const Place& at_upper, double margin = 0.01) const {
+        World world(GetParam());
+        world.add(1, lower, at_lower, Mobility::fixed);
+        world.add(2, upper, at_upper);
+        return world.detect(margin);
+    }
+
+    /// Checks that one of the contacts has this gap and none is deeper.
+    void expect_gap(const std::vector<Contact>& contacts, double gap) const {
+        ASSERT_FALSE(contacts.empty());
+        EXPECT_NEAR(deepest(contacts).gap, gap, relative_accuracy(GetParam()));
+    }
+};
+
+const Q kOnEdge(Eigen::AngleAxisd(M_PI / 4, V::UnitX()));
+const Q kOnVertex = Q::FromTwoVectors(V(1, 1, 1).normalized(), -V::UnitY());
+const double kEdge = std::sqrt(0.5), kVertex = std::sqrt(0.75);  ///< of a unit cube [m]
+const Place kTop{V(0, -.5, 0), Q::Identity()};
+
+TEST_P(Traps, HullsOnHalfSpacesDoNotCrash) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::plane, ShapeKind::hull, kPairSeparated);
+    for (double gap : {0.005, 0.0, -0.01, -0.3})
+        expect_gap(meet(plane(), {}, octahedron(.5), {V(0, .5 + gap, 0), Q::Identity()}), gap);
+}
+
+TEST_P(Traps, HullsHaveNoCushion) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::hull, ShapeKind::hull, kPairSeparated);
+    const Shape cube = box_hull(.5, .5, .5);
+    for (double gap : {0.08, 0.04, 0.02})
+        EXPECT_TRUE(meet(cube, kTop, cube, {V(0, .5 + gap, 0), Q::Identity()}).empty()) << gap;
+    for (double gap : {0.005, -0.01})
+        expect_gap(meet(cube, kTop, cube, {V(0, .5 + gap, 0), Q::Identity()}), gap);
+}
+
+TEST_P(Traps, TheFirstCallFindsAllFourCorners) {
+    for (const Shape& cube : {box(.5, .5, .5), box_hull(.5, .5, .5)}) {
+        if (!claims(cube, cube, kPairManifold)) continue;
+        EXPECT_GE(meet(cube, kTop, cube, {V(0, .49, 0), Q::Identity()}).size(), 4u);
+    }
+}
+
+TEST_P(Traps, AVertexIsAsDeepAsItIs) {
+    for (const Shape& cube : {box(.5, .5, .5), box_hull(.5, .5, .5)}) {
+        if (!claims(cube, cube)) continue;
+        expect_gap(meet(cube, kTop, cube, {V(.03, kVertex - .01, .02), kOnVertex}), -.01);
+    }
+}
+
+TEST_P(Traps, EdgesAndVerticesApartAreNotRounded) {
+    for (const Shape& cube : {box(.5, .5, .5), box_hull(.5, .5, .5)}) {
+        if (!claims(cube, cube, kPairSeparated)) continue;
+        expect_gap(meet(cube, kTop, cube, {V(.03, kEdge + .005, .02), kOnEdge}), .005);
+        expect_gap(meet(cube, kTop, cube, {V(.03, kVertex + .005, .02), kOnVertex}), .005);
+        // Vertex to vertex along the diagonal of both: nothing but the corners is near.
+        const V corner = V(.5, .5, .5) + .004 * V(1, 1, 1).normalized();
+        const Place beyond{corner + V(.5, .5, .5), Q::Identity()};
+        expect_gap(meet(cube, {}, cube, beyond), .004);
+    }
+}
+
+TEST_P(Traps, HullsNeedNotSurroundTheirOrigin) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::hull, ShapeKind::plane);
+    const V off(5, 3, -2);
+    std::vector<V> corners;
+    for (int i = 0; i < 8; ++i)
+        corners.push_back(off + V(i & 1 ? .5 : -.5, i & 2 ? .5 : -.5, i & 4 ? .5 : -.5));
+    const Shape aside =
+        hull(corners,
+             {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}});
+    for (const Shape& floor : {plane(), box(2, .5, 2), box_hull(2, .5, 2)}) {
+        if (!claims(floor, aside)) continue;
+        const Place ground = floor.kind == ShapeKind::plane ? Place{} : kTop;
+        const auto contacts = meet(floor, ground, aside, {V(0, .49, 0) - off, Q::Identity()});
+        SCOPED_TRACE(name_of(floor.kind));
+        expect_gap(contacts, -.01);
+        if (claims(floor, aside, kPairManifold)) {
+            EXPECT_NEAR(spanned_area(contacts), 1, 0.01);
+        }
+    }
+}
+
+TEST_P(Traps, HullsOnMeshesAreNeverSilent) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::hull, ShapeKind::mesh);
+    const Place at{V(.1, .495, .05), Q::Identity()};
+    EXPECT_FALSE(meet(grid_mesh(2, 4), {}, box_hull(.5, .5, .5), at).empty());
+}
+
+TEST_P(Traps, MeshesOnTwoThreadsAreMeshesOnOne) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::sphere, ShapeKind::mesh);
+    const Shape torus = torus_mesh(.5, .2, 24, 12), ball = sphere(.3);
+    const auto ask = [&](int i) {
+        return meet(torus, {}, ball, {V(.5 + .002 * i, .49, .01 * i), Q::Identity()});
+    };
+    std::vector<std::vector<Contact>> alone;
+    for (int i = 0; i < 40; ++i) alone.push_back(ask(i));
+    std::atomic<int> different{0};
+    const auto work = [&] {
+        for (int i = 0; i < 40; ++i) different += !same(ask(i), alone[static_cast<std::size_t>(i)]);
+    };
+    std::thread other(work);
+    work();
+    other.join();
+    EXPECT_EQ(different, 0);
+}
+
+TEST_P(Traps, NoCapCutsAnAnswerShort) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::plane, ShapeKind::box, kPairManifold);
+    if (!takes(GetParam(), ShapeKind::compound)) GTEST_SKIP() << "no compounds";
+    std::vector<std::pair<Shape, Place>> legs;
+    for (int i = 0; i < 200; ++i)
+        legs.push_back({box(.1, .1, .1), {V(.3 * (i % 20), 0, .3 * (i / 20)), Q::Identity()}});
+    EXPECT_EQ(meet(plane(), {}, compound(legs), {V(0, .099, 0), Q::Identity()}).size(), 800u);
+}
+
+TEST_P(Traps, DeepBoxesKnowTheirPair) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::box, ShapeKind::box);
+    const Shape cube = box(.5, .5, .5);
+    for (double depth : {.1, .3, .49}) {
+        const Q turned(Eigen::AngleAxisd(.3, V::UnitY()));
+        expect_gap(meet(cube, kTop, cube, {V(.01, .5 - depth, .02), turned}), -depth);
+    }
+}
+
+PLUMB_FOR_EACH_PLUGIN(Traps);
+
+}  // namespace
+}  // namespace plumb::test
