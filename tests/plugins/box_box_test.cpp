@@ -68,6 +68,7 @@ Answer bring_to(double gap, const V& ha, Place& a, const V& hb, const Place& b, 
 }
 
 TEST_P(BoxBox, AgreesWithSeparatingAxes) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::box, ShapeKind::box, kPairManifold);
     Boxes random(7);
     int wrong_normals = 0, wrong_depths = 0, compared = 0;
     World world(GetParam());
@@ -104,6 +105,7 @@ double outside(const V& h, const Place& at, const V& p) {
 }
 
 TEST_P(BoxBox, MeasuresBoxesThatAreApart) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::box, ShapeKind::box, kPairSeparated);
     // A gap is proved: two points of the boxes are that near, and a slab of that width parts the
     // boxes.
     Boxes random(11);
@@ -136,6 +138,7 @@ double resting_area(World& world, double degrees, double gap) {
 }
 
 TEST_P(BoxBox, SpansTheAreaOfRestingBoxes) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::box, ShapeKind::box, kPairManifold);
     World world(GetParam());
     world.add(1, box(.5, .5, .5), {}, Mobility::fixed);
     world.add(2, box(.5, .5, .5), {});
@@ -149,6 +152,7 @@ TEST_P(BoxBox, SpansTheAreaOfRestingBoxes) {
 }
 
 TEST_P(BoxBox, KeepsFeatureKeysUnderSmallMotions) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::box, ShapeKind::box, kPairManifold);
     World world(GetParam());
     world.add(1, box(2, .5, 2), {}, Mobility::fixed);
     world.add(2, box(.5, .5, .5), {});

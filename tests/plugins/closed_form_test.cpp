@@ -168,6 +168,7 @@ TEST_P(ClosedForm, ReportsNothingBeyondTheMargin) {
 }
 
 TEST_P(ClosedForm, SweepsWidenTheMargin) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::plane, ShapeKind::sphere, kPairSeparated);
     World world(GetParam());
     world.add(0, plane(), {}, Mobility::fixed);
     world.add(1, sphere(.5), {V(0, .6, 0), Q::Identity()});

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <iostream>
 #include <map>
+#include <mutex>
 #include <sstream>
 
 namespace plumb::test {
@@ -71,6 +72,8 @@ std::string plugin_file(const std::string& name) {
 }
 
 const PluginTable& plugin(const std::string& name) {
+    static std::mutex lock;
+    const std::lock_guard<std::mutex> guard(lock);
     static std::map<std::string, const PluginTable*> loaded;
     const PluginTable*& table = loaded[name];
     if (!table) table = load(name);

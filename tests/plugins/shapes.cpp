@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <deque>
+#include <mutex>
 
 namespace plumb::test {
 namespace {
@@ -14,8 +15,10 @@ struct Memory {
     std::vector<double> heights;
 };
 
-/// Memory behind shapes, never moved.
+/// Memory behind shapes, never moved. Tests make shapes on several threads at once.
 Memory& new_memory() {
+    static std::mutex lock;
+    const std::lock_guard<std::mutex> guard(lock);
     static std::deque<Memory> all;
     return all.emplace_back();
 }
