@@ -37,7 +37,7 @@ void Tree::update(const BodyTable& table) {
     for (std::uint32_t i = 0; i < leaves_.size(); ++i) {
         const Part& part = table.parts()[i];
         btDbvtNode*& leaf = leaves_[i];
-        const bool bounded = part.present && part.shape.kind != ShapeKind::plane;
+        const bool bounded = part.present && finite(part.bounds.low) && finite(part.bounds.high);
         if (part.present && !bounded) unbounded_.push_back(i);
         if (!bounded) {
             if (leaf) tree_.remove(leaf);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Bullet's tree of bounding volumes over our parts. Parts without bounds, half-spaces, meet
-/// everybody.
+/// Bullet's tree of bounding volumes over our parts. Parts without bounds, half-spaces and height
+/// fields, meet everybody.
 #pragma once
 
 #include "manifold/body_table.h"

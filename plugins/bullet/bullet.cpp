@@ -12,9 +12,22 @@ namespace {
 #error "this plugin needs bullet-float64: pkg-config bullet-float64 defines BT_USE_DOUBLE_PRECISION"
 #endif
 
-constexpr Supported kSupported{
-    {true, true, true, true, true, true, true, true, false, true},
-    "bullet takes no height fields here; a height field can be given as a mesh"};
+constexpr Supported kSupported{{true, true, true, true, true, true, true, true, true, true},
+                               "bullet does not know this kind of shape"};
+
+std::uint32_t ability(ShapeKind a, ShapeKind b) {
+    constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
+    const auto has = [&](ShapeKind k) { return a == k || b == k; };
+    if (a == b && a == ShapeKind::plane) return kPairNone;
+    if (!has_surface(a) && !has_surface(b)) return full;
+    // Two surfaces: what Bullet says itself. A height field has no inside that a mesh or a
+    // half-space could be measured against.
+    if (has_surface(a) && has_surface(b))
+        return has(ShapeKind::height_field) ? kPairNone
+                                            : kPairPoint | kPairManifold | kPairMovingMesh;
+    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
+    return full | kPairMovingMesh;
+}
 
 class Bullet final : public Collider {
 public:
@@ -38,7 +51,8 @@ private:
         Narrow& narrow = *narrow_[worker];
         for (std::size_t i = 0; i < count; ++i) {
             const Part &a = table_.parts()[pairs[i].first], &b = table_.parts()[pairs[i].second];
-            const bool mesh = a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh;
+            const bool mesh = has_surface(a.shape.kind) || has_surface(b.shape.kind);
+            if (!ability(a.shape.kind, b.shape.kind)) continue;
             if (raw)
                 narrow.collide_raw(out.contacts, out.stats, a, b);
             else if (mesh)
@@ -61,15 +75,6 @@ Proximity* create(const CreateRequest* request, const char** message) {
     }
 }
 void destroy(Proximity* proximity) { delete static_cast<Bullet*>(proximity); }
-
-std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    const auto has = [&](ShapeKind k) { return a == k || b == k; };
-    if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
-    if (has(ShapeKind::compound)) return kPairPoint | kPairMovingMesh;
-    return kPairPoint | kPairManifold | kPairMovingMesh |
-           (has(ShapeKind::plane) ? kPairSeparated : 0u);
-}
 
 PluginTable make_table() {
     PluginTable t = blank_table();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Convex pairs: the closest-point query on cushioned shapes, which is exact to twelve digits;
 /// boxes by Bullet's box detector, which is ten times as fast, on the true boxes where they overlap
-/// and on larger ones where they do not. Meshes: GImpact, whose every point is taken as it comes,
-/// without Bullet's cap of four and without history.
+/// and on larger ones where they do not. Meshes and height fields: the closest-point query for each
+/// triangle; two meshes: GImpact, whose every point is taken as it comes, without Bullet's cap of
+/// four and without history.
 #include "bullet/narrow.h"
 
 #include "manifold/gjk.h"
@@ -14,6 +15,8 @@
 #include <BulletCollision/Gimpact/btGImpactCollisionAlgorithm.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
+
+#include <mutex>
 
 namespace plumb::bullet {
 namespace {
@@ -75,7 +78,10 @@ bool ask_beside(Witness& witness, const Part& a, const Part& b) {
 
 }  // namespace
 
-Narrow::Narrow() { btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_); }
+Narrow::Narrow() {
+    btGImpactCollisionAlgorithm::registerAlgorithm(&dispatcher_);
+    scratch_.triangle.backend = make_triangle();
+}
 
 bool Narrow::ask_boxes(Witness& witness, const Part& a, const Part& b, bool grown) {
     const Shapes &sa = shapes_of(a), &sb = shapes_of(b);
@@ -126,6 +132,11 @@ bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
     return true;
 }
 
+bool Narrow::ask(Witness& witness, const Part& a, const Part& b, std::uint32_t) {
+    fit_triangle(scratch_.triangle);
+    return ask(witness, a, b);
+}
+
 void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Part& a,
                             const Part& b) {
     // A half-space needs no question: its normal is the contact's.
@@ -153,9 +164,14 @@ void Narrow::run_algorithm(ContactList& contacts, DetectStats& stats, const Part
     const btCollisionObjectWrapper wrap_b(nullptr, shape_b, &object_b, object_b.getWorldTransform(),
                                           -1, -1);
     // Two meshes have an algorithm for contacts only.
-    const bool meshes = is(a, ShapeKind::mesh) && is(b, ShapeKind::mesh);
+    const bool meshes = has_surface(a.shape.kind) && has_surface(b.shape.kind);
     const auto kind =
         exact_boxes || meshes ? BT_CONTACT_POINT_ALGORITHMS : BT_CLOSEST_POINT_ALGORITHMS;
+    // Bullet counts who uses a mesh in the mesh itself.
+    static std::mutex mesh_lock;
+    const auto guard = has_surface(a.shape.kind) || has_surface(b.shape.kind)
+                           ? std::unique_lock(mesh_lock)
+                           : std::unique_lock<std::mutex>();
     btCollisionAlgorithm* algorithm = dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, kind);
     if (!algorithm) return;
     Everything result(&wrap_a, &wrap_b, pair_margin(a, b));
@@ -164,7 +180,7 @@ void Narrow::run_algorithm(ContactList& contacts, DetectStats& stats, const Part
     dispatcher_.freeCollisionAlgorithm(algorithm);
 
     for (const Everything::Point& p : result.points) {
-        const bool mesh_a = is(a, ShapeKind::mesh), mesh_b = is(b, ShapeKind::mesh);
+        const bool mesh_a = has_surface(a.shape.kind), mesh_b = has_surface(b.shape.kind);
         const auto ta = mesh_a && p.index_a >= 0 ? static_cast<std::uint32_t>(p.index_a) : 0;
         const auto tb = mesh_b && p.index_b >= 0 ? static_cast<std::uint32_t>(p.index_b) : 0;
         const Witness w{p.normal, p.on_b + (0.5 * p.distance) * p.normal, p.distance + cushions,
@@ -182,6 +198,8 @@ void Narrow::run_algorithm(ContactList& contacts, DetectStats& stats, const Part
 void Narrow::collide_mesh(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
     if (is(a, ShapeKind::plane) || is(b, ShapeKind::plane))
         return mesh_on_plane(contacts, stats, a, b);
+    if (!has_surface(a.shape.kind) || !has_surface(b.shape.kind))
+        return collide_triangles(contacts, stats, a, b, *this, scratch_);
     const std::size_t begin = contacts.size();
     DetectStats all{};
     run_algorithm(contacts, all, a, b, false);

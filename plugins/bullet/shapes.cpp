@@ -45,13 +45,15 @@ std::unique_ptr<btConvexShape> cushioned_cone(const Shape& s, double cushion) {
     return cone;
 }
 
-void make_mesh(Shapes& made, const Shape& s) {
+/// Bullet's own mesh, over vertices and corners that stay where they are.
+void make_mesh(Shapes& made, const Vec3* vertices, std::size_t vertex_count,
+               const std::uint32_t* corners, std::size_t count) {
     btIndexedMesh mesh;
-    mesh.m_numTriangles = static_cast<int>(s.face_count);
-    mesh.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(s.faces);
+    mesh.m_numTriangles = static_cast<int>(count);
+    mesh.m_triangleIndexBase = reinterpret_cast<const unsigned char*>(corners);
     mesh.m_triangleIndexStride = 3 * sizeof(std::uint32_t);
-    mesh.m_numVertices = static_cast<int>(s.vertex_count);
-    mesh.m_vertexBase = reinterpret_cast<const unsigned char*>(s.vertices);
+    mesh.m_numVertices = static_cast<int>(vertex_count);
+    mesh.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices);
     mesh.m_vertexStride = sizeof(Vec3);
     made.triangles = std::make_unique<btTriangleIndexVertexArray>();
     made.triangles->addIndexedMesh(mesh, PHY_INTEGER);
@@ -59,6 +61,13 @@ void make_mesh(Shapes& made, const Shape& s) {
     shape->setMargin(0);
     shape->updateBound();
     made.other = std::move(shape);
+}
+
+void make_height_field(Shapes& made, const Surface& field) {
+    for (const Facet& f : field.topology().facets)
+        made.corners.insert(made.corners.end(), f.corner, f.corner + 3);
+    make_mesh(made, field.vertices().data(), field.vertices().size(), made.corners.data(),
+              field.size());
 }
 
 }  // namespace
@@ -93,12 +102,31 @@ std::shared_ptr<Shapes> make_shapes(const Part& part) {
             made->cushioned = cushioned_hull(s, made->cushion);
             break;
         case ShapeKind::mesh:
-            make_mesh(*made, s);
+            make_mesh(*made, s.vertices, s.vertex_count, s.faces, s.face_count);
+            break;
+        case ShapeKind::height_field:
+            make_height_field(*made, *part.surface);
             break;
         default:
             throw std::logic_error("a kind of shape that the table should have refused");
     }
     return made;
+}
+
+std::shared_ptr<Shapes> make_triangle() {
+    auto made = std::make_shared<Shapes>();
+    made->cushioned = std::make_unique<btTriangleShape>(btVector3(0, 0, 0), btVector3(1, 0, 0),
+                                                        btVector3(0, 0, 1));
+    return made;
+}
+
+void fit_triangle(const Part& triangle) {
+    Shapes& shapes = shapes_of(triangle);
+    auto& shape = static_cast<btTriangleShape&>(*shapes.cushioned);
+    for (int i = 0; i < 3; ++i) shape.m_vertices1[i] = bt(triangle.shape.vertices[i]);
+    shapes.cushion = std::min(kCushion, 0.01 * size_of(triangle));
+    shape.setMargin(shapes.cushion);
+    place_shapes(triangle);
 }
 
 void place_shapes(const Part& part) {

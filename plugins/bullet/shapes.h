@@ -12,6 +12,7 @@
 #include <btBulletCollisionCommon.h>
 
 #include <memory>
+#include <vector>
 
 namespace plumb::bullet {
 
@@ -23,8 +24,9 @@ struct Shapes {
     double cushion = 0;                        ///< of `cushioned`; 0 for sphere and capsule [m]
     std::unique_ptr<btBoxShape> exact_box;     ///< boxes only
     std::unique_ptr<btBoxShape> grown_box;     ///< boxes only: larger by the part's reach
-    std::unique_ptr<btTriangleIndexVertexArray> triangles;  ///< behind a mesh
-    std::unique_ptr<btCollisionShape> other;                ///< plane, mesh
+    std::unique_ptr<btTriangleIndexVertexArray> triangles;  ///< behind a mesh or height field
+    std::vector<std::uint32_t> corners;                     ///< behind a height field
+    std::unique_ptr<btCollisionShape> other;                ///< plane, mesh, height field
     btTransform place;
 
     /// The shape that stands for the part in Bullet's own algorithms.
@@ -34,6 +36,12 @@ struct Shapes {
 inline Shapes& shapes_of(const Part& part) { return *static_cast<Shapes*>(part.backend.get()); }
 
 std::shared_ptr<Shapes> make_shapes(const Part& part);
+
+/// A single triangle, to be filled by `fit_triangle`.
+std::shared_ptr<Shapes> make_triangle();
+
+/// Fits a shape of `make_triangle` to a part that is a triangle: its vertices and its world frame.
+void fit_triangle(const Part& triangle);
 
 /// Moves a part to its world frame and fits the grown box to its reach.
 void place_shapes(const Part& part);

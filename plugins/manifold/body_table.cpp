@@ -61,12 +61,53 @@ Aabb bounds_of_plane(const Frame& f) {
     return box;
 }
 
+/// A height field goes on without end below its surface.
+Aabb bounds_of_solid(Aabb surface, const Frame& f) {
+    for (int k = 0; k < 3; ++k) {
+        if (at(f.axis[1], k) > 1e-14) at(surface.low, k) = -kInfinity;
+        if (at(f.axis[1], k) < -1e-14) at(surface.high, k) = kInfinity;
+    }
+    return surface;
+}
+
+double half_width_of_hull(const Part& hull) {
+    double least = kInfinity;
+    for (const HullFace& face : hull.faces) {
+        double low = kInfinity;
+        for (std::uint32_t i = 0; i < hull.shape.vertex_count; ++i)
+            low = std::min(low, dot(face.normal, hull.shape.vertices[i]));
+        least = std::min(least, dot(face.normal, hull.shape.vertices[face.corners[0]]) - low);
+    }
+    return std::isfinite(least) ? 0.5 * least : 0;
+}
+
+/// Half the least distance of two parallel planes that hold a convex shape; of a cone the radius of
+/// the ball inside.
+double half_width_of(const Part& part) {
+    const Shape& s = part.shape;
+    switch (s.kind) {
+        case ShapeKind::sphere:
+        case ShapeKind::capsule:
+            return s.radius;
+        case ShapeKind::box:
+            return std::min({s.half_extents.x, s.half_extents.y, s.half_extents.z});
+        case ShapeKind::cylinder:
+            return std::min(s.radius, s.half_height);
+        case ShapeKind::cone:
+            return 2 * s.radius * s.half_height /
+                   (s.radius + std::hypot(s.radius, 2 * s.half_height));
+        case ShapeKind::hull:
+            return half_width_of_hull(part);
+        default:
+            return 0;
+    }
+}
+
 bool placed(const Frame& f) { return finite(f.axis[0]) && finite(f.axis[1]) && finite(f.origin); }
 
 }  // namespace
 
-Aabb bounds_of(const Part& part) {
-    const Frame& f = part.world;
+Aabb bounds_at(const Part& part, const Frame& f) {
     const Shape& s = part.shape;
     Vec3 centre = f.origin, half{};
     switch (s.kind) {
@@ -89,7 +130,8 @@ Aabb bounds_of(const Part& part) {
             centre = to_outer(f, 0.5 * (part.own_bounds.low + part.own_bounds.high));
             half = turned_extents(f, 0.5 * (part.own_bounds.high - part.own_bounds.low));
     }
-    return {centre - half, centre + half};
+    const Aabb box{centre - half, centre + half};
+    return s.kind == ShapeKind::height_field ? bounds_of_solid(box, f) : box;
 }
 
 bool BodyTable::knows(std::uint32_t body) const {
@@ -128,6 +170,7 @@ void BodyTable::insert(std::uint32_t body, const ShapePlacement& placement) {
             part.surface = surfaces_.of(part.shape);
             if (!part.surface->tree().empty()) part.own_bounds = part.surface->tree().bounds();
         }
+        part.half_width = half_width_of(part);
         part.group = placement.group;
         part.mask = placement.mask;
         part.dynamic = placement.mobility == Mobility::dynamic;

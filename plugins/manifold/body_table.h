@@ -26,7 +26,9 @@ struct Part {
     Shape shape{};
     Frame local{};                ///< shape frame → body frame
     std::vector<HullFace> faces;  ///< hulls only
-    Aabb own_bounds{};  ///< of the vertices, in the shape's frame (hull, mesh, height field)
+    Aabb own_bounds{};  ///< of the vertices, in the shape's frame (hull, mesh, height field but not
+                        ///< what is below)
+    double half_width = 0;  ///< half the least width of a convex shape, or a little less [m]
     std::shared_ptr<const Surface> surface;  ///< mesh and height field only
     std::shared_ptr<void> backend;           ///< whatever the plugin hangs on it
 
@@ -86,7 +88,11 @@ inline double pair_margin(const Part& a, const Part& b) { return a.reach + b.rea
 /// Sorts by bodies, then by parts: all pairs of parts of two bodies stand next to each other.
 void sort_pairs(std::vector<PartPair>& pairs, const std::vector<Part>& parts);
 
-/// Bounds of one part at its world frame, not grown.
-Aabb bounds_of(const Part& part);
+/// Bounds of one part in some outer frame, not grown, where `f` is its shape's frame there.
+Aabb bounds_at(const Part& part, const Frame& f);
+
+/// Bounds of one part at its world frame, not grown. Half-spaces and height fields have infinite
+/// ones.
+inline Aabb bounds_of(const Part& part) { return bounds_at(part, part.world); }
 
 }  // namespace plumb

@@ -6,6 +6,8 @@
 namespace plumb {
 namespace {
 
+constexpr std::uint64_t kMostPoints = 1'000'000'000;  ///< of a height field
+
 bool positive(double length) { return std::isfinite(length) && length > 0; }
 
 bool finite_vertices(const Shape& shape) {
@@ -36,6 +38,18 @@ const char* flaw_of_mesh(const Shape& mesh) {
     for (std::uint32_t i = 0; i < 3 * mesh.face_count; ++i)
         if (mesh.faces[i] >= mesh.vertex_count)
             return "a triangle names a vertex that is not there";
+    return nullptr;
+}
+
+const char* flaw_of_height_field(const Shape& field) {
+    if (!field.heights || field.rows < 2 || field.columns < 2)
+        return "a height field needs at least two rows and two columns";
+    if (!positive(field.spacing_x) || !positive(field.spacing_z))
+        return "the spacing of a height field must be positive";
+    const std::uint64_t points = std::uint64_t{field.rows} * field.columns;
+    if (points > kMostPoints) return "a height field may have at most a thousand million points";
+    for (std::uint64_t i = 0; i < points; ++i)
+        if (!std::isfinite(field.heights[i])) return "a height of a height field is not finite";
     return nullptr;
 }
 
@@ -78,9 +92,7 @@ const char* flaw_of(const Shape& shape) {
         case ShapeKind::mesh:
             return flaw_of_mesh(shape);
         case ShapeKind::height_field:
-            return shape.heights && shape.rows > 1 && shape.columns > 1
-                       ? nullptr
-                       : "a height field needs at least two rows and two columns";
+            return flaw_of_height_field(shape);
         case ShapeKind::compound:
             return flaw_of_compound(shape);
     }

@@ -23,6 +23,11 @@ public:
     /// The same for a particle and a part.
     Contact& add_particle(std::uint32_t particle, const Part& b);
 
+    /// One contact that is complete.
+    void push(const Contact& contact) { contacts_.push_back(contact); }
+
+    auto begin() const { return contacts_.begin(); }
+    auto end() const { return contacts_.end(); }
     std::size_t size() const { return contacts_.size(); }
     Contact* data() { return contacts_.data(); }
     void shrink(std::size_t count) { contacts_.resize(count); }

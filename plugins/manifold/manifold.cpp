@@ -101,7 +101,7 @@ Facing facing_of(const Part& a, const Part& b, Vec3 n, double size) {
 }
 
 void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
-                  const Witness& witness) {
+                  const Witness& witness, Fallback fallback) {
     if (!finite(witness.normal) || !finite(witness.point)) return;
     Pair pair{a, b, unit_or(witness.normal, {0, 1, 0}), 0, kContactClipped};
     if (a.shape.kind == ShapeKind::plane) pair.n = -a.world.axis[1];
@@ -111,7 +111,8 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
     if (!(pair.gap <= margin)) return;
     if (witness.approximate) pair.flags |= kContactApproximate;
 
-    if (a.shape.kind == ShapeKind::sphere || b.shape.kind == ShapeKind::sphere) {
+    const bool sphere = a.shape.kind == ShapeKind::sphere || b.shape.kind == ShapeKind::sphere;
+    if (sphere && fallback == Fallback::witness) {
         ++stats.from_clip;
         return sphere_contact(out, pair);
     }
@@ -121,7 +122,7 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
     const SupportFace &face_a = facing.a, &face_b = facing.b;
     FacingPoints points = facing_points(face_a, face_b, pair.n);
 
-    if (points.deepest > pair.gap + 1e-6 * size) {
+    if (fallback == Fallback::witness && points.deepest > pair.gap + 1e-6 * size) {
         ++stats.from_fallback;
         const bool plane = a.shape.kind == ShapeKind::plane || b.shape.kind == ShapeKind::plane;
         Vec3 point = witness.point;
@@ -151,9 +152,9 @@ bool gap_is_reached(const Part& a, const Part& b, Vec3 n) {
 }
 
 void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
-                    const Witness& witness) {
+                    const Witness& witness, Fallback fallback) {
     const std::size_t before = out.size();
-    add_manifold(out, stats, a, b, witness);
+    add_manifold(out, stats, a, b, witness, fallback);
     if (witness.shared) stats.shared_normals += out.size() - before;
 }
 

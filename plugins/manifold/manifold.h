@@ -22,9 +22,15 @@ struct Witness {
 
 inline constexpr int kMostPoints = 8;
 
+/// What to do where the support faces do not face each other along the normal.
+enum class Fallback {
+    witness,  ///< keep the back-end's own point
+    none      ///< no contact
+};
+
 /// Adds the contacts of a convex pair, a before b; counts into `stats`.
 void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
-                    const Witness& witness);
+                    const Witness& witness, Fallback fallback = Fallback::witness);
 
 /// Whether two points of the true shapes are as near along the unit normal n as their supports:
 /// then n is the direction of the shortest way between parts that are apart.

@@ -26,7 +26,8 @@ void thin_out(ContactList& out, std::size_t begin, std::size_t most) {
     if (count <= most) return;
     // The deepest first; then, again and again, the one farthest from all that were taken. A point
     // that differs in normal counts as far away, so that a wedge between two walls keeps both.
-    std::vector<double> distance(count, 1e300);
+    static thread_local std::vector<double> distance;  // so that a pair allocates nothing
+    distance.assign(count, 1e300);
     std::size_t next = 0;
     for (std::size_t i = 1; i < count; ++i)
         if (all[i].gap < all[next].gap) next = i;

@@ -180,6 +180,7 @@ double size_of(const Part& part) {
             return norm(s.half_extents);
         case ShapeKind::hull:
         case ShapeKind::mesh:
+        case ShapeKind::height_field:
             return 0.5 * norm(part.own_bounds.high - part.own_bounds.low);
         default:
             return s.radius + s.half_height;

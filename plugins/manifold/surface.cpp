@@ -34,6 +34,8 @@ Surface::Surface(const Shape& shape) {
         take_mesh(shape);
     join_edges();
     weigh_vertices();
+    for (const Triangle& t : triangles_) topology_.add(t.corner, t.number, t.normal);
+    topology_.connect(vertices_);
     std::vector<Aabb> boxes(triangles_.size());
     for (std::uint32_t t = 0; t < size(); ++t) boxes[t] = box_of(t);
     tree_ = BoxTree(boxes);

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "manifold/box_tree.h"
+#include "manifold/mesh_topology.h"
 
 #include <memory>
 #include <vector>
@@ -39,6 +40,8 @@ public:
     /// Of a mesh or a height field; of a height field every cell makes two triangles, parted from
     /// the corner (row, column + 1) to (row + 1, column).
     explicit Surface(const Shape& shape);
+    Surface(const Surface&) = delete;
+    Surface& operator=(const Surface&) = delete;
 
     /// Whether the triangles enclose a volume: every edge is run through as often one way as the
     /// other.
@@ -53,6 +56,7 @@ public:
     std::uint32_t number(std::uint32_t triangle) const { return triangles_[triangle].number; }
 
     const std::vector<Vec3>& vertices() const { return vertices_; }
+    const MeshTopology& topology() const { return topology_; }
     const BoxTree& tree() const { return tree_; }
     Aabb box_of(std::uint32_t triangle) const;
 
@@ -79,6 +83,7 @@ private:
 
     std::vector<Vec3> vertices_, vertex_normals_;
     std::vector<Triangle> triangles_;
+    MeshTopology topology_;
     BoxTree tree_;
     bool closed_ = false;
 };

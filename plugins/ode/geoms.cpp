@@ -24,12 +24,21 @@ dGeomID make_hull(Geoms& g, const Part& part) {
                          g.points.data(), s.vertex_count, g.polygons.data());
 }
 
-dGeomID make_mesh(Geoms& g, const Shape& s) {
+/// ODE's own mesh, over vertices and corners that stay where they are.
+dGeomID make_mesh(Geoms& g, const Vec3* vertices, std::size_t vertex_count,
+                  const std::uint32_t* corners, std::size_t count) {
     static_assert(sizeof(dTriIndex) == sizeof(std::uint32_t) && sizeof(dReal) == sizeof(double));
     g.mesh = dGeomTriMeshDataCreate();
-    dGeomTriMeshDataBuildDouble(g.mesh, s.vertices, sizeof(Vec3), static_cast<int>(s.vertex_count),
-                                s.faces, static_cast<int>(3 * s.face_count), 3 * sizeof(dTriIndex));
+    dGeomTriMeshDataBuildDouble(g.mesh, vertices, sizeof(Vec3), static_cast<int>(vertex_count),
+                                corners, static_cast<int>(3 * count), 3 * sizeof(dTriIndex));
     return dCreateTriMesh(nullptr, g.mesh, nullptr, nullptr, nullptr);
+}
+
+dGeomID make_height_field(Geoms& g, const Surface& field) {
+    for (const Facet& f : field.topology().facets)
+        g.corners.insert(g.corners.end(), f.corner, f.corner + 3);
+    return make_mesh(g, field.vertices().data(), field.vertices().size(), g.corners.data(),
+                     field.size());
 }
 
 bool along_z(ShapeKind kind) { return kind == ShapeKind::capsule || kind == ShapeKind::cylinder; }
@@ -79,7 +88,10 @@ std::shared_ptr<Geoms> make_geoms(const Part& part) {
             g->exact = make_hull(*g, part);
             break;
         case ShapeKind::mesh:
-            g->exact = make_mesh(*g, s);
+            g->exact = make_mesh(*g, s.vertices, s.vertex_count, s.faces, s.face_count);
+            break;
+        case ShapeKind::height_field:
+            g->exact = make_height_field(*g, *part.surface);
             break;
         default:
             throw std::logic_error("a kind of shape that the table should have refused");

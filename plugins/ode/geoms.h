@@ -27,7 +27,8 @@ struct Geoms {
     Vec3 centre{};  ///< of a hull, in its own frame: ODE wants hulls about their middle [m]
     std::vector<dReal> planes, points;  ///< behind a hull
     std::vector<unsigned> polygons;     ///< behind a hull
-    dTriMeshDataID mesh = nullptr;
+    dTriMeshDataID mesh = nullptr;      ///< behind a mesh or height field
+    std::vector<dTriIndex> corners;     ///< behind a height field
 
     /// The geom that answers up to the distance of detection where there is one.
     dGeomID widest() const { return wide ? wide : exact; }

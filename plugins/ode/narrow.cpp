@@ -2,7 +2,8 @@
 /// ODE answers only where shapes overlap. So: round shapes are asked in their wide form, which is
 /// exact; boxes are asked again a little larger where they do not overlap; and where that does not
 /// settle it (an edge or a vertex in front of something sharp), the closest points of the true
-/// shapes are computed beside ODE.
+/// shapes are computed beside ODE. Meshes and height fields are walked through triangle by
+/// triangle.
 #include "ode/narrow.h"
 
 #include "manifold/gjk.h"
@@ -117,7 +118,7 @@ bool is_plane_pair(const Part& a, const Part& b) {
 
 /// Index of the part's triangle in an answer of ODE.
 std::uint32_t triangle(const Part& part, int side) {
-    return is(part, ShapeKind::mesh) && side >= 0 ? static_cast<std::uint32_t>(side) : 0;
+    return has_surface(part.shape.kind) && side >= 0 ? static_cast<std::uint32_t>(side) : 0;
 }
 
 /// ODE's meshes share scratch memory over the whole process.
@@ -131,19 +132,52 @@ void add_all(Output out, const Part& a, const Part& b, const dContactGeom* c, in
     const bool compound_part_a = a.index != 0, compound_part_b = b.index != 0;
     for (int i = 0; i < count; ++i) {
         Witness w = witness_of(c[i], wider_by);
-        w.approximate = is(a, ShapeKind::mesh) || is(b, ShapeKind::mesh);
+        w.approximate = has_surface(a.shape.kind) || has_surface(b.shape.kind);
         const std::uint32_t ta = triangle(a, c[i].side1), tb = triangle(b, c[i].side2);
         const std::size_t before = out.contacts.size();
         add_raw(out.contacts, out.stats, a, b, w, feature_key({ta, tb}));
         if (out.contacts.size() == before) continue;
         Contact& added = out.contacts.data()[before];
-        if (!compound_part_a && is(a, ShapeKind::mesh)) added.part_a = ta;
-        if (!compound_part_b && is(b, ShapeKind::mesh)) added.part_b = tb;
+        if (!compound_part_a && has_surface(a.shape.kind)) added.part_a = ta;
+        if (!compound_part_b && has_surface(b.shape.kind)) added.part_b = tb;
         anchor_sphere(added, a, b);
     }
 }
 
 }  // namespace
+
+void TriangleAnswers::begin(const Part& a, const Part& b) {
+    named_.clear();
+    if (is(a, ShapeKind::hull) || is(b, ShapeKind::hull)) return;
+    const std::lock_guard<std::mutex> guard(mesh_lock());
+    static dContactGeom c[kMostFromOde];  // behind the lock
+    const int count =
+        dCollide(geoms_of(a).widest(), geoms_of(b).widest(), kMostFromOde, c, sizeof(dContactGeom));
+    const bool mesh_first = has_surface(a.shape.kind);
+    for (int i = 0; i < count; ++i)
+        named_.push_back({mesh_first ? triangle(a, c[i].side1) : triangle(b, c[i].side2),
+                          witness_of(c[i], std::max(widened(a), widened(b)))});
+    std::sort(named_.begin(), named_.end(), [](const Named& p, const Named& q) {
+        return p.id != q.id ? p.id < q.id : p.witness.gap < q.witness.gap;
+    });
+    const auto same = [](const Named& p, const Named& q) { return p.id == q.id; };
+    named_.erase(std::unique(named_.begin(), named_.end(), same), named_.end());
+}
+
+bool TriangleAnswers::ask(Witness& witness, const Part& a, const Part& b, std::uint32_t id) {
+    const auto it = std::lower_bound(named_.begin(), named_.end(), id,
+                                     [](const Named& n, std::uint32_t i) { return n.id < i; });
+    if (it == named_.end() || it->id != id) return ask_beside(witness, a, b);
+    witness = it->witness;
+    if (!finite(witness.normal)) return ask_beside(witness, a, b);
+
+    // A normal along which the true shapes overlap more than ODE says is not trusted.
+    const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
+    if (implied > witness.gap - 1e-6 * (size_of(a) + size_of(b))) return true;
+    Witness other;
+    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    return true;
+}
 
 void collide_convex(Output out, const Part& a, const Part& b) {
     // A half-space needs no question: its normal is the contact's.
@@ -152,8 +186,11 @@ void collide_convex(Output out, const Part& a, const Part& b) {
         build_manifold(out.contacts, out.stats, a, b, witness);
 }
 
-void collide_mesh(Output out, const Part& a, const Part& b) {
+void collide_mesh(Output out, const Part& a, const Part& b, Workspace& workspace) {
     if (is_plane_pair(a, b)) return mesh_on_plane(out.contacts, out.stats, a, b);
+    if (!has_surface(a.shape.kind) || !has_surface(b.shape.kind))
+        return collide_triangles(out.contacts, out.stats, a, b, workspace.answers,
+                                 workspace.scratch);
     const std::lock_guard<std::mutex> guard(mesh_lock());
     static dContactGeom c[kMostFromOde];  // behind the lock
     const Geoms &ga = geoms_of(a), &gb = geoms_of(b);

@@ -11,18 +11,29 @@
 namespace plumb::ode {
 namespace {
 
-constexpr Supported kSupported{
-    {true, true, true, true, true, false, true, true, false, true},
-    "ode has no cones and no height fields; bullet has cones, and a height field can be "
-    "given as a mesh"};
+constexpr Supported kSupported{{true, true, true, true, true, false, true, true, true, true},
+                               "ode has no cones; bullet has them"};
 
-bool both(const Part& a, const Part& b, ShapeKind p, ShapeKind q) {
-    return (a.shape.kind == p && b.shape.kind == q) || (a.shape.kind == q && b.shape.kind == p);
+std::uint32_t ability(ShapeKind a, ShapeKind b) {
+    constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
+    const auto has = [&](ShapeKind k) { return a == k || b == k; };
+    if (a == b && a == ShapeKind::plane) return kPairNone;
+    if (!has_surface(a) && !has_surface(b)) return full;
+    // Two surfaces: what ODE says itself. A height field has no inside that a mesh or a half-space
+    // could be measured against.
+    if (has_surface(a) && has_surface(b))
+        return has(ShapeKind::height_field) ? kPairNone
+                                            : kPairPoint | kPairManifold | kPairMovingMesh;
+    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
+    return full | kPairMovingMesh;
 }
 
 class Ode final : public Collider {
 public:
-    explicit Ode(std::uint32_t threads) : Collider(kSupported, threads) {}
+    explicit Ode(std::uint32_t threads) : Collider(kSupported, threads) {
+        for (std::uint32_t i = 0; i < this->threads(); ++i)
+            workspaces_.push_back(std::make_unique<Workspace>());
+    }
 
 private:
     void prepare(Part& part) override {
@@ -44,23 +55,25 @@ private:
     }
 
     void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool raw,
-                       std::uint32_t) override {
+                       std::uint32_t worker) override {
         know_thread();
         for (std::size_t i = 0; i < count; ++i) {
             try {
                 collide({out.contacts, out.stats}, table_.parts()[pairs[i].first],
-                        table_.parts()[pairs[i].second], raw);
+                        table_.parts()[pairs[i].second], raw, *workspaces_[worker]);
             } catch (const std::runtime_error&) {
                 ++out.failures;  // ODE gave up on this pair; the others go on
             }
         }
     }
 
-    static void collide(const Output& out, const Part& a, const Part& b, bool raw) {
-        if (both(a, b, ShapeKind::hull, ShapeKind::mesh))
-            return;  // refused in the table: ODE finds nothing
-        const bool mesh = a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh;
-        (raw ? collide_raw : mesh ? collide_mesh : collide_convex)(out, a, b);
+    static void collide(const Output& out, const Part& a, const Part& b, bool raw,
+                        Workspace& workspace) {
+        if (!ability(a.shape.kind, b.shape.kind)) return;
+        if (raw) return collide_raw(out, a, b);
+        if (has_surface(a.shape.kind) || has_surface(b.shape.kind))
+            return collide_mesh(out, a, b, workspace);
+        collide_convex(out, a, b);
     }
 
     /// ODE keeps scratch memory for each thread.
@@ -70,6 +83,7 @@ private:
     }
 
     Grid grid_;
+    std::vector<std::unique_ptr<Workspace>> workspaces_;  ///< [worker]
 };
 
 [[noreturn]] void give_up(int, const char*, va_list) { throw std::runtime_error("ODE gave up"); }
@@ -97,17 +111,6 @@ Proximity* create(const CreateRequest* request, const char** message) {
     return nullptr;
 }
 void destroy(Proximity* proximity) { delete static_cast<Ode*>(proximity); }
-
-std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    const auto has = [&](ShapeKind k) { return a == k || b == k; };
-    if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
-    if (has(ShapeKind::hull) || has(ShapeKind::compound))
-        return has(ShapeKind::hull) ? kPairNone : kPairPoint;
-    std::uint32_t bits = kPairPoint | kPairManifold | kPairMovingMesh;
-    if (has(ShapeKind::sphere) || has(ShapeKind::plane)) bits |= kPairSeparated;
-    return bits;
-}
 
 PluginTable make_table() {
     PluginTable t = blank_table();
