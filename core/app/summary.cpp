@@ -128,6 +128,7 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
         {Effect::contacts,
          {Stage::detect, Stage::match, Stage::schedule, Stage::begin, Stage::velocities,
           Stage::positions, Stage::remember}},
+        {Effect::contact_reuse, {Stage::reuse}},
         {Effect::restitution, {Stage::restitution}},
         {Effect::kinematics, {Stage::kinematics}},
         {Effect::shock_propagation, {Stage::shock}}};
@@ -188,6 +189,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
                      {"max", s.contact_max},
                      {"end", world.contacts.found_before.size()}};
     j["pairs"] = {{"candidates", detect.broad_pairs}, {"touching", detect.narrow_pairs}};
+    j["contacts"]["kept"] = world.contacts.kept.reused;
     j["contact_sources"] = {{"backend", detect.from_backend},
                             {"clip", detect.from_clip},
                             {"fallback", detect.from_fallback}};

@@ -11,6 +11,7 @@ namespace plumb {
 
 enum class Stage : std::uint32_t {
     detect,       ///< inside the collider's calls
+    reuse,        ///< kept contacts brought to the poses now
     match,        ///< contacts checked and matched with those of the step before
     schedule,     ///< colouring, lanes, effective masses
     kinematics,   ///< scripts of moved bodies
@@ -23,10 +24,10 @@ enum class Stage : std::uint32_t {
     move,         ///< new poses
     remember,     ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 12;
+inline constexpr std::size_t kStageCount = 13;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect", "match",      "schedule",  "kinematics", "restitution", "integrate",
-    "begin",  "velocities", "positions", "shock",      "move",        "remember"};
+    "detect", "reuse",      "match",     "schedule", "kinematics", "restitution", "integrate",
+    "begin",  "velocities", "positions", "shock",    "move",       "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

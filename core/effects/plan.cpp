@@ -38,6 +38,11 @@ Wish contacts(const World& w) {
     return counted(colliding_bodies(w) > 1 ? colliding_bodies(w) : 0, "bodies have shapes",
                    "fewer than two bodies have shapes");
 }
+Wish contact_reuse(const World& w) {
+    if (!contacts(w).wanted) return {false, "there are no contacts"};
+    if (!(w.settings.reuse_distance > 0)) return {false, "reuse_distance is 0"};
+    return {true, "contacts of pairs that hardly moved are kept (reuse_distance > 0)"};
+}
 Wish friction(const World& w) {
     const std::size_t n =
         count_surface_pairs(w, [](const SurfacePair& s) { return s.friction > 0; });
@@ -83,6 +88,7 @@ struct Registered {
 /// In the order of `Effect`. A new effect is a line here, a name there and its stage in step/.
 constexpr std::array<Registered, kEffectCount> kEffects{{
     {"contacts", contacts},
+    {"contact_reuse", contact_reuse},
     {"friction", friction},
     {"turning_friction", turning_friction},
     {"restitution", restitution},

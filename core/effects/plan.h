@@ -18,6 +18,7 @@ namespace plumb {
 
 enum class Effect : std::uint32_t {
     contacts,
+    contact_reuse,
     friction,
     turning_friction,
     restitution,
@@ -27,7 +28,7 @@ enum class Effect : std::uint32_t {
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 9;
+inline constexpr std::size_t kEffectCount = 10;
 
 struct Decision {
     std::string_view name;

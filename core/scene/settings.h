@@ -27,7 +27,9 @@ struct Settings {
     std::uint32_t lanes =
         0;  ///< constraints solved side by side: 1, 4, 8, 16; 0 = widest that the processor runs
 
-    double margin = 0.005;  ///< distance of detection [m]
+    double margin = 0.005;         ///< distance of detection [m]
+    double reuse_distance = 1e-4;  ///< d: while the points of a pair move by less, its contacts are
+                                   ///< kept and not detected again [m]; 0 = always detect
     double stiffness =
         0.2;  ///< s of §6: share of an old overlap removed an iteration, of five a step
     double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out [m/s]
@@ -48,10 +50,11 @@ struct Settings {
 };
 
 /// The paper's step to the letter: no warm start, no alternating sweeps, friction bounds of each
-/// pass apart, no anchors, sums of each pass apart, explicit gyroscopic term.
+/// pass apart, no anchors, sums of each pass apart, explicit gyroscopic term, contacts detected
+/// anew in every step.
 inline void apply_paper_preset(Settings& s) {
     s.warm_start = s.alternate_sweeps = s.shared_cone = s.shared_push = false;
-    s.anchor_stiffness = 0;
+    s.anchor_stiffness = s.reuse_distance = 0;
     s.gyroscopic = Gyroscopic::explicit_;
 }
 

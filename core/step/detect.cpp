@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "step/contact_faults.h"
+#include "step/reuse_contacts.h"
 #include "step/stages.h"
 
 #include <algorithm>
@@ -74,20 +75,36 @@ void take_contacts(World& world, const DetectBuffers& buffers, StepReport& repor
     world.contacts.rejected += report.rejected_contacts;
     if (!std::is_sorted(found.begin(), found.end(), before))
         std::stable_sort(found.begin(), found.end(), before);
-    report.contacts = static_cast<std::uint32_t>(found.size());
+}
+
+/// The solver's workers, for the collider.
+TaskRunner runner_on(Workers& workers) {
+    return {&workers, workers.count(),
+            [](void* ctx, void (*task)(void*, std::uint32_t), void* arg) {
+                static_cast<Workers*>(ctx)->run([=](std::uint32_t worker) { task(arg, worker); });
+            }};
 }
 
 }  // namespace
 
-void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt,
-            StepReport& report, Ledger& ledger) {
+void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximity,
+            DetectBuffers& buffers, double dt, StepReport& report, Ledger& ledger) {
     {
         const StageTimer timer(ledger, Stage::match);
         prepare_request(world, buffers, dt);
     }
-    const DetectRequest request{buffers.poses.data(), buffers.sweeps.data(),
-                                static_cast<std::uint32_t>(buffers.poses.size()), 0,
-                                world.settings.margin};
+    const bool reuse = plan.runs(Effect::contact_reuse);
+    const TaskRunner runner = runner_on(workers);
+    ReuseContext context{&world, &buffers.sweeps};
+    PairFilter filter{};
+    if (reuse) filter = reuse_filter(context);
+    const DetectRequest request{buffers.poses.data(),
+                                buffers.sweeps.data(),
+                                static_cast<std::uint32_t>(buffers.poses.size()),
+                                0,
+                                world.settings.margin,
+                                reuse ? &filter : nullptr,
+                                workers.count() > 1 ? &runner : nullptr};
     Status status;
     {
         const StageTimer timer(ledger, Stage::detect);
@@ -98,9 +115,19 @@ void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double d
         report.collider_failed = true;
         report.message = status.message ? status.message : "the collider failed without a message";
     }
-    const StageTimer timer(ledger, Stage::match);
-    look_at_rooms(buffers, report);
-    take_contacts(world, buffers, report);
+    {
+        const StageTimer timer(ledger, Stage::match);
+        look_at_rooms(buffers, report);
+        take_contacts(world, buffers, report);
+    }
+    if (reuse) {
+        const StageTimer timer(ledger, Stage::reuse);
+        const std::uint32_t unasked = merge_kept_contacts(world);
+        report.faults[static_cast<std::size_t>(ContactFault::unwanted_pair)] += unasked;
+        report.rejected_contacts += unasked;
+        if (report.collider_failed || report.rejected_contacts > 0) forget_kept_contacts(world);
+    }
+    report.contacts = static_cast<std::uint32_t>(world.contacts.found.size());
 }
 
 }  // namespace plumb

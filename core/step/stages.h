@@ -25,10 +25,10 @@ struct DetectBuffers {
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far
-/// they may move in dt [s]. Its status and message go into the report; only
-/// the time inside its call counts as detection.
-void detect(World& world, Proximity& proximity, DetectBuffers& buffers, double dt,
-            StepReport& report, Ledger& ledger);
+/// they may move in dt [s]; pairs that hardly moved keep their contacts. Its status and message go
+/// into the report; only the time inside its call counts as detection.
+void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximity,
+            DetectBuffers& buffers, double dt, StepReport& report, Ledger& ledger);
 
 /// Checks and sorts what was found, and hands each contact the memory of the same contact of the
 /// step before.

@@ -33,7 +33,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
 
     const double dt = world.settings.dt, h = dt / world.settings.substeps;
     if (plan.runs(Effect::contacts)) {
-        detect(world, proximity, stepper.buffers, dt, report, ledger);
+        detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
     }
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {

@@ -5,6 +5,7 @@
 #include <plumb/contact_set.h>
 
 #include "math/types.h"
+#include "world/kept_contacts.h"
 
 #include <cstdint>
 #include <vector>
@@ -44,6 +45,9 @@ struct ContactTable {
     std::vector<ContactMemory> memory_before;
     std::vector<std::uint8_t>
         used;  ///< of those before: whether a contact has taken over its memory
+
+    KeptContacts kept;            ///< only with reuse
+    std::vector<Contact> merged;  ///< memory for putting kept contacts among those found
 
     std::uint64_t rejected =
         0;  ///< contacts left out since the start: a number not finite, or an id unknown

@@ -4,7 +4,6 @@
 #include "manifold/check_shape.h"
 
 #include <limits>
-#include <tuple>
 
 namespace plumb {
 namespace {

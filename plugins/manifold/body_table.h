@@ -13,6 +13,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <tuple>
 #include <unordered_set>
 #include <vector>
 
@@ -85,7 +86,19 @@ private:
 /// Distance up to which two parts are reported [m].
 inline double pair_margin(const Part& a, const Part& b) { return a.reach + b.reach; }
 
-/// Sorts by bodies, then by parts: all pairs of parts of two bodies stand next to each other.
+/// By bodies, then by parts. Parts stand in the order of their bodies, so only compounds make the
+/// two disagree.
+struct PairOrder {
+    const std::vector<Part>& parts;
+    bool operator()(const PartPair& p, const PartPair& q) const {
+        const auto key = [this](const PartPair& x) {
+            return std::tuple(parts[x.first].body, parts[x.second].body, x.first, x.second);
+        };
+        return key(p) < key(q);
+    }
+};
+
+/// Sorts in that order: all pairs of parts of two bodies stand next to each other.
 void sort_pairs(std::vector<PartPair>& pairs, const std::vector<Part>& parts);
 
 /// Bounds of one part in some outer frame, not grown, where `f` is its shape's frame there.

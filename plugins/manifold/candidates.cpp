@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "manifold/candidates.h"
 
+#include <limits>
+
 namespace plumb {
 namespace {
 
 constexpr double kSpare = 0.03;         ///< of a part's least extent, left around it everywhere
-constexpr double kDetectionsAhead = 5;  ///< for which a moving part gets room
+constexpr double kDetectionsAhead = 8;  ///< for which a moving part gets room
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr Aabb kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 bool contains(const Aabb& outer, const Aabb& inner) {
     return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
@@ -20,35 +25,67 @@ double least_extent(const Aabb& b) {
 
 }  // namespace
 
-bool Candidates::hold(const BodyTable& table) {
-    ++since_search_;
-    if (version_ != table.version()) return false;
-    return std::all_of(table.parts().begin(), table.parts().end(), [](const Part& p) {
-        // A part that was lost may come back anywhere; its fat bounds are those of before.
-        return !p.present || contains(p.fat, p.bounds);
-    });
+void Candidates::find_escaped(BodyTable& table) {
+    ++detection_;
+    escaped_.clear();
+    std::vector<Part>& parts = table.parts();
+    for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        // A part that is lost may come back anywhere, and then counts as escaped.
+        if (!parts[i].present)
+            parts[i].fat = kNothing;
+        else if (!contains(parts[i].fat, parts[i].bounds))
+            escaped_.push_back(i);
+    }
 }
 
-void Candidates::fatten(BodyTable& table) {
-    const bool comparable = version_ == table.version() && since_search_ > 0;
-    low_before_.resize(table.parts().size());
+void Candidates::fatten(Part& part, Made& made) const {
+    double spare = kSpare * least_extent(part.bounds);
+    const Vec3 moved = part.bounds.low - made.low;
+    const double travel = std::max({std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)});
+    const auto detections = static_cast<double>(detection_ - made.detection);
+    if (made.detection > 0) spare += kDetectionsAhead * travel / detections;
+    if (!std::isfinite(spare)) spare = 0;  // a half-space
+    const Vec3 grown{spare, spare, spare};
+    part.fat = {part.bounds.low - grown, part.bounds.high + grown};
+    made = {part.bounds.low, detection_};
+}
+
+void Candidates::fatten_all(BodyTable& table) {
+    if (version_ != table.version()) made_.assign(table.parts().size(), Made{});
     for (std::size_t i = 0; i < table.parts().size(); ++i) {
         Part& part = table.parts()[i];
-        if (!part.present) continue;
-        double spare = kSpare * least_extent(part.bounds);
-        if (comparable) {
-            const Vec3 moved = part.bounds.low - low_before_[i];
-            const double travel =
-                std::max({std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)});
-            if (std::isfinite(travel)) spare += kDetectionsAhead * travel / since_search_;
-        }
-        if (!std::isfinite(spare)) spare = 0;  // a half-space
-        const Vec3 grown{spare, spare, spare};
-        part.fat = {part.bounds.low - grown, part.bounds.high + grown};
-        low_before_[i] = part.bounds.low;
+        if (part.present) fatten(part, made_[i]);
     }
     version_ = table.version();
-    since_search_ = 0;
+}
+
+void Candidates::renew_escaped(BodyTable& table) {
+    std::vector<Part>& parts = table.parts();
+    is_escaped_.assign(parts.size(), 0);
+    escaped_fat_.clear();
+    for (std::uint32_t i : escaped_) {
+        fatten(parts[i], made_[i]);
+        is_escaped_[i] = 1;
+        escaped_fat_.push_back(parts[i].fat);
+    }
+    std::erase_if(wide_,
+                  [&](const PartPair& p) { return is_escaped_[p.first] || is_escaped_[p.second]; });
+
+    renewed_.clear();
+    for (std::uint32_t j = 0; j < parts.size(); ++j) {
+        if (!parts[j].present) continue;
+        const Aabb fat = parts[j].fat;
+        for (std::size_t k = 0; k < escaped_.size(); ++k) {
+            const std::uint32_t i = escaped_[k];
+            if (!overlap(fat, escaped_fat_[k]) || (is_escaped_[j] && j <= i)) continue;
+            if (table.wanted(parts[i], parts[j]))
+                renewed_.push_back({std::min(i, j), std::max(i, j)});
+        }
+    }
+    sort_pairs(renewed_, parts);
+    const auto middle = static_cast<std::ptrdiff_t>(wide_.size());
+    wide_.insert(wide_.end(), renewed_.begin(), renewed_.end());
+    std::inplace_merge(wide_.begin(), wide_.begin() + middle, wide_.end(), PairOrder{parts});
 }
 
 void Candidates::take_overlapping(std::vector<PartPair>& near, const BodyTable& table) const {
@@ -65,7 +102,9 @@ void Candidates::apply(const PairFilter& filter, std::vector<PartPair>& pairs,
     const auto ids = [&](const PartPair& p) {
         return CandidatePair{table.parts()[p.first].body, table.parts()[p.second].body};
     };
-    const auto same = [](const CandidatePair& p, const CandidatePair& q) { return p.a == q.a && p.b == q.b; };
+    const auto same = [](const CandidatePair& p, const CandidatePair& q) {
+        return p.a == q.a && p.b == q.b;
+    };
     asked_.clear();
     for (const PartPair& pair : pairs)
         if (asked_.empty() || !same(asked_.back(), ids(pair))) asked_.push_back(ids(pair));

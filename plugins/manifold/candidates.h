@@ -16,14 +16,18 @@ namespace plumb {
 class Candidates {
 public:
     /// Puts into `near` all pairs that overlap and are wanted, sorted. `search` fills a list with
-    /// the pairs of parts whose fat bounds overlap, in any order.
+    /// the pairs of parts whose fat bounds overlap, in any order; it is asked only where many parts
+    /// left theirs. Few are compared with all others here.
     template <class Search>
     void find(std::vector<PartPair>& near, BodyTable& table, Search&& search) {
-        if (!hold(table)) {
-            fatten(table);
+        find_escaped(table);
+        if (version_ != table.version() || escaped_.size() > table.parts().size() / 16) {
+            fatten_all(table);
             wide_.clear();
             search(wide_);
             sort_pairs(wide_, table.parts());
+        } else if (!escaped_.empty()) {
+            renew_escaped(table);
         }
         take_overlapping(near, table);
     }
@@ -32,16 +36,26 @@ public:
     void apply(const PairFilter& filter, std::vector<PartPair>& pairs, const BodyTable& table);
 
 private:
-    /// Whether every part is inside its fat bounds, and the parts are still the same.
-    bool hold(const BodyTable& table);
-    void fatten(BodyTable& table);
+    /// A part's bounds when its fat ones were made.
+    struct Made {
+        Vec3 low;                 ///< their lower corner [m]
+        std::uint64_t detection;  ///< which
+    };
+
+    void find_escaped(BodyTable& table);
+    void fatten_all(BodyTable& table);
+    void fatten(Part& part, Made& made) const;
+    void renew_escaped(BodyTable& table);
     void take_overlapping(std::vector<PartPair>& near, const BodyTable& table) const;
 
-    std::vector<PartPair> wide_;
-    std::vector<Vec3> low_before_;  ///< [part] corner of its bounds at the last search [m]
+    std::vector<PartPair> wide_, renewed_;
+    std::vector<std::uint32_t> escaped_;  ///< parts that left their fat bounds
+    std::vector<std::uint8_t> is_escaped_;
+    std::vector<Aabb> escaped_fat_;  ///< [escaped part]
+    std::vector<Made> made_;         ///< [part]
     std::uint64_t version_ = ~std::uint64_t{0};
-    std::uint32_t since_search_ = 0;  ///< detections
-    std::vector<CandidatePair> asked_;     ///< by the filter, each once
+    std::uint64_t detection_ = 0;       ///< counted
+    std::vector<CandidatePair> asked_;  ///< by the filter, each once
     std::vector<std::uint8_t> wanted_;
 };
 

@@ -85,10 +85,10 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
     const Settings settings;
     [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
                                   position_iterations, method, precision, threads, lanes, margin,
-                                  stiffness, recovery_speed, collision_depth, anchor_stiffness,
-                                  gyroscopic, warm_start, alternate_sweeps, shared_push,
-                                  shared_cone, require, forbid] = settings;
-    constexpr std::size_t kMembers = 22, kPreset = 1;
+                                  reuse_distance, stiffness, recovery_speed, collision_depth,
+                                  anchor_stiffness, gyroscopic, warm_start, alternate_sweeps,
+                                  shared_push, shared_cone, require, forbid] = settings;
+    constexpr std::size_t kMembers = 23, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "dt",

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "step/reuse_contacts.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace plumb {
+namespace {
+
+std::tuple<std::uint32_t, std::uint32_t> key(const KeptPair& p) { return {p.a, p.b}; }
+std::tuple<std::uint32_t, std::uint32_t> key(const Contact& c) { return {c.a, c.b}; }
+
+/// The smaller body of a pair, whose points are watched in the frame of the other.
+struct Watched {
+    std::uint32_t small, large;
+};
+Watched watched(const Bodies& b, std::uint32_t i, std::uint32_t j) {
+    return b.reach[i] < b.reach[j] ? Watched{i, j} : Watched{j, i};
+}
+
+void measure_pose(KeptPair& pair, const Bodies& b) {
+    const auto [small, large] = watched(b, pair.a, pair.b);
+    const Quaterniond back = b.orientation[large].conjugate();
+    pair.offset = back * (b.position[small] - b.position[large]);
+    pair.turn = back * b.orientation[small];
+}
+
+/// Bound on how far any point of the smaller body has moved in the other's frame [m].
+double motion(const KeptPair& then, const KeptPair& now, double reach) {
+    // A turn by θ moves a point at distance r by the chord 2 r sin(θ/2).
+    const double half_chord = (then.turn.conjugate() * now.turn).vec().norm();
+    return (now.offset - then.offset).norm() + 2 * half_chord * reach;
+}
+
+/// Whether the contacts that `then` has will do at the poses of `now`.
+bool will_do(const KeptPair& then, const KeptPair& now, const World& world) {
+    const Bodies& b = world.bodies;
+    const double distance = world.settings.reuse_distance;
+    const double reach = b.reach[watched(b, now.a, now.b).small];
+    return then.margin >= now.margin - distance && motion(then, now, reach) <= distance;
+}
+
+void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uint8_t* wanted) {
+    const auto& context = *static_cast<const ReuseContext*>(ctx);
+    World& world = *context.world;
+    KeptContacts& kept = world.contacts.kept;
+    const std::vector<double>& sweeps = *context.sweeps;
+    auto old = kept.pairs_before.begin();
+    for (std::uint32_t i = 0; i < count; ++i) {
+        KeptPair now{pairs[i].a, pairs[i].b, 0, 0, true, 0, {}, {}};
+        now.margin = world.settings.margin + sweeps[now.a] + sweeps[now.b];
+        measure_pose(now, world.bodies);
+        while (old != kept.pairs_before.end() && key(*old) < key(now)) ++old;
+        if (old != kept.pairs_before.end() && key(*old) == key(now) && will_do(*old, now, world)) {
+            now = *old;
+            now.fresh = false;
+        }
+        wanted[i] = now.fresh;
+        kept.pairs.push_back(now);
+    }
+}
+
+/// Drops contacts of the pool that no pair has any more, once they are the larger part of it.
+void compact(KeptContacts& kept) {
+    std::size_t live = 0;
+    for (const KeptPair& pair : kept.pairs) live += pair.count;
+    if (kept.pool.size() < 2 * live + 256) return;
+    std::vector<Contact> pool;
+    pool.reserve(kept.pool.capacity());
+    for (KeptPair& pair : kept.pairs) {
+        const auto from = kept.pool.begin() + pair.first;
+        pair.first = static_cast<std::uint32_t>(pool.size());
+        pool.insert(pool.end(), from, from + pair.count);
+    }
+    kept.pool.swap(pool);
+}
+
+Contact in_bodies(const Contact& c, const Bodies& b) {
+    const auto back = [&](std::uint32_t body, const Vec3& v, const Vector3d& origin) {
+        return to_plain(Vector3d(b.orientation[body].conjugate() * (to_eigen(v) - origin)));
+    };
+    Contact local = c;
+    local.point_a = back(c.a, c.point_a, b.position[c.a]);
+    local.point_b = back(c.b, c.point_b, b.position[c.b]);
+    local.normal = back(c.a, c.normal, Vector3d::Zero());
+    return local;
+}
+
+Contact in_world(const Contact& local, const Bodies& b) {
+    const Vector3d on_a = b.position[local.a] + b.orientation[local.a] * to_eigen(local.point_a);
+    const Vector3d on_b = b.position[local.b] + b.orientation[local.b] * to_eigen(local.point_b);
+    const Vector3d n = b.orientation[local.a] * to_eigen(local.normal);
+    Contact c = local;
+    c.point_a = to_plain(on_a), c.point_b = to_plain(on_b), c.normal = to_plain(n);
+    c.gap = n.dot(on_a - on_b) - c.radius_a - c.radius_b;
+    return c;
+}
+
+}  // namespace
+
+PairFilter reuse_filter(ReuseContext& context) {
+    KeptContacts& kept = context.world->contacts.kept;
+    kept.pairs_before.swap(kept.pairs);
+    kept.pairs.clear();
+    return {&context, choose};
+}
+
+std::uint32_t merge_kept_contacts(World& world) {
+    ContactTable& table = world.contacts;
+    KeptContacts& kept = table.kept;
+    std::vector<Contact>& merged = table.merged;
+    merged.clear();
+    auto found = table.found.begin();
+    const auto take_found_before = [&](auto bound) {
+        while (found != table.found.end() && key(*found) < bound) merged.push_back(*found++);
+    };
+    kept.reused = 0;
+    std::uint32_t unasked = 0;
+    for (KeptPair& pair : kept.pairs) {
+        take_found_before(key(pair));
+        if (!pair.fresh) {
+            for (std::uint32_t i = 0; i < pair.count; ++i)
+                merged.push_back(in_world(kept.pool[pair.first + i], world.bodies));
+            kept.reused += pair.count;
+            for (; found != table.found.end() && key(*found) == key(pair); ++found) ++unasked;
+            continue;
+        }
+        pair.first = static_cast<std::uint32_t>(kept.pool.size());
+        for (; found != table.found.end() && key(*found) == key(pair); ++found) {
+            kept.pool.push_back(in_bodies(*found, world.bodies));
+            merged.push_back(*found);
+        }
+        pair.count = static_cast<std::uint32_t>(kept.pool.size()) - pair.first;
+    }
+    merged.insert(merged.end(), found, table.found.end());
+    table.found.swap(merged);
+    compact(kept);
+    return unasked;
+}
+
+void forget_kept_contacts(World& world) {
+    world.contacts.kept.pairs.clear();
+    world.contacts.kept.pool.clear();
+}
+
+}  // namespace plumb
