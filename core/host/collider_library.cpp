@@ -2,6 +2,7 @@
 #include "host/collider_library.h"
 
 #include "host/collider_call.h"
+#include "host/conflicts.h"
 #include "host/exception_text.h"
 #include "host/shape_pairs.h"
 #include "host/watched_collider.h"
@@ -139,6 +140,11 @@ void ColliderLibrary::check_abilities(const ColliderInfo& collider, const Scene&
 }
 
 ProximityPtr ColliderLibrary::create(const ColliderInfo& collider, std::uint32_t threads) const {
+    const std::string conflict = conflict_of(*collider.table);
+    if (!conflict.empty())
+        throw ColliderError("collider \"" + collider.name + "\" must not share a process with \"" +
+                            conflict +
+                            "\", which this one has used; run it in a process of its own");
     const CreateRequest request{threads, 0, nullptr};
     const char* message = nullptr;
     Proximity* p = nullptr;
@@ -152,6 +158,7 @@ ProximityPtr ColliderLibrary::create(const ColliderInfo& collider, std::uint32_t
     if (!p)
         throw ColliderError("collider \"" + collider.name +
                             "\" could not be made: " + (message ? message : "it gave no reason"));
+    note_use(*collider.table);
     const auto destroy = [](Proximity* watched) { delete static_cast<WatchedCollider*>(watched); };
     return ProximityPtr(new WatchedCollider(*p, *collider.table), ProximityDeleter{destroy});
 }

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+/// Which plugins have been used in this process, and which may therefore not be used any more.
+#pragma once
+
+#include <plumb/plugin.h>
+
+#include <string>
+
+namespace plumb {
+
+/// Name of a plugin used before with which this one must not share a process, by the table of
+/// either; "" where there is none.
+std::string conflict_of(const PluginTable& table);
+
+/// Notes that a plugin has made a collider. The table must stay until the process ends.
+void note_use(const PluginTable& table);
+
+}  // namespace plumb
