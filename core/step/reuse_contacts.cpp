@@ -40,6 +40,13 @@ bool will_do(const KeptPair& then, const KeptPair& now, const World& world) {
     return then.margin >= now.margin - distance && motion(then, now, reach) <= distance;
 }
 
+/// Whether candidate i is of bodies that there are, and stands behind the one before it.
+bool in_order(const CandidatePair* pairs, std::uint32_t i, std::size_t bodies) {
+    const CandidatePair& p = pairs[i];
+    if (!(p.a < p.b) || p.b >= bodies) return false;
+    return i == 0 || std::tie(pairs[i - 1].a, pairs[i - 1].b) < std::tie(p.a, p.b);
+}
+
 void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uint8_t* wanted) {
     const auto& context = *static_cast<const ReuseContext*>(ctx);
     World& world = *context.world;
@@ -47,6 +54,8 @@ void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uin
     const std::vector<double>& sweeps = *context.sweeps;
     auto old = kept.pairs_before.begin();
     for (std::uint32_t i = 0; i < count; ++i) {
+        wanted[i] = 1;
+        if (!in_order(pairs, i, sweeps.size())) continue;  // a fault of the collider: nothing kept
         KeptPair now{pairs[i].a, pairs[i].b, 0, 0, true, 0, {}, {}};
         now.margin = world.settings.margin + sweeps[now.a] + sweeps[now.b];
         measure_pose(now, world.bodies);
