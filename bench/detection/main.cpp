@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     try {
-        plumb::bench::measure(plumb::read_scene(argv[1]), argc > 2 ? std::atoi(argv[2]) : 1000,
+        plumb::bench::measure(plumb::read_scene(argv[1]), argc > 2 ? std::atoi(argv[2]) : 2000,
                               argc > 3 ? std::atoi(argv[3]) : 200);
     } catch (const std::exception& e) {
         std::fprintf(stderr, "%s: %s\n", argv[0], e.what());

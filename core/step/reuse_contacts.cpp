@@ -95,14 +95,21 @@ Contact in_bodies(const Contact& c, const Bodies& b) {
     return local;
 }
 
-Contact in_world(const Contact& local, const Bodies& b) {
-    const Vector3d on_a = b.position[local.a] + b.orientation[local.a] * to_eigen(local.point_a);
-    const Vector3d on_b = b.position[local.b] + b.orientation[local.b] * to_eigen(local.point_b);
-    const Vector3d n = b.orientation[local.a] * to_eigen(local.normal);
-    Contact c = local;
-    c.point_a = to_plain(on_a), c.point_b = to_plain(on_b), c.normal = to_plain(n);
-    c.gap = n.dot(on_a - on_b) - c.radius_a - c.radius_b;
-    return c;
+/// Appends the contacts of a kept pair, at the poses now.
+void append_at_poses(std::vector<Contact>& merged, const KeptContacts& kept, const KeptPair& pair,
+                     const Bodies& b) {
+    if (pair.count == 0) return;
+    const Vector3d at_a = b.position[pair.a], at_b = b.position[pair.b];
+    const Matrix3d turn_a = b.orientation[pair.a].toRotationMatrix(),
+                   turn_b = b.orientation[pair.b].toRotationMatrix();
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+        Contact& c = merged.emplace_back(kept.pool[i]);
+        const Vector3d on_a = at_a + turn_a * to_eigen(c.point_a);
+        const Vector3d on_b = at_b + turn_b * to_eigen(c.point_b);
+        const Vector3d n = turn_a * to_eigen(c.normal);
+        c.point_a = to_plain(on_a), c.point_b = to_plain(on_b), c.normal = to_plain(n);
+        c.gap = n.dot(on_a - on_b) - c.radius_a - c.radius_b;
+    }
 }
 
 }  // namespace
@@ -128,8 +135,7 @@ std::uint32_t merge_kept_contacts(World& world) {
     for (KeptPair& pair : kept.pairs) {
         take_found_before(key(pair));
         if (!pair.fresh) {
-            for (std::uint32_t i = 0; i < pair.count; ++i)
-                merged.push_back(in_world(kept.pool[pair.first + i], world.bodies));
+            append_at_poses(merged, kept, pair, world.bodies);
             kept.reused += pair.count;
             for (; found != table.found.end() && key(*found) == key(pair); ++found) ++unasked;
             continue;

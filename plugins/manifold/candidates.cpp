@@ -29,11 +29,14 @@ void Candidates::find_escaped(BodyTable& table) {
     ++detection_;
     escaped_.clear();
     std::vector<Part>& parts = table.parts();
+    places_.resize(parts.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
+        Part& part = parts[i];
+        places_[i] = {part.present ? part.bounds : kNothing, part.body};
         // A part that is lost may come back anywhere, and then counts as escaped.
-        if (!parts[i].present)
-            parts[i].fat = kNothing;
-        else if (!contains(parts[i].fat, parts[i].bounds))
+        if (!part.present)
+            part.fat = kNothing;
+        else if (!contains(part.fat, part.bounds))
             escaped_.push_back(i);
     }
 }
@@ -88,19 +91,15 @@ void Candidates::renew_escaped(BodyTable& table) {
     std::inplace_merge(wide_.begin(), wide_.begin() + middle, wide_.end(), PairOrder{parts});
 }
 
-void Candidates::take_overlapping(std::vector<PartPair>& near, const BodyTable& table) const {
-    const std::vector<Part>& parts = table.parts();
+void Candidates::take_overlapping(std::vector<PartPair>& near) const {
     near.clear();
-    for (const PartPair& pair : wide_) {
-        const Part &a = parts[pair.first], &b = parts[pair.second];
-        if (a.present && b.present && overlap(a.bounds, b.bounds)) near.push_back(pair);
-    }
+    for (const PartPair& pair : wide_)
+        if (overlap(places_[pair.first].bounds, places_[pair.second].bounds)) near.push_back(pair);
 }
 
-void Candidates::apply(const PairFilter& filter, std::vector<PartPair>& pairs,
-                       const BodyTable& table) {
-    const auto ids = [&](const PartPair& p) {
-        return CandidatePair{table.parts()[p.first].body, table.parts()[p.second].body};
+void Candidates::apply(const PairFilter& filter, std::vector<PartPair>& pairs) {
+    const auto ids = [this](const PartPair& p) {
+        return CandidatePair{places_[p.first].body, places_[p.second].body};
     };
     const auto same = [](const CandidatePair& p, const CandidatePair& q) {
         return p.a == q.a && p.b == q.b;

@@ -29,11 +29,11 @@ public:
         } else if (!escaped_.empty()) {
             renew_escaped(table);
         }
-        take_overlapping(near, table);
+        take_overlapping(near);
     }
 
     /// Leaves out the pairs that the caller has contacts for. `pairs` stand sorted.
-    void apply(const PairFilter& filter, std::vector<PartPair>& pairs, const BodyTable& table);
+    void apply(const PairFilter& filter, std::vector<PartPair>& pairs);
 
 private:
     /// A part's bounds when its fat ones were made.
@@ -46,9 +46,16 @@ private:
     void fatten_all(BodyTable& table);
     void fatten(Part& part, Made& made) const;
     void renew_escaped(BodyTable& table);
-    void take_overlapping(std::vector<PartPair>& near, const BodyTable& table) const;
+    void take_overlapping(std::vector<PartPair>& near) const;
+
+    /// What a walk over the pairs reads of a part, side by side in memory.
+    struct Place {
+        Aabb bounds;  ///< nothing where it is absent
+        std::uint32_t body;
+    };
 
     std::vector<PartPair> wide_, renewed_;
+    std::vector<Place> places_;           ///< [part]
     std::vector<std::uint32_t> escaped_;  ///< parts that left their fat bounds
     std::vector<std::uint8_t> is_escaped_;
     std::vector<Aabb> escaped_fat_;  ///< [escaped part]

@@ -44,7 +44,7 @@ Status Collider::detect_all(const DetectRequest& request, const ContactSink* sin
     // arguments.
     candidates_.find(pairs_, table_, [this](std::vector<PartPair>& found) { find_pairs(found); });
     stats_.broad_pairs = pairs_.size();
-    if (request.filter) candidates_.apply(*request.filter, pairs_, table_);
+    if (request.filter) candidates_.apply(*request.filter, pairs_);
     place_parts();
     queries_.forget();
     run_blocks(request,
