@@ -34,6 +34,24 @@ struct Simulation::Parts {
             throw std::out_of_range("there is no body " + std::to_string(body));
         return body;
     }
+
+    /// The collider, for questions at the poses of its last detection.
+    Proximity& placed() const {
+        if (!stepper.plan.runs(Effect::contacts))
+            throw std::logic_error("the scene has no contacts, so the collider has no bodies");
+        if (world.steps == 0)
+            throw std::logic_error("the collider has no poses before the first step");
+        return proximity;
+    }
+
+    /// Throws unless the collider answered a question.
+    void expect_answer(const Status& status, const std::string& question) const {
+        if (status.code == Status::ok) return;
+        const std::string sentence = "collider \"" + collider_name + "\" gave no " + question +
+                                     ": " + (status.message ? status.message : "it gave no reason");
+        if (status.code == Status::bad_argument) throw std::invalid_argument(sentence);
+        throw ColliderError(sentence);
+    }
 };
 
 namespace {
@@ -75,6 +93,23 @@ DetectStats Simulation::detect_stats() const { return parts_->proximity.stats();
 const std::string& Simulation::collider_name() const { return parts_->collider_name; }
 const std::string& Simulation::collider_version() const { return parts_->collider_version; }
 void Simulation::capture(Frame& frame) const { plumb::capture(parts_->world, frame); }
+
+std::optional<RayHit> Simulation::cast_ray(const Eigen::Vector3d& origin,
+                                           const Eigen::Vector3d& direction, double length,
+                                           std::uint32_t mask) {
+    const RayRequest ray{to_plain(origin), to_plain(direction), length, mask, 0};
+    RayHit hit{kNoBody, 0, 0, {0, 0, 0}};
+    parts_->expect_answer(parts_->placed().cast_rays(&ray, &hit, 1), "hit of a ray");
+    if (hit.body == kNoBody) return std::nullopt;
+    return hit;
+}
+
+Contact Simulation::closest(std::uint32_t body_a, std::uint32_t body_b) {
+    parts_->checked(body_a), parts_->checked(body_b);
+    Contact contact{};
+    parts_->expect_answer(parts_->placed().closest(body_a, body_b, &contact), "closest points");
+    return contact;
+}
 
 void Simulation::set_velocity(std::uint32_t body, const Eigen::Vector3d& v,
                               const Eigen::Vector3d& w) {

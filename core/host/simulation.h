@@ -17,7 +17,9 @@
 #include "step/report.h"
 #include "world/world.h"
 
+#include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace plumb {
@@ -48,6 +50,22 @@ public:
     const std::string& collider_version() const;
 
     void capture(Frame& frame) const;
+
+    /// The first body that a ray meets: from `origin` [m] along the unit vector `direction`, at
+    /// most `length` [m]; bodies with (group & mask) != 0. Nothing where it meets none.
+    ///
+    /// This and `closest` ask the collider where the bodies stood when it was last asked for
+    /// contacts: at the beginning of the last step. Both throw std::logic_error before the first
+    /// step and in scenes without contacts, std::invalid_argument for bad numbers, and
+    /// ColliderError where the collider cannot answer.
+    std::optional<RayHit> cast_ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
+                                   double length = std::numeric_limits<double>::infinity(),
+                                   std::uint32_t mask = ~0u);
+
+    /// The deepest or nearest contact of two bodies at any distance, whatever their filters; the
+    /// body of the lower index is a, and the normal points from b to a. Throws std::out_of_range
+    /// where there is no such body.
+    Contact closest(std::uint32_t body_a, std::uint32_t body_b);
 
     /// Sets the velocity of the centre of mass [m/s] and the angular velocity [rad/s] of a body.
     void set_velocity(std::uint32_t body, const Eigen::Vector3d& velocity,

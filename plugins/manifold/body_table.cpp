@@ -133,10 +133,19 @@ Aabb bounds_at(const Part& part, const Frame& f) {
     return s.kind == ShapeKind::height_field ? bounds_of_solid(box, f) : box;
 }
 
+BodyTable::Range BodyTable::parts_of(std::uint32_t body) const {
+    const auto first =
+        std::lower_bound(parts_.begin(), parts_.end(), body,
+                         [](const Part& p, std::uint32_t id) { return p.body < id; });
+    const auto last =
+        std::find_if(first, parts_.end(), [body](const Part& p) { return p.body != body; });
+    return {static_cast<std::uint32_t>(first - parts_.begin()),
+            static_cast<std::uint32_t>(last - parts_.begin())};
+}
+
 bool BodyTable::knows(std::uint32_t body) const {
-    const auto it = std::lower_bound(parts_.begin(), parts_.end(), body,
-                                     [](const Part& p, std::uint32_t id) { return p.body < id; });
-    return it != parts_.end() && it->body == body;
+    const Range range = parts_of(body);
+    return range.first < range.last;
 }
 
 Status BodyTable::add(std::uint32_t body, const ShapePlacement& placement,

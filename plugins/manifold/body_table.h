@@ -62,6 +62,12 @@ public:
     std::vector<Part>& parts() { return parts_; }
     const std::vector<Part>& parts() const { return parts_; }
 
+    /// The parts of a body, as indices from first to before last: none of a body that is not here.
+    struct Range {
+        std::uint32_t first, last;
+    };
+    Range parts_of(std::uint32_t body) const;
+
     /// Whether two parts are to be tested, by mobility, filters and exclusions (not by place).
     bool wanted(const Part& a, const Part& b) const;
 

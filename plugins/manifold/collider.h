@@ -39,6 +39,7 @@ public:
     Status detect_particles(const ParticleRequest& request, const ContactSink* sinks,
                             std::uint32_t sink_count) noexcept final;
     Status cast_rays(const RayRequest* rays, RayHit* hits, std::uint32_t count) noexcept final;
+    Status closest(std::uint32_t body_a, std::uint32_t body_b, Contact* result) noexcept final;
 
 protected:
     /// Called once for each new part, before it is first placed.
@@ -75,6 +76,9 @@ private:
     void run_block(std::uint32_t index, bool raw, const PartPair* pairs,
                    std::size_t count) noexcept;
     Status gather(const ContactSink* sinks);
+    Status closest_of_bodies(BodyTable::Range a, BodyTable::Range b, Contact& result);
+    bool closest_of_pair(Contact& result, const PartPair& pair);
+    bool deepest_of_pair(Contact& result, const PartPair& pair);
 
     const Supported& supported_;
     std::uint32_t threads_;
@@ -82,6 +86,7 @@ private:
     Queries queries_{table_};
     std::vector<PartPair> pairs_;
     std::vector<Block> blocks_;  ///< [worker]
+    ContactList meeting_;        ///< of one pair of parts that meet, for `closest`
     DetectStats stats_{};
 };
 

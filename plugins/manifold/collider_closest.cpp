@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+/// Closest contact of two bodies: the best of their parts, each pair at any distance. Where parts
+/// meet, the plugin's own narrow phase says how deep.
+#include "manifold/closest.h"
+#include "manifold/collider.h"
+#include "manifold/guarded.h"
+
+namespace plumb {
+
+Status Collider::closest(std::uint32_t body_a, std::uint32_t body_b, Contact* result) noexcept {
+    return guarded([&] {
+        if (!result) return Status{Status::bad_argument, 0, "closest needs room for its answer"};
+        if (body_a == body_b) return Status{Status::bad_argument, 0, "the two bodies are one"};
+        const auto a = table_.parts_of(std::min(body_a, body_b));
+        const auto b = table_.parts_of(std::max(body_a, body_b));
+        if (a.first == a.last || b.first == b.last)
+            return Status{Status::bad_argument, 0, "one of the two bodies is unknown"};
+        if (!table_.parts()[a.first].present || !table_.parts()[b.first].present)
+            return Status{Status::bad_argument, 0,
+                          "the last detection had no finite pose for one of the two bodies"};
+        return closest_of_bodies(a, b, *result);
+    });
+}
+
+Status Collider::closest_of_bodies(BodyTable::Range a, BodyTable::Range b, Contact& result) {
+    Contact best{}, next{};
+    best.gap = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = a.first; i < a.last; ++i)
+        for (std::uint32_t k = b.first; k < b.last; ++k) {
+            const double reach = std::max(best.gap, 0.0);
+            const double apart =
+                squared_distance(bounds_of(table_.parts()[i]), bounds_of(table_.parts()[k]));
+            if (apart > reach * reach || !closest_of_pair(next, {i, k})) continue;
+            if (next.gap < best.gap) best = next;
+        }
+    if (!std::isfinite(best.gap))
+        return {Status::unsupported, 0, "these two bodies have no closest points here"};
+    result = best;
+    return ok_status();
+}
+
+bool Collider::closest_of_pair(Contact& result, const PartPair& pair) {
+    const Part &a = table_.parts()[pair.first], &b = table_.parts()[pair.second];
+    const Closeness answer = closest_of_parts(result, a, b);
+    if (answer != Closeness::meet) return answer == Closeness::found;
+    return deepest_of_pair(result, pair) || closest_of_smaller(result, a, b);
+}
+
+bool Collider::deepest_of_pair(Contact& result, const PartPair& pair) {
+    DetectStats stats{};
+    std::uint32_t failures = 0;
+    meeting_.clear();
+    collide_block({meeting_, stats, failures}, &pair, 1, false, 0);
+    meeting_.finish();
+    if (meeting_.size() == 0) return false;
+    result = *std::min_element(meeting_.begin(), meeting_.end(),
+                               [](const Contact& p, const Contact& q) { return p.gap < q.gap; });
+    return true;
+}
+
+}  // namespace plumb
