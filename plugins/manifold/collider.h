@@ -5,6 +5,7 @@
 #pragma once
 
 #include "manifold/candidates.h"
+#include "manifold/closest.h"
 #include "manifold/manifold.h"
 #include "manifold/queries.h"
 
@@ -77,7 +78,7 @@ private:
                    std::size_t count) noexcept;
     Status gather(const ContactSink* sinks);
     Status closest_of_bodies(BodyTable::Range a, BodyTable::Range b, Contact& result);
-    bool closest_of_pair(Contact& result, const PartPair& pair);
+    Closeness closest_of_pair(Contact& result, const PartPair& pair);
     bool deepest_of_pair(Contact& result, const PartPair& pair);
 
     const Supported& supported_;

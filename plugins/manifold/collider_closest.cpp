@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Closest contact of two bodies: the best of their parts, each pair at any distance. Where parts
 /// meet, the plugin's own narrow phase says how deep.
-#include "manifold/closest.h"
 #include "manifold/collider.h"
 #include "manifold/guarded.h"
 
@@ -30,20 +29,25 @@ Status Collider::closest_of_bodies(BodyTable::Range a, BodyTable::Range b, Conta
             const double reach = std::max(best.gap, 0.0);
             const double apart =
                 squared_distance(bounds_of(table_.parts()[i]), bounds_of(table_.parts()[k]));
-            if (apart > reach * reach || !closest_of_pair(next, {i, k})) continue;
-            if (next.gap < best.gap) best = next;
+            if (apart > reach * reach) continue;
+            const Closeness answer = closest_of_pair(next, {i, k});
+            if (answer == Closeness::meet)
+                return {Status::failed, 1,
+                        "the two bodies meet where the back-end has no contact of their shapes"};
+            if (answer == Closeness::found && next.gap < best.gap) best = next;
         }
     if (!std::isfinite(best.gap))
-        return {Status::unsupported, 0, "these two bodies have no closest points here"};
+        return {Status::unsupported, 0, "two half-spaces have no closest points"};
     result = best;
     return ok_status();
 }
 
-bool Collider::closest_of_pair(Contact& result, const PartPair& pair) {
+Closeness Collider::closest_of_pair(Contact& result, const PartPair& pair) {
     const Part &a = table_.parts()[pair.first], &b = table_.parts()[pair.second];
     const Closeness answer = closest_of_parts(result, a, b);
-    if (answer != Closeness::meet) return answer == Closeness::found;
-    return deepest_of_pair(result, pair) || closest_of_smaller(result, a, b);
+    if (answer != Closeness::meet) return answer;
+    const bool found = deepest_of_pair(result, pair) || closest_of_smaller(result, a, b);
+    return found ? Closeness::found : Closeness::meet;
 }
 
 bool Collider::deepest_of_pair(Contact& result, const PartPair& pair) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Rays and closest points through the facade, on every plugin, against closed forms; and what is
 /// thrown where there is no answer.
+#include "scene/error.h"
 #include "support/scenes.h"
 
 namespace plumb::test {
@@ -65,7 +66,7 @@ TEST_P(SimulationQueries, ThrowASentenceWhereThereIsNoAnswer) {
 
 INSTANTIATE_TEST_SUITE_P(All, SimulationQueries,
                          testing::Values("reference", "ode", "bullet", "fcl"),
-                         [](const auto& info) { return info.param; });
+                         [](const auto& param_info) { return param_info.param; });
 
 /// Answers no questions but the one for contacts.
 class NoQueries : public Proximity {
@@ -89,7 +90,7 @@ void expect_refusal(Question&& question, const std::string& sentence) {
     }
 }
 
-TEST(SimulationQueries, PassOnTheSentenceOfAColliderThatCannot) {
+TEST(SimulationOnABlindCollider, PassesOnWhatTheColliderSays) {
     NoQueries collider;
     Simulation simulation(in_the_air(), collider, "blind");
     simulation.step();
