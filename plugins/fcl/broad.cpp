@@ -31,7 +31,8 @@ struct Meeting {
     const BodyTable& table;
 
     void meet(std::uint32_t i, std::uint32_t j) {
-        if (table.wanted(table.parts()[i], table.parts()[j]))
+        const Part &a = table.parts()[i], &b = table.parts()[j];
+        if (overlap(a.fat, b.fat) && table.wanted(a, b))
             pairs.push_back({std::min(i, j), std::max(i, j)});
     }
 };
@@ -50,9 +51,9 @@ struct Tree::Contents {
     void update(const BodyTable& table);
 
     fcl::DynamicAABBTreeCollisionManagerd manager;
-    std::vector<std::unique_ptr<Leaf>> leaves;  ///< [part], nullptr: a half-space
+    std::vector<std::unique_ptr<Leaf>> leaves;  ///< [part]
     std::vector<fcl::CollisionObjectd*> moved, fresh;
-    std::vector<std::uint32_t> unbounded;  ///< half-spaces that are present
+    std::vector<std::uint32_t> unbounded;  ///< parts that are present
     std::uint64_t version = ~std::uint64_t{0};
 };
 
@@ -60,9 +61,7 @@ void Tree::Contents::refill(const BodyTable& table) {
     manager.clear();
     leaves.clear();
     for (std::uint32_t i = 0; i < table.parts().size(); ++i) {
-        const Part& part = table.parts()[i];
-        const bool bounded = part.shape.kind != ShapeKind::plane;
-        leaves.push_back(bounded ? std::make_unique<Leaf>(part, i) : nullptr);
+        leaves.push_back(std::make_unique<Leaf>(table.parts()[i], i));
     }
     version = table.version();
 }
@@ -74,9 +73,9 @@ void Tree::Contents::update(const BodyTable& table) {
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
         const Part& part = table.parts()[i];
         Leaf* leaf = leaves[i].get();
-        if (!leaf) {
-            if (part.present) unbounded.push_back(i);
-        } else if (part.present) {
+        const bool bounded = finite(part.fat.low) && finite(part.fat.high);
+        if (part.present && !bounded) unbounded.push_back(i);
+        if (part.present && bounded) {
             if (leaf->set_bounds(part.fat)) (leaf->in_tree ? moved : fresh).push_back(leaf);
             leaf->in_tree = true;
         } else if (leaf->in_tree) {
@@ -99,7 +98,7 @@ void Tree::find_pairs(std::vector<PartPair>& pairs, const BodyTable& table) {
     c.manager.collide(&meeting, take_pair);
     for (std::uint32_t i : c.unbounded)
         for (const auto& leaf : c.leaves)
-            if (leaf && leaf->in_tree) meeting.meet(i, leaf->part_index);
+            if (leaf->in_tree) meeting.meet(i, leaf->part_index);
 }
 
 }  // namespace plumb::by_fcl

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// FCL's dynamic tree of boxes over our parts, kept from one search to the next. Parts without
-/// bounds, half-spaces, meet everybody.
+/// bounds, half-spaces and height fields, are compared with everybody.
 #pragma once
 
 #include "manifold/body_table.h"

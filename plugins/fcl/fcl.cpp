@@ -8,9 +8,23 @@
 namespace plumb::by_fcl {
 namespace {
 
-constexpr Supported kSupported{
-    {true, true, true, true, true, true, true, true, false, true},
-    "fcl takes no height fields here; a height field can be given as a mesh"};
+constexpr Supported kSupported{{true, true, true, true, true, true, true, true, true, true},
+                               "fcl does not know this kind of shape"};
+
+std::uint32_t ability(ShapeKind a, ShapeKind b) {
+    constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
+    const auto has = [&](ShapeKind k) { return a == k || b == k; };
+    if (a == b && a == ShapeKind::plane) return kPairNone;
+    if (!has_surface(a) && !has_surface(b)) return full;
+    // Two surfaces: what FCL says itself. A height field has no inside that a mesh or a half-space
+    // could be measured against.
+    if (has_surface(a) && has_surface(b))
+        return has(ShapeKind::height_field)
+                   ? kPairNone
+                   : kPairPoint | kPairManifold | kPairMovingMesh | kPairThreadSafe;
+    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
+    return full | kPairMovingMesh;
+}
 
 class Fcl final : public Collider {
 public:
@@ -42,7 +56,8 @@ private:
 
     static void collide(Narrow& narrow, const NarrowOutput& out, const Part& a, const Part& b,
                         bool raw) {
-        const bool mesh = a.shape.kind == ShapeKind::mesh || b.shape.kind == ShapeKind::mesh;
+        const bool mesh = has_surface(a.shape.kind) || has_surface(b.shape.kind);
+        if (!ability(a.shape.kind, b.shape.kind)) return;
         if (raw)
             narrow.collide_raw(out.contacts, out.stats, a, b);
         else if (mesh)
@@ -64,15 +79,6 @@ Proximity* create(const CreateRequest* request, const char** message) {
     }
 }
 void destroy(Proximity* proximity) { delete static_cast<Fcl*>(proximity); }
-
-std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    const auto has = [&](ShapeKind k) { return a == k || b == k; };
-    if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has(ShapeKind::mesh)) return kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
-    if (has(ShapeKind::compound)) return kPairPoint | kPairMovingMesh | kPairThreadSafe;
-    return kPairPoint | kPairManifold | kPairMovingMesh | kPairThreadSafe |
-           (has(ShapeKind::plane) ? kPairSeparated : 0u);
-}
 
 /// What near pairs took [ns], measured between −2 and +2 mm at unit size; planes and meshes were
 /// not.

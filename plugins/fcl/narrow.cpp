@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Boxes by FCL's box test, on the true boxes where they overlap and on larger ones where they do
 /// not; spheres with simple shapes by its closed forms; other convex pairs by its signed
-/// distance, and where that gives up by its `collide`; meshes by its trees of boxes and spheres.
+/// distance, and where that gives up by its `collide`; meshes and height fields by the signed
+/// distance of each triangle; two meshes by FCL's trees of boxes.
 ///
 /// FCL's normals point from its first argument to its second, ours from b to a. A mesh always goes
 /// first: FCL's answer for a shape and a mesh points out of the mesh whatever the order.
@@ -9,7 +10,6 @@
 
 #include "fcl/closest.h"
 #include "fcl/shapes.h"
-#include "fcl/triangles.h"
 #include "manifold/gjk.h"
 #include "manifold/least_overlap.h"
 #include "manifold/mesh_points.h"
@@ -31,6 +31,8 @@ constexpr double kDeep =
 
 bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 bool either(const Part& a, const Part& b, ShapeKind kind) { return is(a, kind) || is(b, kind); }
+bool has_triangles(const Part& part) { return has_surface(part.shape.kind); }
+
 /// The closest points of parts that FCL is silent or wrong about, or the best axis.
 Witness ask_beside(const Part& a, const Part& b) {
     Witness witness;
@@ -84,9 +86,9 @@ bool meet_sphere(const fcl::Sphered& sphere, const fcl::Transform3d& sphere_plac
     }
 }
 
-/// Index of the triangle that FCL names for a mesh.
+/// Index of the triangle that FCL names for a surface.
 std::uint32_t triangle(const Part& part, intptr_t index) {
-    return is(part, ShapeKind::mesh) && index >= 0 ? static_cast<std::uint32_t>(index) : 0;
+    return has_triangles(part) && index >= 0 ? static_cast<std::uint32_t>(index) : 0;
 }
 
 }  // namespace
@@ -95,7 +97,7 @@ struct Narrow::Scratch {
     fcl::CollisionRequestd request{kMostFromFcl, true};
     fcl::CollisionResultd result;
     std::vector<fcl::ContactPointd> points;
-    Triangles triangles;
+    MeshScratch triangles;
 
     void collide(const Part& first, const Part& second) {
         const Geometry &p = geometry_of(first), &q = geometry_of(second);
@@ -179,6 +181,15 @@ bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
     return compare_beside(witness, a, b), true;
 }
 
+/// A triangle has no geometry of FCL's: its signed distance needs none.
+bool Narrow::ask(Witness& witness, const Part& a, const Part& b, std::uint32_t) {
+    if (signed_distance(witness, a, b) == Answer::found)
+        doubt(witness, a, b);
+    else
+        witness = ask_beside(a, b);
+    return true;
+}
+
 void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Part& a,
                             const Part& b) {
     // A half-space needs no question: its normal is the contact's.
@@ -188,7 +199,7 @@ void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Par
 }
 
 void Narrow::take_all(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
-    const bool turned = is(b, ShapeKind::mesh) && !is(a, ShapeKind::mesh);
+    const bool turned = has_triangles(b) && !has_triangles(a);
     turned ? scratch_->collide(b, a) : scratch_->collide(a, b);
     for (std::size_t i = 0; i < scratch_->result.numContacts(); ++i) {
         const fcl::Contactd& c = scratch_->result.getContact(i);
@@ -197,21 +208,21 @@ void Narrow::take_all(ContactList& contacts, DetectStats& stats, const Part& a, 
         const std::uint32_t tb = triangle(b, turned ? c.b1 : c.b2);
         // The sign of a depth differs by pair; every point that FCL gives is an overlap.
         const Witness w{turned ? n : -n, from_fcl(c.pos), -std::abs(c.penetration_depth),
-                        either(a, b, ShapeKind::mesh)};
+                        has_triangles(a) || has_triangles(b)};
         const std::size_t before = contacts.size();
         add_raw(contacts, stats, a, b, w, feature_key({ta, tb}));
         if (contacts.size() == before) continue;
         Contact& added = contacts.data()[before];
-        if (a.index == 0 && is(a, ShapeKind::mesh)) added.part_a = ta;
-        if (b.index == 0 && is(b, ShapeKind::mesh)) added.part_b = tb;
+        if (a.index == 0 && has_triangles(a)) added.part_a = ta;
+        if (b.index == 0 && has_triangles(b)) added.part_b = tb;
         anchor_sphere(added, a, b);
     }
 }
 
 void Narrow::collide_mesh(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
     if (either(a, b, ShapeKind::plane)) return mesh_on_plane(contacts, stats, a, b);
-    const bool meshes = is(a, ShapeKind::mesh) && is(b, ShapeKind::mesh);
-    if (!meshes) return scratch_->triangles.collide(contacts, stats, a, b);
+    if (!has_triangles(a) || !has_triangles(b))
+        return collide_triangles(contacts, stats, a, b, *this, scratch_->triangles);
     const std::size_t begin = contacts.size();
     DetectStats all{};
     take_all(contacts, all, a, b);

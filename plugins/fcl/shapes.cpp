@@ -32,15 +32,30 @@ std::shared_ptr<fcl::CollisionGeometryd> make_hull(const Part& part) {
     return std::make_shared<fcl::Convexd>(vertices, static_cast<int>(part.faces.size()), faces);
 }
 
+std::shared_ptr<fcl::CollisionGeometryd> make_tree(const std::vector<fcl::Vector3d>& vertices,
+                                                   const std::vector<fcl::Triangle>& triangles) {
+    auto tree = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
+    tree->beginModel(static_cast<int>(triangles.size()), static_cast<int>(vertices.size()));
+    tree->addSubModel(vertices, triangles);
+    tree->endModel();
+    return tree;
+}
+
 std::shared_ptr<fcl::CollisionGeometryd> make_mesh(const Shape& s) {
     std::vector<fcl::Triangle> triangles;
     for (std::uint32_t i = 0; i < s.face_count; ++i)
         triangles.emplace_back(s.faces[3 * i], s.faces[3 * i + 1], s.faces[3 * i + 2]);
-    auto mesh = std::make_shared<fcl::BVHModel<fcl::OBBRSSd>>();
-    mesh->beginModel(static_cast<int>(s.face_count), static_cast<int>(s.vertex_count));
-    mesh->addSubModel(vertices_of(s), triangles);
-    mesh->endModel();
-    return mesh;
+    return make_tree(vertices_of(s), triangles);
+}
+
+/// FCL has no height fields: the two triangles of every cell, as a mesh.
+std::shared_ptr<fcl::CollisionGeometryd> make_height_field(const Surface& field) {
+    std::vector<fcl::Vector3d> vertices;
+    for (const Vec3& v : field.vertices()) vertices.push_back(to_fcl(v));
+    std::vector<fcl::Triangle> triangles;
+    for (const Facet& f : field.topology().facets)
+        triangles.emplace_back(f.corner[0], f.corner[1], f.corner[2]);
+    return make_tree(vertices, triangles);
 }
 
 std::shared_ptr<fcl::CollisionGeometryd> make_shape(const Part& part) {
@@ -63,6 +78,8 @@ std::shared_ptr<fcl::CollisionGeometryd> make_shape(const Part& part) {
             return make_hull(part);
         case ShapeKind::mesh:
             return make_mesh(s);
+        case ShapeKind::height_field:
+            return make_height_field(*part.surface);
         default:
             throw std::logic_error("a kind of shape that the table should have refused");
     }

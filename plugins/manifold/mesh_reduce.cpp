@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "manifold/mesh_reduce.h"
 
-#include <tuple>
-
 namespace plumb {
 namespace {
 
@@ -60,30 +58,37 @@ private:
         for (const Spot& s : spots_) size_ = std::max(size_, distance(s, spots_[0]));
     }
 
-    /// The convex outline, without corners that stand on a side of it.
+    /// The convex outline, without corners that stand on a side of it: from a corner on, the next
+    /// is always that which has nothing to its right.
     void outline() {
         hull_.clear();
-        const double near = 1e-7 * size_ + 1e-9;
-        std::sort(spots_.begin(), spots_.end(), [](const Spot& p, const Spot& q) {
-            return std::tie(p.x, p.y, p.contact) < std::tie(q.x, q.y, q.contact);
-        });
-        for (int side = 0; side < 2; ++side) {
-            const std::size_t base = hull_.size();
-            for (const Spot& s : spots_) {
-                while (hull_.size() >= base + 2 && flat_or_right(s, near)) hull_.pop_back();
-                if (hull_.size() == base || distance(hull_.back(), s) > near) hull_.push_back(s);
-            }
-            if (hull_.size() > base + 1) hull_.pop_back();
-            std::reverse(spots_.begin(), spots_.end());
-        }
-        if (hull_.size() == 2 && distance(hull_[0], hull_[1]) <= near) hull_.pop_back();
+        const Spot& first = spots_[0];
+        Spot at = next_corner(*std::max_element(
+            spots_.begin(), spots_.end(),
+            [&](const Spot& p, const Spot& q) { return distance(first, p) < distance(first, q); }));
+        do {
+            hull_.push_back(at);
+            at = next_corner(at);
+        } while (distance(at, hull_[0]) > near() && hull_.size() < spots_.size());
         find_deepest();
     }
 
-    bool flat_or_right(const Spot& s, double near) const {
-        const Spot &p = hull_[hull_.size() - 2], &q = hull_.back();
-        return turn(p, q, s) <= near * distance(p, s);
+    /// The farthest of those on one side, and of those in one place the first.
+    Spot next_corner(const Spot& p) const {
+        Spot best = p;
+        double reach = 0;
+        for (const Spot& s : spots_) {
+            const double d = distance(p, s), bend = turn(p, best, s);
+            const double flat = near() * std::max(d, reach);
+            const bool farther = bend <= flat && d > reach + near();
+            if ((reach <= 0 && d > near()) || (d > near() && (bend < -flat || farther)))
+                best = s, reach = d;
+        }
+        return best;
     }
+
+    /// What lies within this is in one place [m].
+    double near() const { return 1e-7 * size_ + 1e-9; }
 
     /// The deepest of the plane: a corner of the outline where that is as deep.
     void find_deepest() {

@@ -78,13 +78,12 @@ std::vector<Stack> stacks(const std::string& plugin, double size) {
         for (std::uint32_t j = 0; j < kShapeKindCount; ++j) {
             const auto low = static_cast<ShapeKind>(i), high = static_cast<ShapeKind>(j);
             const std::uint32_t able = ability(plugin, low, high);
-            const auto is = [&](ShapeKind k) { return low == k || high == k; };
             if (able == kPairNone || !above(high, size)) continue;
             // A half-space is never dynamic, and one of two must be.
             if (high == ShapeKind::mesh && !(able & kPairMovingMesh) && low == ShapeKind::plane)
                 continue;
             Stack stack{below(low, 2 * size), *above(high, size), able,
-                        is(ShapeKind::mesh) || is(ShapeKind::height_field)};
+                        low == ShapeKind::mesh && high == ShapeKind::mesh};
             if (low == ShapeKind::mesh && high == ShapeKind::mesh) {
                 // Two flat meshes face on face share no single point that cuts; a ring does.
                 stack.upper = {torus_mesh(size, .4 * size, 48, 24),
