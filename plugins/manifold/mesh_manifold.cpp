@@ -71,16 +71,22 @@ void put_triangle(MeshScratch& scratch, const MeshTopology& mesh, const Facet& f
     t.faces[0].normal = facet.normal;
 }
 
+/// What is noted in a contact until all triangles were asked.
+enum Mark : std::uint32_t {
+    kShared = 1,  ///< the normal is not the back-end's own
+    kFace = 2     ///< the normal is the triangle's own
+};
+
 /// Names a triangle in the contacts from `begin` on, drops those that lie deeper than `most`, and
-/// marks the others where their normal is not the back-end's own.
+/// marks the others.
 void finish_triangle(ContactList& list, std::size_t begin, const Roles& r, std::uint32_t id,
-                     double most, bool shared) {
+                     double most, std::uint32_t marks) {
     std::size_t kept = begin;
     for (std::size_t i = begin; i < list.size(); ++i) {
         Contact& c = list.data()[i];
         if (c.gap < -most) continue;
         c.feature = feature_key({c.feature, id});
-        c.reserved = shared;
+        c.reserved = marks;
         if (r.surface().index == 0) (r.convex_is_a ? c.part_b : c.part_a) = id;
         list.data()[kept++] = c;
     }
@@ -128,7 +134,7 @@ public:
         const Vec3 n = rotated(r_.surface().world, facet.normal);
         const Witness w{r_.convex_is_a ? n : -n, to_outer(r_.surface().world, p), 0, true, true};
         build_manifold(scratch_.corrected, stats_, first(), second(), w);
-        finish_triangle(scratch_.corrected, 0, r_, facet.id, 1e300, true);
+        finish_triangle(scratch_.corrected, 0, r_, facet.id, 1e300, kShared | kFace);
     }
 
 private:
@@ -148,7 +154,8 @@ private:
         const std::size_t begin = list.size();
         build_manifold(list, stats_, first(), second(), w,
                        corrected || face ? Fallback::none : Fallback::witness);
-        finish_triangle(list, begin, r_, facet.id, most_, w.shared);
+        finish_triangle(list, begin, r_, facet.id, most_,
+                        (w.shared ? kShared : 0u) | (face ? kFace : 0u));
     }
 
     const Roles& r_;
@@ -176,7 +183,7 @@ void count_contacts(DetectStats& stats, ContactList& out, std::size_t begin) {
     for (std::size_t i = begin; i < out.size(); ++i) {
         Contact& c = out.data()[i];
         ++((c.flags & kContactFallback) ? stats.from_fallback : stats.from_clip);
-        stats.shared_normals += c.reserved;
+        stats.shared_normals += c.reserved & kShared;
         c.reserved = 0;
     }
 }
@@ -207,7 +214,10 @@ void collide_triangles(ContactList& out, DetectStats& stats, const Part& a, cons
 
     const std::size_t begin = out.size();
     const double credible = credible_depth(scratch.trusted, scratch.corrected, pair_margin(a, b));
-    for (const Contact& c : scratch.trusted) out.push(c);
+    // Of contacts in one place the first stays: rather a face's than that of an edge beside it.
+    for (const std::uint32_t face : {std::uint32_t{kFace}, std::uint32_t{0}})
+        for (const Contact& c : scratch.trusted)
+            if ((c.reserved & kFace) == face) out.push(c);
     for (const Contact& c : scratch.corrected)
         if (-c.gap <= credible) out.push(c);
     reduce_by_planes(out, begin, !roles.convex_is_a);

@@ -88,7 +88,7 @@ private:
     }
 
     /// What lies within this is in one place [m].
-    double near() const { return 1e-7 * size_ + 1e-9; }
+    double near() const { return 1e-5 * size_ + 1e-9; }
 
     /// The deepest of the plane: a corner of the outline where that is as deep.
     void find_deepest() {

@@ -20,7 +20,10 @@ protected:
         const auto round = [](ShapeKind k) {
             return k == ShapeKind::cylinder || k == ShapeKind::cone;
         };
-        return !stack.approximate && !round(stack.lower.shape.kind) &&
+        // The edges of a face that is nearly level on a capsule are as deep as the face.
+        const bool edges = stack.lower.shape.kind == ShapeKind::capsule &&
+                           stack.upper.shape.kind == ShapeKind::mesh;
+        return !stack.approximate && !edges && !round(stack.lower.shape.kind) &&
                !round(stack.upper.shape.kind);
     }
 
