@@ -3,7 +3,7 @@
 /// support-face clipping.
 #include "bullet/broad.h"
 #include "bullet/narrow.h"
-#include "manifold/collider.h"
+#include "manifold/plugin_table.h"
 
 namespace plumb::bullet {
 namespace {
@@ -15,18 +15,9 @@ namespace {
 constexpr Supported kSupported{{true, true, true, true, true, true, true, true, true, true},
                                "bullet does not know this kind of shape"};
 
+/// Two meshes: what Bullet says itself.
 std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
-    const auto has = [&](ShapeKind k) { return a == k || b == k; };
-    if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has_surface(a) && !has_surface(b)) return full;
-    // Two surfaces: what Bullet says itself. A height field has no inside that a mesh or a
-    // half-space could be measured against.
-    if (has_surface(a) && has_surface(b))
-        return has(ShapeKind::height_field) ? kPairNone
-                                            : kPairPoint | kPairManifold | kPairMovingMesh;
-    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
-    return full | kPairMovingMesh;
+    return built_ability(a, b, kPairPoint | kPairManifold | kPairMovingMesh);
 }
 
 class Bullet final : public Collider {
@@ -66,28 +57,15 @@ private:
     std::vector<std::unique_ptr<Narrow>> narrow_;  ///< [worker]
 };
 
-Proximity* create(const CreateRequest* request, const char** message) {
-    try {
-        return new Bullet(request->threads);
-    } catch (...) {
-        if (message) *message = "memory ran out";
-        return nullptr;
-    }
-}
-void destroy(Proximity* proximity) { delete static_cast<Bullet*>(proximity); }
-
 PluginTable make_table() {
     PluginTable t = blank_table();
     t.name = "bullet";
     t.description =
         "Bullet Physics in double precision: volume tree, closest points, shared clipping";
     t.backend_version = "Bullet 3.24";
-    for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
-        for (std::uint32_t j = 0; j < kShapeKindCount; ++j)
-            if (kSupported.kind[i] && kSupported.kind[j])
-                t.pairs[i][j] = ability(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
-    t.create = create;
-    t.destroy = destroy;
+    fill_pairs(t, kSupported, ability);
+    t.create = create_collider<Bullet>;
+    t.destroy = destroy_collider<Bullet>;
     return t;
 }
 

@@ -3,7 +3,7 @@
 #include "fcl/broad.h"
 #include "fcl/narrow.h"
 #include "fcl/shapes.h"
-#include "manifold/collider.h"
+#include "manifold/plugin_table.h"
 
 namespace plumb::by_fcl {
 namespace {
@@ -11,19 +11,9 @@ namespace {
 constexpr Supported kSupported{{true, true, true, true, true, true, true, true, true, true},
                                "fcl does not know this kind of shape"};
 
+/// Two meshes: what FCL says itself.
 std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
-    const auto has = [&](ShapeKind k) { return a == k || b == k; };
-    if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has_surface(a) && !has_surface(b)) return full;
-    // Two surfaces: what FCL says itself. A height field has no inside that a mesh or a half-space
-    // could be measured against.
-    if (has_surface(a) && has_surface(b))
-        return has(ShapeKind::height_field)
-                   ? kPairNone
-                   : kPairPoint | kPairManifold | kPairMovingMesh | kPairThreadSafe;
-    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
-    return full | kPairMovingMesh;
+    return built_ability(a, b, kPairPoint | kPairManifold | kPairMovingMesh | kPairThreadSafe);
 }
 
 class Fcl final : public Collider {
@@ -70,16 +60,6 @@ private:
     std::vector<Narrow> narrow_;  ///< [worker]
 };
 
-Proximity* create(const CreateRequest* request, const char** message) {
-    try {
-        return new Fcl(request->threads);
-    } catch (...) {
-        if (message) *message = "memory ran out";
-        return nullptr;
-    }
-}
-void destroy(Proximity* proximity) { delete static_cast<Fcl*>(proximity); }
-
 /// What near pairs took [ns], measured between −2 and +2 mm at unit size; planes and meshes were
 /// not.
 constexpr std::uint32_t kMeasured = 7;
@@ -98,14 +78,11 @@ PluginTable make_table() {
     t.name = "fcl";
     t.description = "Flexible Collision Library: dynamic tree, signed distance, shared clipping";
     t.backend_version = "FCL 0.7.0";
-    for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
-        for (std::uint32_t j = 0; j < kShapeKindCount; ++j)
-            if (kSupported.kind[i] && kSupported.kind[j])
-                t.pairs[i][j] = ability(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
+    fill_pairs(t, kSupported, ability);
     for (std::uint32_t i = 0; i < kMeasured; ++i)
         for (std::uint32_t j = 0; j < kMeasured; ++j) t.costs[i][j] = kCosts[i][j];
-    t.create = create;
-    t.destroy = destroy;
+    t.create = create_collider<Fcl>;
+    t.destroy = destroy_collider<Fcl>;
     return t;
 }
 

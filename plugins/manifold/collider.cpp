@@ -118,15 +118,4 @@ Status Collider::gather(const ContactSink* sinks) {
     return {Status::failed, failures, "the back-end failed on a pair, which was left out"};
 }
 
-PluginTable blank_table() {
-    PluginTable t{};
-    t.magic = kPluginMagic;
-    t.abi_major = kAbiMajor;
-    t.abi_minor = kAbiMinor;
-    t.table_size = sizeof(PluginTable);
-    t.sizes = abi_sizes();
-    t.precision = "double";
-    return t;
-}
-
 }  // namespace plumb

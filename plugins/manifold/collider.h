@@ -91,7 +91,4 @@ private:
     DetectStats stats_{};
 };
 
-/// A plugin's table with everything filled in but names, pairs and functions.
-PluginTable blank_table();
-
 }  // namespace plumb

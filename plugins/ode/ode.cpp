@@ -2,8 +2,8 @@
 /// The collider on ODE 0.16: native pairs and shared support-face clipping. The broad phase is the
 /// shared grid: over the bounds of a pile of 2000 bodies ODE's hash space took a third of all of
 /// `detect`.
-#include "manifold/collider.h"
 #include "manifold/grid.h"
+#include "manifold/plugin_table.h"
 #include "ode/narrow.h"
 
 #include <stdexcept>
@@ -14,18 +14,9 @@ namespace {
 constexpr Supported kSupported{{true, true, true, true, true, false, true, true, true, true},
                                "ode has no cones; bullet has them"};
 
+/// Two meshes: what ODE says itself.
 std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
-    const auto has = [&](ShapeKind k) { return a == k || b == k; };
-    if (a == b && a == ShapeKind::plane) return kPairNone;
-    if (!has_surface(a) && !has_surface(b)) return full;
-    // Two surfaces: what ODE says itself. A height field has no inside that a mesh or a half-space
-    // could be measured against.
-    if (has_surface(a) && has_surface(b))
-        return has(ShapeKind::height_field) ? kPairNone
-                                            : kPairPoint | kPairManifold | kPairMovingMesh;
-    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
-    return full | kPairMovingMesh;
+    return built_ability(a, b, kPairPoint | kPairManifold | kPairMovingMesh);
 }
 
 class Ode final : public Collider {
@@ -101,28 +92,23 @@ bool start_ode() {
 }
 
 Proximity* create(const CreateRequest* request, const char** message) {
-    const char* trouble = "ODE could not be started, or was built for single precision";
     try {
-        if (start_ode()) return new Ode(request->threads);
+        if (start_ode()) return create_collider<Ode>(request, message);
     } catch (...) {
-        trouble = "memory ran out";
+        // ODE's own start gave up
     }
-    if (message) *message = trouble;
+    if (message) *message = "ODE could not be started, or was built for single precision";
     return nullptr;
 }
-void destroy(Proximity* proximity) { delete static_cast<Ode*>(proximity); }
 
 PluginTable make_table() {
     PluginTable t = blank_table();
     t.name = "ode";
     t.description = "Open Dynamics Engine: native pairs, shared clipping";
     t.backend_version = "ODE 0.16.2";
-    for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
-        for (std::uint32_t j = 0; j < kShapeKindCount; ++j)
-            if (kSupported.kind[i] && kSupported.kind[j])
-                t.pairs[i][j] = ability(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
+    fill_pairs(t, kSupported, ability);
     t.create = create;
-    t.destroy = destroy;
+    t.destroy = destroy_collider<Ode>;
     return t;
 }
 

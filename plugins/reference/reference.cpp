@@ -3,11 +3,9 @@
 ///
 /// It shares the table of bodies with the other plugins, but neither their support-face clipping
 /// nor any back-end, so that agreement between it and them means something.
-#include "manifold/collider.h"
+#include "manifold/plugin_table.h"
 #include "reference/narrow.h"
 #include "reference/sweep.h"
-
-#include <new>
 
 namespace plumb::reference {
 namespace {
@@ -32,26 +30,15 @@ private:
     }
 };
 
-Proximity* create(const CreateRequest* request, const char** message) {
-    Reference* made = new (std::nothrow) Reference(request->threads);
-    if (!made && message) *message = "memory ran out";
-    return made;
-}
-void destroy(Proximity* proximity) { delete static_cast<Reference*>(proximity); }
-
 PluginTable make_table() {
     PluginTable t = blank_table();
     t.name = "reference";
     t.description = "closed forms and exact separating axes; no package behind it";
     t.backend_version = "Plumb reference 1";
-    for (std::uint32_t i = 0; i < kShapeKindCount; ++i)
-        for (std::uint32_t j = 0; j < kShapeKindCount; ++j) {
-            const bool planes = i == 0 && j == 0;
-            if (kSupported.kind[i] && kSupported.kind[j] && !planes)
-                t.pairs[i][j] = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
-        }
-    t.create = create;
-    t.destroy = destroy;
+    fill_pairs(t, kSupported,
+               [](ShapeKind a, ShapeKind b) { return built_ability(a, b, kPairNone); });
+    t.create = create_collider<Reference>;
+    t.destroy = destroy_collider<Reference>;
     return t;
 }
 

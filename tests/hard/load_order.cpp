@@ -61,8 +61,8 @@ std::uint64_t hash_of_run(const ColliderLibrary& library, const char* name) {
 }  // namespace
 
 int main(int count, char** words) {
-    char pattern[] = "/tmp/load_order_XXXXXX";
-    const fs::path folder = mkdtemp(pattern);
+    std::string pattern = fs::temp_directory_path() / "load_order_XXXXXX";
+    const fs::path folder = mkdtemp(pattern.data());
     const ColliderLibrary library(search_path(count - 1, words + 1, folder));
     std::map<std::string, std::uint64_t> hashes;
     for (int i = 1; i < count; ++i) {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#include "manifold/plugin_table.h"
+
+namespace plumb {
+
+std::uint32_t built_ability(ShapeKind a, ShapeKind b, std::uint32_t two_meshes) {
+    constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
+    const auto has = [&](ShapeKind k) { return a == k || b == k; };
+    if (a == b && a == ShapeKind::plane) return kPairNone;
+    if (!has_surface(a) && !has_surface(b)) return full;
+    // A height field has no inside that a mesh or a half-space could be measured against.
+    if (has_surface(a) && has_surface(b))
+        return has(ShapeKind::height_field) ? std::uint32_t{kPairNone} : two_meshes;
+    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
+    return full | kPairMovingMesh;
+}
+
+PluginTable blank_table() {
+    PluginTable t{};
+    t.magic = kPluginMagic;
+    t.abi_major = kAbiMajor;
+    t.abi_minor = kAbiMinor;
+    t.table_size = sizeof(PluginTable);
+    t.sizes = abi_sizes();
+    t.precision = "double";
+    return t;
+}
+
+}  // namespace plumb
