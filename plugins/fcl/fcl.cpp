@@ -5,6 +5,9 @@
 #include "fcl/shapes.h"
 #include "manifold/plugin_table.h"
 
+#include <exception>
+#include <new>
+
 namespace plumb::by_fcl {
 namespace {
 
@@ -36,10 +39,10 @@ private:
             try {
                 collide(narrow_[worker], out, table_.parts()[pairs[i].first],
                         table_.parts()[pairs[i].second], raw);
-            } catch (const std::runtime_error&) {
+            } catch (const std::bad_alloc&) {
+                throw;
+            } catch (const std::exception&) {
                 ++out.failures;  // FCL gave up on this pair; the others go on
-            } catch (const std::logic_error&) {
-                ++out.failures;
             }
         }
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Traps that back-ends are known for, one test each: a right answer, or none that was claimed.
-#include "harness.h"
+#include "surfaces.h"
 
 #include <atomic>
 #include <thread>
@@ -97,6 +97,103 @@ TEST_P(Traps, HullsOnMeshesAreNeverSilent) {
     PLUMB_NEEDS_CLAIM(ShapeKind::hull, ShapeKind::mesh);
     const Place at{V(.1, .495, .05), Q::Identity()};
     EXPECT_FALSE(meet(grid_mesh(2, 4), {}, box_hull(.5, .5, .5), at).empty());
+}
+
+/// What rests flat on a mesh, each with its bottom at y = 0.
+std::vector<std::pair<Shape, Place>> flat_on_meshes() {
+    const Q lying(Eigen::AngleAxisd(M_PI / 2, V::UnitZ())), level = Q::Identity();
+    return {{sphere(.3), {V(.11, .3, .07), level}},
+            {box(.3, .2, .25), {V(.11, .2, .07), Q(Eigen::AngleAxisd(.3, V::UnitY()))}},
+            {capsule(.2, .3), {V(.11, .2, .07), lying}},
+            {cylinder(.3, .2), {V(.11, .2, .07), level}},
+            {cone(.3, .2), {V(.11, .2, .07), level}},
+            {box_hull(.3, .2, .25), {V(.11, .2, .07), level}}};
+}
+
+TEST_P(Traps, NormalsLeaveAMeshWhicheverIdComesFirst) {
+    for (auto [shape, at] : flat_on_meshes())
+        for (bool mesh_first : {true, false}) {
+            if (!claims(ShapeKind::mesh, shape.kind)) continue;
+            SCOPED_TRACE(std::string(name_of(shape.kind)) + (mesh_first ? "" : ", mesh second"));
+            World world(GetParam());
+            world.add(mesh_first ? 1 : 2, cube_mesh(1, 4), {V(0, -1, 0), Q::Identity()},
+                      Mobility::fixed);
+            world.add(mesh_first ? 2 : 1, shape, {at.x - V(0, .01, 0), at.q});
+            expect_gap(world.detect(.01), -.01);
+            for (const Contact& c : world.last())
+                EXPECT_NEAR(c.normal.y, mesh_first ? -1 : 1, 1e-6);
+        }
+}
+
+TEST_P(Traps, RawNormalsLeaveAMeshWhicheverIdComesFirst) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::mesh, ShapeKind::sphere);
+    for (bool mesh_first : {true, false}) {
+        World world(GetParam());
+        world.add(mesh_first ? 1 : 2, cube_mesh(1, 4), {V(0, -1, 0), Q::Identity()},
+                  Mobility::fixed);
+        world.add(mesh_first ? 2 : 1, sphere(.3), {V(.11, .29, .07), Q::Identity()});
+        const auto& contacts = world.detect(.01, kDetectRaw);
+        ASSERT_FALSE(contacts.empty());
+        EXPECT_NEAR(deepest(contacts).gap, -.01, 2e-3);
+        EXPECT_NEAR(deepest(contacts).normal.y, mesh_first ? -1 : 1, 1e-3);
+    }
+}
+
+TEST_P(Traps, RawQuestionsAboutHalfSpacesDoNotCrash) {
+    for (const Shape& shape : {box_hull(.5, .5, .5), box_mesh(.5, .5, .5), box(.5, .5, .5)}) {
+        if (!claims(ShapeKind::plane, shape.kind)) continue;
+        SCOPED_TRACE(name_of(shape.kind));
+        World world(GetParam());
+        world.add(1, plane(), {}, Mobility::fixed);
+        world.add(2, shape, {V(0, .49, 0), Q::Identity()});
+        world.detect(.01, kDetectRaw);
+        EXPECT_EQ(world.status().code, Status::ok);
+        for (const Contact& c : world.last()) EXPECT_NEAR(c.gap, -.01, 2e-3);
+    }
+}
+
+TEST_P(Traps, EveryPointOfABoxOnAMeshIsPushedUp) {
+    for (const Shape& cube : {box(.5, .5, .5), box_hull(.5, .5, .5)})
+        for (double turn : {0., .3, M_PI / 4}) {
+            if (!claims(ShapeKind::mesh, cube.kind, kPairManifold)) continue;
+            const Place at{V(.03, .49, -.02), Q(Eigen::AngleAxisd(turn, V::UnitY()))};
+            const auto contacts = meet(box_mesh(.7, .5, .6), kTop, cube, at);
+            expect_gap(contacts, -.01);
+            EXPECT_GE(contacts.size(), 4u);
+            for (const Contact& c : contacts) {
+                EXPECT_NEAR(c.gap, -.01, 1e-6);
+                EXPECT_NEAR(c.normal.y, -1, 1e-9);
+            }
+        }
+}
+
+TEST_P(Traps, WhatAMeshContainsIsLeftAlone) {
+    // Promised: the depth in a mesh is local to triangles that touch, and here none does.
+    for (const Shape& inner : {sphere(.1), box(.1, .1, .1), box_hull(.1, .1, .1), cube_mesh(.1, 2)})
+        for (double off : {0., .3, .7}) {
+            if (!claims(ShapeKind::mesh, inner.kind)) continue;
+            SCOPED_TRACE(name_of(inner.kind));
+            World world(GetParam());
+            world.add(1, cube_mesh(1, 3), {}, Mobility::fixed);
+            world.add(2, inner, {V(off, .5 * off, -off), Q::Identity()});
+            EXPECT_TRUE(world.detect(.01).empty());
+            EXPECT_EQ(world.status().code, Status::ok);
+        }
+}
+
+TEST_P(Traps, SharedEdgesAndVerticesOfAMeshTouchOnce) {
+    // Vertices of the grid stand half a metre apart; one of its edges runs through (.25, 0, .25).
+    for (const V& spot : {V(0, 0, 0), V(.25, 0, .25), V(.25, 0, 0)})
+        for (double gap : {-.01, 0.}) {
+            if (claims(ShapeKind::mesh, ShapeKind::sphere)) {
+                const Place at{spot + V(0, .3 + gap, 0), Q::Identity()};
+                EXPECT_EQ(meet(grid_mesh(2, 8), {}, sphere(.3), at).size(), 1u);
+            }
+            if (claims(ShapeKind::mesh, ShapeKind::box)) {
+                const Place at{spot + V(0, .5 + gap, 0), Q::Identity()};
+                EXPECT_EQ(meet(grid_mesh(2, 8), {}, box(.5, .5, .5), at).size(), 4u);
+            }
+        }
 }
 
 TEST_P(Traps, MeshesOnTwoThreadsAreMeshesOnOne) {
