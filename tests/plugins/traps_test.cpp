@@ -140,16 +140,22 @@ TEST_P(Traps, RawNormalsLeaveAMeshWhicheverIdComesFirst) {
 }
 
 TEST_P(Traps, RawQuestionsAboutHalfSpacesDoNotCrash) {
-    for (const Shape& shape : {box_hull(.5, .5, .5), box_mesh(.5, .5, .5), box(.5, .5, .5)}) {
-        if (!claims(ShapeKind::plane, shape.kind)) continue;
-        SCOPED_TRACE(name_of(shape.kind));
-        World world(GetParam());
-        world.add(1, plane(), {}, Mobility::fixed);
-        world.add(2, shape, {V(0, .49, 0), Q::Identity()});
-        world.detect(.01, kDetectRaw);
-        EXPECT_EQ(world.status().code, Status::ok);
-        for (const Contact& c : world.last()) EXPECT_NEAR(c.gap, -.01, 2e-3);
-    }
+    for (const Shape& shape : {box_hull(.5, .5, .5), box_mesh(.5, .5, .5), box(.5, .5, .5)})
+        for (const auto& [q, low] :
+             {std::pair{Q::Identity(), .5}, {kOnEdge, kEdge}, {kOnVertex, kVertex}})
+            for (double gap : {.3, .005, -.01, -.4})
+                for (bool plane_first : {true, false}) {
+                    if (!claims(ShapeKind::plane, shape.kind)) continue;
+                    SCOPED_TRACE(std::string(name_of(shape.kind)) + " at " + std::to_string(gap));
+                    World world(GetParam());
+                    world.add(plane_first ? 1 : 2, plane(), {}, Mobility::fixed);
+                    world.add(plane_first ? 2 : 1, shape, {V(0, low + gap, 0), q});
+                    const auto& contacts = world.detect(.01, kDetectRaw);
+                    EXPECT_EQ(world.status().code, Status::ok);
+                    if (gap > 0) continue;  // what a back-end says of bodies apart is its own
+                    ASSERT_FALSE(contacts.empty());
+                    EXPECT_NEAR(deepest(contacts).gap, gap, 2e-3);
+                }
 }
 
 TEST_P(Traps, EveryPointOfABoxOnAMeshIsPushedUp) {
