@@ -67,7 +67,8 @@ const Table<Settings>& settings_table() {
         field<S>("reuse_distance", Number{{0, 1e3}}, &S::reuse_distance,
                  "contacts of a pair are kept while its points move by less [m]; 0: always detect"),
         field<S>("stiffness", Number{{0, 1}}, &S::stiffness,
-                 "share of an old overlap removed an iteration, of five a step"),
+                 "share of an old overlap removed a substep; an iteration, of five, without "
+                 "shared_push"),
         field<S>("recovery_speed", Number{kNotNegative}, &S::recovery_speed,
                  "greatest speed at which old overlap is pushed out [m/s]"),
         field<S>("collision_depth", Number{{0, 1e3}}, &S::collision_depth,

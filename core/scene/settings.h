@@ -30,13 +30,13 @@ struct Settings {
     double margin = 0.005;         ///< distance of detection [m]
     double reuse_distance = 1e-4;  ///< d: while the points of a pair move by less, its contacts are
                                    ///< kept and not detected again [m]; 0 = always detect
-    double stiffness =
-        0.2;  ///< s of §6: share of an old overlap removed an iteration, of five a step
+    double stiffness = 0.2;  ///< s of §6: share of an old overlap removed a substep; an iteration,
+                             ///< of five, where shared_push is off
     double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out [m/s]
     double collision_depth =
         1e-4;  ///< ε: a pair collides when it approaches faster than √(2 g ε) [m]
     double anchor_stiffness =
-        0.04;  ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
+        0.02;  ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
     Gyroscopic gyroscopic = Gyroscopic::conserving;
 
     bool warm_start = true;        ///< begin from the impulses of the step before

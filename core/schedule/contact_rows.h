@@ -91,7 +91,7 @@ template <class Real>
 struct PassSettings {
     Real h, inverse_h;  // substep [s] and its inverse [1/s]
     Real stiffness;     // s of this substep
-    Real recovery;      // greatest overlap pushed out in a substep [m]
+    Real recovery;      // overlap beyond which no more is pushed out in a substep [m]
     bool warm_start;    // begin with the impulses of the substep before
     bool shared_cone;   // one friction bound for both passes
     bool shared_push;   // the push of both passes together stays repulsive, not of each alone

@@ -1,22 +1,32 @@
 // SPDX-License-Identifier: MIT
 #include "step/row_solver.h"
 
+#include "math/root.h"
 #include "scene/error.h"
 #include "step/ball_solver.h"
 #include "step/contact_solver.h"
 
-#include <cmath>
 #include <optional>
 #include <string>
 
 namespace plumb {
 namespace {
 
-/// s′ = 1 − (1 − s)^(5/N): s is defined for five iterations of one substep, and N are made. Where
-/// both passes share one push, s′ is the share of a substep.
-double rescaled_stiffness(const Settings& s) {
-    const double n = double(s.shared_push ? 1 : s.position_iterations) * s.substeps;
-    return n > 0 ? 1 - std::pow(1 - s.stiffness, 5 / n) : 0;
+/// What a substep does about old overlap.
+struct Recovery {
+    double stiffness;  ///< s′: the share that is removed where both passes share one push, of a
+                       ///< substep; to the paper's letter, of an iteration
+    double share;      ///< what that comes to in a substep
+};
+
+/// Where both passes share one push, s is the share of a substep. To the paper's letter it is the
+/// share of an iteration, of five a step, whatever number is made.
+Recovery recovery(const Settings& s) {
+    if (s.shared_push) return {s.stiffness, s.stiffness};
+    const double left = 1 - s.stiffness, after_five = left * left * left * left * left;
+    const std::uint32_t sweeps = s.position_iterations * s.substeps;
+    return {sweeps > 0 ? 1 - root_of_share(after_five, sweeps) : 0,
+            1 - root_of_share(after_five, s.substeps)};
 }
 
 /// How often shock propagation solves a level before it goes on to the next: until the points of a
@@ -48,8 +58,10 @@ public:
         table_.begin(world);
         pass_.h = static_cast<Real>(h);
         pass_.inverse_h = static_cast<Real>(1 / h);
-        pass_.stiffness = static_cast<Real>(rescaled_stiffness(settings_));
-        pass_.recovery = static_cast<Real>(h * settings_.recovery_speed);
+        const Recovery r = recovery(settings_);
+        pass_.stiffness = static_cast<Real>(r.stiffness);
+        pass_.recovery =
+            static_cast<Real>(r.share > 0 ? h * settings_.recovery_speed / r.share : 0);
         pass_.warm_start = warm_start_;
         pass_.shared_cone = settings_.shared_cone;
         pass_.shared_push = settings_.shared_push;
