@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: MIT
+/// Heaps that fall and come to rest without sleeping (§8): the pile of 2000, tori, hulls, bodies on
+/// a mesh and on a height field; 0.01 s, 5 + 5 iterations, 10 s, on the colliders that
+/// PLUMB_TEST_COLLIDERS names. Each must meet the figures of the pile, and lie as high as on the
+/// others. Sampled each 0.1 s of the last 2 s, over the bodies within 8 m of the axis (without
+/// rolling friction some balls roll away).
+#include "reader/reader.h"
+#include "support/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+namespace plumb::test {
+namespace {
+
+struct Rest {
+    double median_speed = 0, p90_speed = 0;             ///< greatest of the samples [m/s]
+    double mean_depth = 0, p99_depth = 0, deepest = 0;  ///< greatest of the samples [m]
+    std::size_t bodies = 0, contacts = 0, away = 0, fallen = 0;
+    double mean_height = 0;  ///< of those near the axis [m]
+};
+
+bool is_near(const World& world, std::size_t i) {
+    const Vector& x = world.bodies.position[i];
+    return std::hypot(x.x(), x.z()) <= 8;
+}
+
+void sample(const World& world, Rest& rest) {
+    std::vector<double> speeds;
+    for (std::size_t i = 0; i < world.bodies.size(); ++i)
+        if (world.bodies.motion[i] == Motion::dynamic && is_near(world, i))
+            speeds.push_back(world.bodies.velocity[i].norm());
+    rest.median_speed = std::max(rest.median_speed, percentile(speeds, 0.5));
+    rest.p90_speed = std::max(rest.p90_speed, percentile(speeds, 0.9));
+    const std::vector<double> depths = penetrations(world);
+    double sum = 0;
+    for (double d : depths) sum += d;
+    rest.mean_depth =
+        std::max(rest.mean_depth, depths.empty() ? 0 : sum / static_cast<double>(depths.size()));
+    rest.p99_depth = std::max(rest.p99_depth, percentile(depths, 0.99));
+    rest.deepest = std::max(rest.deepest, percentile(depths, 1));
+}
+
+void measure_end(const World& world, Rest& rest) {
+    rest.contacts = world.contacts.found_before.size();
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+        if (world.bodies.motion[i] != Motion::dynamic) continue;
+        ++rest.bodies;
+        rest.fallen += world.bodies.position[i].y() < -1.2;
+        if (!is_near(world, i)) {
+            ++rest.away;
+            continue;
+        }
+        rest.mean_height += world.bodies.position[i].y();
+        ++near;
+    }
+    rest.mean_height /= static_cast<double>(near);
+}
+
+Rest fall(const std::string& file, const std::string& collider) {
+    Rest rest;
+    Simulation simulation(read_scene(PLUMB_TEST_SCENES "/" + file + ".json"), colliders(),
+                          collider);
+    for (int i = 1; i <= 1000; ++i) {
+        EXPECT_TRUE(simulation.step().finite);
+        if (i >= 800 && i % 10 == 0) sample(simulation.world(), rest);
+    }
+    measure_end(simulation.world(), rest);
+    std::cout << file << " on " << collider << ": speed median " << rest.median_speed * 1e3
+              << ", 90 % " << rest.p90_speed * 1e3 << " mm/s; penetration mean "
+              << rest.mean_depth * 1e3 << ", 99 % " << rest.p99_depth * 1e3 << ", largest "
+              << rest.deepest * 1e3 << " mm; " << rest.contacts << " contacts, " << rest.away
+              << " rolled away, mean height " << rest.mean_height << " m\n";
+    return rest;
+}
+
+std::vector<std::string> wanted_colliders() {
+    const char* names = std::getenv("PLUMB_TEST_COLLIDERS");
+    std::istringstream list(names ? names : "ode,bullet,fcl");
+    std::vector<std::string> all;
+    for (std::string name; std::getline(list, name, ',');) all.push_back(name);
+    return all;
+}
+
+struct Heap {
+    std::string file;
+    double bottom;  ///< what heights are measured from: the ground, or where valleys end [m]
+};
+void PrintTo(const Heap& heap, std::ostream* out) { *out << heap.file; }
+
+class Heaps : public testing::TestWithParam<Heap> {};
+INSTANTIATE_TEST_SUITE_P(, Heaps,
+                         testing::Values(Heap{"pile", 0}, Heap{"tori", 0}, Heap{"hulls", 0},
+                                         Heap{"terrain", -1.2}, Heap{"heightfield", -1.2}),
+                         [](const auto& which) { return which.param.file; });
+
+TEST_P(Heaps, ComeToRestOnEveryColliderAndAsHigh) {
+    double first_height = 0;
+    for (const std::string& collider : wanted_colliders()) {
+        SCOPED_TRACE(collider);
+        const Rest rest = fall(GetParam().file, collider);
+        EXPECT_LE(rest.median_speed, 1e-3);
+        EXPECT_LE(rest.p90_speed, 5e-3);
+        EXPECT_LE(rest.mean_depth, 0.2e-3);
+        EXPECT_LE(rest.p99_depth, 1e-3);
+        EXPECT_LE(rest.deepest, 20e-3);
+        EXPECT_GT(rest.contacts, 2 * (rest.bodies - rest.away));
+        EXPECT_EQ(rest.fallen, 0u);
+        const double height = rest.mean_height - GetParam().bottom;
+        if (first_height == 0) first_height = height;
+        EXPECT_NEAR(height / first_height, 1, 0.03);
+    }
+}
+
+}  // namespace
+}  // namespace plumb::test
