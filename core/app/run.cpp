@@ -154,10 +154,9 @@ void warn(const Simulation& simulation, const Statistics& statistics) {
 void greet(const Simulation& simulation, const Outputs& outputs) {
     for (const std::string& warning : simulation.plan().warnings)
         std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
-    if (!outputs.quiet && outputs.run.collider == "auto")
-        std::fprintf(stderr,
-                     "plumb: collider %s (the first that can do every pair of this scene)\n",
-                     simulation.collider_name().c_str());
+    if (!outputs.quiet && !simulation.collider_reason().empty())
+        std::fprintf(stderr, "plumb: collider %s: %s\n", simulation.collider_name().c_str(),
+                     simulation.collider_reason().c_str());
 }
 
 /// A run under way.

@@ -57,7 +57,7 @@ void add_scene_options(CLI::App& command, RunOptions& o) {
     add_scene_options_but_collider(command, o);
     command
         .add_option("--collider", o.collider,
-                    "collision plugin; auto = the first that can do the scene")
+                    "collision plugin; auto = the cheapest that can do the scene")
         ->type_name("NAME");
 }
 

@@ -170,7 +170,9 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["scene"] = scene.name;
     j["file"] = scene_file;
     j["collider"] = {{"name", simulation.collider_name()},
-                     {"version", simulation.collider_version()}};
+                     {"version", simulation.collider_version()},
+                     {"why", simulation.collider_reason().empty() ? "asked for by name"
+                                                                  : simulation.collider_reason()}};
     j["method"] = settings.method;
     j["precision"] = settings.precision == Precision::single ? "single" : "double";
     j["threads"] = settings.threads;

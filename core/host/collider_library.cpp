@@ -54,13 +54,6 @@ std::string names_of(const std::vector<ColliderInfo>& colliders) {
     return names.empty() ? "none" : names;
 }
 
-bool supports(const ColliderInfo& c, const ShapePairNeed& need) {
-    const std::uint32_t ability =
-        c.table->pairs[static_cast<std::size_t>(need.a)][static_cast<std::size_t>(need.b)];
-    if (need.moving_mesh && !(ability & kPairMovingMesh)) return false;
-    return (ability & (kPairPoint | kPairManifold)) != 0;
-}
-
 }  // namespace
 
 ColliderLibrary::ColliderLibrary(const std::string& extra_path, const std::string& only) {
@@ -109,18 +102,9 @@ const ColliderInfo& ColliderLibrary::find(const std::string& name) const {
                         names_of(colliders_) + " (searched " + searched + ")");
 }
 
-const ColliderInfo& ColliderLibrary::choose(const Scene& scene) const {
-    const std::vector<ShapePairNeed> needs = shape_pair_needs(scene);
-    for (const char* preferred : {"ode", "bullet", "reference"})
-        for (const ColliderInfo& c : colliders_)
-            if (c.table && c.name == preferred &&
-                std::all_of(needs.begin(), needs.end(),
-                            [&](const ShapePairNeed& n) { return supports(c, n); }))
-                return c;
-    for (const ColliderInfo& c : colliders_)
-        if (c.table && std::all_of(needs.begin(), needs.end(),
-                                   [&](const ShapePairNeed& n) { return supports(c, n); }))
-            return c;
+ColliderChoice ColliderLibrary::choose(const Scene& scene) const {
+    ColliderChoice choice = choose_collider(colliders_, scene);
+    if (choice.collider) return choice;
     throw ColliderError(
         "no installed collider supports every pair of shapes of the scene; installed are: " +
         names_of(colliders_));
@@ -128,10 +112,10 @@ const ColliderInfo& ColliderLibrary::choose(const Scene& scene) const {
 
 void ColliderLibrary::check_abilities(const ColliderInfo& collider, const Scene& scene) const {
     for (const ShapePairNeed& need : shape_pair_needs(scene)) {
-        if (supports(collider, need)) continue;
+        if (supports(*collider.table, need)) continue;
         std::string able;
         for (const ColliderInfo& c : colliders_)
-            if (c.table && supports(c, need)) able += (able.empty() ? "" : ", ") + c.name;
+            if (c.table && supports(*c.table, need)) able += (able.empty() ? "" : ", ") + c.name;
         throw ColliderError("collider \"" + collider.name + "\" cannot detect " +
                             (need.moving_mesh ? "moving " : "") + name_of(need.a) + " against " +
                             name_of(need.b) + ", which the scene needs (" + need.example + "); " +

@@ -4,6 +4,7 @@
 
 #include <plumb/plugin.h>
 
+#include "host/choose_collider.h"
 #include "host/load_plugin.h"
 #include "scene/scene.h"
 
@@ -38,8 +39,9 @@ public:
     /// those there are.
     const ColliderInfo& find(const std::string& name) const;
 
-    /// The first usable plugin that supports every pair of the scene, in the order of `preference`.
-    const ColliderInfo& choose(const Scene& scene) const;
+    /// The cheapest usable plugin that supports every pair of the scene, and why
+    /// (choose_collider.h). Throws ColliderError where there is none.
+    ColliderChoice choose(const Scene& scene) const;
 
     /// Throws ColliderError when the plugin lacks a pair of shapes that the scene needs: with the
     /// shape, the pair and the plugins that could do it.

@@ -15,7 +15,7 @@ struct Simulation::Parts {
     Stepper stepper;
     ProximityPtr owned;
     Proximity& proximity;
-    std::string collider_name, collider_version;
+    std::string collider_name, collider_version, collider_reason;
 
     Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
           std::string version)
@@ -56,11 +56,12 @@ struct Simulation::Parts {
 
 namespace {
 
-const ColliderInfo& chosen(const Scene& scene, const ColliderLibrary& colliders,
-                           const std::string& name) {
-    const ColliderInfo& info = name == "auto" ? colliders.choose(scene) : colliders.find(name);
+ColliderChoice chosen(const Scene& scene, const ColliderLibrary& colliders,
+                      const std::string& name) {
+    if (name == "auto") return colliders.choose(scene);
+    const ColliderInfo& info = colliders.find(name);
     colliders.check_abilities(info, scene);
-    return info;
+    return {&info, ""};
 }
 
 }  // namespace
@@ -71,12 +72,14 @@ Simulation::Simulation(const Scene& scene, Proximity& proximity, std::string col
 
 Simulation::Simulation(const Scene& scene, const ColliderLibrary& colliders,
                        const std::string& collider) {
-    const ColliderInfo& info = chosen(scene, colliders, collider);
+    const ColliderChoice choice = chosen(scene, colliders, collider);
+    const ColliderInfo& info = *choice.collider;
     ProximityPtr plugin = colliders.create(info, scene.settings.threads);
     Proximity& proximity = *plugin;
     const char* version = info.table->backend_version;
     parts_ = std::make_unique<Parts>(scene, std::move(plugin), proximity, info.name,
                                      version ? version : "");
+    parts_->collider_reason = choice.reason;
 }
 
 Simulation::~Simulation() = default;
@@ -92,6 +95,7 @@ const Ledger& Simulation::ledger() const { return parts_->stepper.ledger; }
 DetectStats Simulation::detect_stats() const { return parts_->proximity.stats(); }
 const std::string& Simulation::collider_name() const { return parts_->collider_name; }
 const std::string& Simulation::collider_version() const { return parts_->collider_version; }
+const std::string& Simulation::collider_reason() const { return parts_->collider_reason; }
 void Simulation::capture(Frame& frame) const { plumb::capture(parts_->world, frame); }
 
 std::optional<RayHit> Simulation::cast_ray(const Eigen::Vector3d& origin,

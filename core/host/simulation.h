@@ -30,7 +30,8 @@ public:
     /// ColliderError.
     Simulation(const Scene& scene, Proximity& proximity, std::string collider_name = "custom");
 
-    /// Runs on a plugin by name; "auto" takes the first that supports all pairs of the scene.
+    /// Runs on a plugin by name; "auto" takes the cheapest that supports all pairs of the
+    /// scene.
     Simulation(const Scene& scene, const ColliderLibrary& colliders, const std::string& collider);
 
     ~Simulation();
@@ -48,6 +49,7 @@ public:
     DetectStats detect_stats() const;
     const std::string& collider_name() const;
     const std::string& collider_version() const;
+    const std::string& collider_reason() const;  ///< why "auto" took it; empty where it was named
 
     void capture(Frame& frame) const;
 

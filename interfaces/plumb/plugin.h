@@ -69,7 +69,7 @@ struct PluginTable {
     std::uint32_t pairs[kShapeKindCount][kShapeKindCount];
 
     /// What a near pair typically costs [ns], symmetric; 0: not known. Decides which collider is
-    /// the cheapest for a scene.
+    /// the cheapest for a scene. Compounds count as their parts, so their row is not read.
     std::uint32_t costs[kShapeKindCount][kShapeKindCount];
 
     /// Names of plugins that must not be used in one process with this one, separated by commas; or

@@ -2,6 +2,7 @@
 /// The collider on Bullet 3.24 in double precision: tree of volumes, closest points, shared
 /// support-face clipping.
 #include "bullet/broad.h"
+#include "bullet/costs.h"
 #include "bullet/narrow.h"
 #include "manifold/plugin_table.h"
 
@@ -64,6 +65,7 @@ PluginTable make_table() {
         "Bullet Physics in double precision: volume tree, closest points, shared clipping";
     t.backend_version = "Bullet 3.24";
     fill_pairs(t, kSupported, ability);
+    fill_costs(t, kCosts);
     t.create = create_collider<Bullet>;
     t.destroy = destroy_collider<Bullet>;
     return t;

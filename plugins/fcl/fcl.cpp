@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// The collider on FCL 0.7: dynamic tree, signed distance, shared support-face clipping.
 #include "fcl/broad.h"
+#include "fcl/costs.h"
 #include "fcl/narrow.h"
 #include "fcl/shapes.h"
 #include "manifold/plugin_table.h"
@@ -63,27 +64,13 @@ private:
     std::vector<Narrow> narrow_;  ///< [worker]
 };
 
-/// What near pairs took [ns], measured between −2 and +2 mm at unit size; planes and meshes were
-/// not.
-constexpr std::uint32_t kMeasured = 7;
-constexpr std::uint32_t kCosts[kMeasured][kMeasured] = {
-    // plane, sphere, box, capsule, cylinder, cone, hull
-    {0, 0, 0, 0, 0, 0, 0},
-    {0, 180, 260, 250, 260, 450, 550},
-    {0, 260, 1300, 1050, 9000, 7200, 2500},
-    {0, 250, 1050, 550, 3000, 2400, 1250},
-    {0, 260, 9000, 3000, 14000, 13500, 8500},
-    {0, 450, 7200, 2400, 13500, 11500, 7000},
-    {0, 550, 2500, 1250, 8500, 7000, 2700}};
-
 PluginTable make_table() {
     PluginTable t = blank_table();
     t.name = "fcl";
     t.description = "Flexible Collision Library: dynamic tree, signed distance, shared clipping";
     t.backend_version = "FCL 0.7.0";
     fill_pairs(t, kSupported, ability);
-    for (std::uint32_t i = 0; i < kMeasured; ++i)
-        for (std::uint32_t j = 0; j < kMeasured; ++j) t.costs[i][j] = kCosts[i][j];
+    fill_costs(t, kCosts);
     t.create = create_collider<Fcl>;
     t.destroy = destroy_collider<Fcl>;
     return t;

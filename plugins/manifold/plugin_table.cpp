@@ -15,6 +15,11 @@ std::uint32_t built_ability(ShapeKind a, ShapeKind b, std::uint32_t two_meshes) 
     return full | kPairMovingMesh;
 }
 
+void fill_costs(PluginTable& table, const Costs& costs) {
+    for (std::size_t i = 0; i < kCostedKinds; ++i)
+        for (std::size_t j = 0; j < kCostedKinds; ++j) table.costs[i][j] = costs[i][j];
+}
+
 PluginTable blank_table() {
     PluginTable t{};
     t.magic = kPluginMagic;

@@ -4,6 +4,8 @@
 
 #include "manifold/collider.h"
 
+#include <array>
+
 namespace plumb {
 
 /// What a plugin can do with a pair when the shared builder makes its contacts. `two_meshes`: bits
@@ -18,6 +20,11 @@ void fill_pairs(PluginTable& table, const Supported& supported, Ability ability)
             if (supported.kind[i] && supported.kind[j])
                 table.pairs[i][j] = ability(static_cast<ShapeKind>(i), static_cast<ShapeKind>(j));
 }
+
+/// What a near pair of two kinds costs [ns]: all kinds but compounds, which count as their parts.
+inline constexpr std::size_t kCostedKinds = static_cast<std::size_t>(ShapeKind::compound);
+using Costs = std::array<std::array<std::uint32_t, kCostedKinds>, kCostedKinds>;
+void fill_costs(PluginTable& table, const Costs& costs);
 
 /// PluginTable::create of a collider that is made from its number of threads.
 template <class Kind>

@@ -4,6 +4,7 @@
 /// `detect`.
 #include "manifold/grid.h"
 #include "manifold/plugin_table.h"
+#include "ode/costs.h"
 #include "ode/narrow.h"
 
 #include <stdexcept>
@@ -107,6 +108,7 @@ PluginTable make_table() {
     t.description = "Open Dynamics Engine: native pairs, shared clipping";
     t.backend_version = "ODE 0.16.2";
     fill_pairs(t, kSupported, ability);
+    fill_costs(t, kCosts);
     t.create = create;
     t.destroy = destroy_collider<Ode>;
     return t;

@@ -4,6 +4,7 @@
 /// It shares the table of bodies with the other plugins, but neither their support-face clipping
 /// nor any back-end, so that agreement between it and them means something.
 #include "manifold/plugin_table.h"
+#include "reference/costs.h"
 #include "reference/narrow.h"
 #include "reference/sweep.h"
 
@@ -37,6 +38,7 @@ PluginTable make_table() {
     t.backend_version = "Plumb reference 1";
     fill_pairs(t, kSupported,
                [](ShapeKind a, ShapeKind b) { return built_ability(a, b, kPairNone); });
+    fill_costs(t, kCosts);
     t.create = create_collider<Reference>;
     t.destroy = destroy_collider<Reference>;
     return t;

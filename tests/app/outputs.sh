@@ -19,6 +19,15 @@ for file in html png csv plumb; do [ -s "$work/x.$file" ]; done
   /state_hash /effects/0/name /effects/0/ran /effects/0/why /effects/0/ms /build/compiler
 [ "$("$json_has" "$work/summary.json" --print /fallen_through)" = 0 ]
 
+# who detects and why: the cheapest for the pile by the plugins' tables, told in the summary and on stderr
+why=$("$json_has" "$work/summary.json" --print /collider/why)
+echo "$why" | grep -qE '^"supports all [0-9]+ pairs of shapes, about 0\.[0-9]+ of [a-z]+.s cost, '
+chosen=$("$json_has" "$work/summary.json" --print /collider/name | tr -d '"')
+[ "$chosen" != reference ]
+"$plumb" run "$small" --duration 0.02 2>&1 | grep -qF "plumb: collider $chosen: $(echo "$why" | tr -d '"')"
+"$plumb" run "$small" --duration 0.02 --quiet --collider reference --summary - >"$work/named.json"
+[ "$("$json_has" "$work/named.json" --print /collider/why)" = '"asked for by name"' ]
+
 # what is said of colliders is JSON too; no digit of an option is lost; nothing holds the bodies without contacts
 "$plumb" colliders --json >"$work/colliders.json"
 "$json_has" "$work/colliders.json" /0/name /0/version /0/pairs/0/can
