@@ -16,11 +16,6 @@ namespace {
 constexpr Supported kSupported{{true, true, true, true, true, true, true, true, true, true},
                                "bullet does not know this kind of shape"};
 
-/// Two meshes: what Bullet says itself.
-std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    return built_ability(a, b, kPairPoint | kPairManifold | kPairMovingMesh);
-}
-
 class Bullet final : public Collider {
 public:
     explicit Bullet(std::uint32_t threads) : Collider(kSupported, threads) {
@@ -44,7 +39,7 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             const Part &a = table_.parts()[pairs[i].first], &b = table_.parts()[pairs[i].second];
             const bool mesh = has_surface(a.shape.kind) || has_surface(b.shape.kind);
-            if (!ability(a.shape.kind, b.shape.kind)) continue;
+            if (!built_ability(a.shape.kind, b.shape.kind)) continue;
             if (raw)
                 narrow.collide_raw(out.contacts, out.stats, a, b);
             else if (mesh)
@@ -64,7 +59,7 @@ PluginTable make_table() {
     t.description =
         "Bullet Physics in double precision: volume tree, closest points, shared clipping";
     t.backend_version = "Bullet 3.24";
-    fill_pairs(t, kSupported, ability);
+    fill_pairs(t, kSupported, built_ability);
     fill_costs(t, kCosts);
     t.create = create_collider<Bullet>;
     t.destroy = destroy_collider<Bullet>;

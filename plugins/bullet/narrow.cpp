@@ -2,12 +2,13 @@
 /// Convex pairs: the closest-point query on cushioned shapes, which is exact to twelve digits;
 /// boxes by Bullet's box detector, which is ten times as fast, on the true boxes where they overlap
 /// and on larger ones where they do not. Meshes and height fields: the closest-point query for each
-/// triangle; two meshes: GImpact, whose every point is taken as it comes, without Bullet's cap of
-/// four and without history.
+/// triangle; two meshes: shared code. Raw: every point of Bullet's algorithm as it comes, without
+/// Bullet's cap of four and without history.
 #include "bullet/narrow.h"
 
 #include "manifold/gjk.h"
 #include "manifold/least_overlap.h"
+#include "manifold/mesh_pair.h"
 #include "manifold/mesh_points.h"
 #include "manifold/support.h"
 
@@ -145,10 +146,9 @@ void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Par
     if (plane || ask(witness, a, b)) build_manifold(contacts, stats, a, b, witness);
 }
 
-void Narrow::run_algorithm(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b,
-                           bool exact_boxes) {
+void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
     const Shapes &sa = shapes_of(a), &sb = shapes_of(b);
-    const bool boxes = exact_boxes && sa.exact_box && sb.exact_box;
+    const bool boxes = sa.exact_box && sb.exact_box;
     btCollisionShape* shape_a = boxes ? sa.exact_box.get() : sa.any();
     btCollisionShape* shape_b = boxes ? sb.exact_box.get() : sb.any();
     const double cushions =
@@ -163,16 +163,13 @@ void Narrow::run_algorithm(ContactList& contacts, DetectStats& stats, const Part
                                           -1, -1);
     const btCollisionObjectWrapper wrap_b(nullptr, shape_b, &object_b, object_b.getWorldTransform(),
                                           -1, -1);
-    // Two meshes have an algorithm for contacts only.
-    const bool meshes = has_surface(a.shape.kind) && has_surface(b.shape.kind);
-    const auto kind =
-        exact_boxes || meshes ? BT_CONTACT_POINT_ALGORITHMS : BT_CLOSEST_POINT_ALGORITHMS;
     // Bullet counts who uses a mesh in the mesh itself.
     static std::mutex mesh_lock;
     const auto guard = has_surface(a.shape.kind) || has_surface(b.shape.kind)
                            ? std::unique_lock(mesh_lock)
                            : std::unique_lock<std::mutex>();
-    btCollisionAlgorithm* algorithm = dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, kind);
+    btCollisionAlgorithm* algorithm =
+        dispatcher_.findAlgorithm(&wrap_a, &wrap_b, nullptr, BT_CONTACT_POINT_ALGORITHMS);
     if (!algorithm) return;
     Everything result(&wrap_a, &wrap_b, pair_margin(a, b));
     algorithm->processCollision(&wrap_a, &wrap_b, btDispatcherInfo(), &result);
@@ -200,15 +197,7 @@ void Narrow::collide_mesh(ContactList& contacts, DetectStats& stats, const Part&
         return mesh_on_plane(contacts, stats, a, b);
     if (!has_surface(a.shape.kind) || !has_surface(b.shape.kind))
         return collide_triangles(contacts, stats, a, b, *this, scratch_);
-    const std::size_t begin = contacts.size();
-    DetectStats all{};
-    run_algorithm(contacts, all, a, b, false);
-    tidy_mesh_points(contacts, begin);
-    stats.from_backend += contacts.size() - begin;
-}
-
-void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {
-    run_algorithm(contacts, stats, a, b, true);
+    collide_meshes(contacts, stats, a, b);
 }
 
 }  // namespace plumb::bullet

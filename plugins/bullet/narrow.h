@@ -26,8 +26,6 @@ private:
     bool ask(Witness& witness, const Part& a, const Part& b, std::uint32_t id) override;
     bool ask_boxes(Witness& witness, const Part& a, const Part& b, bool grown);
     bool ask_closest(Witness& witness, const Part& a, const Part& b);
-    void run_algorithm(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b,
-                       bool exact_boxes);
 
     MeshScratch scratch_;
     btDefaultCollisionConfiguration configuration_;

@@ -15,11 +15,6 @@ namespace {
 constexpr Supported kSupported{{true, true, true, true, true, true, true, true, true, true},
                                "fcl does not know this kind of shape"};
 
-/// Two meshes: what FCL says itself.
-std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    return built_ability(a, b, kPairPoint | kPairManifold | kPairMovingMesh | kPairThreadSafe);
-}
-
 class Fcl final : public Collider {
 public:
     explicit Fcl(std::uint32_t threads) : Collider(kSupported, threads), narrow_(this->threads()) {}
@@ -51,7 +46,7 @@ private:
     static void collide(Narrow& narrow, const NarrowOutput& out, const Part& a, const Part& b,
                         bool raw) {
         const bool mesh = has_surface(a.shape.kind) || has_surface(b.shape.kind);
-        if (!ability(a.shape.kind, b.shape.kind)) return;
+        if (!built_ability(a.shape.kind, b.shape.kind)) return;
         if (raw)
             narrow.collide_raw(out.contacts, out.stats, a, b);
         else if (mesh)
@@ -69,7 +64,7 @@ PluginTable make_table() {
     t.name = "fcl";
     t.description = "Flexible Collision Library: dynamic tree, signed distance, shared clipping";
     t.backend_version = "FCL 0.7.0";
-    fill_pairs(t, kSupported, ability);
+    fill_pairs(t, kSupported, built_ability);
     fill_costs(t, kCosts);
     t.create = create_collider<Fcl>;
     t.destroy = destroy_collider<Fcl>;

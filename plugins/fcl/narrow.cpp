@@ -2,7 +2,7 @@
 /// Boxes by FCL's box test, on the true boxes where they overlap and on larger ones where they do
 /// not; spheres with simple shapes by its closed forms; other convex pairs by its signed
 /// distance, and where that gives up by its `collide`; meshes and height fields by the signed
-/// distance of each triangle; two meshes by FCL's trees of boxes.
+/// distance of each triangle; two meshes by shared code.
 ///
 /// FCL's normals point from its first argument to its second, ours from b to a. A mesh always goes
 /// first: FCL's answer for a shape and a mesh points out of the mesh whatever the order.
@@ -12,6 +12,7 @@
 #include "fcl/shapes.h"
 #include "manifold/gjk.h"
 #include "manifold/least_overlap.h"
+#include "manifold/mesh_pair.h"
 #include "manifold/mesh_points.h"
 #include "manifold/support.h"
 
@@ -223,11 +224,7 @@ void Narrow::collide_mesh(ContactList& contacts, DetectStats& stats, const Part&
     if (either(a, b, ShapeKind::plane)) return mesh_on_plane(contacts, stats, a, b);
     if (!has_triangles(a) || !has_triangles(b))
         return collide_triangles(contacts, stats, a, b, *this, scratch_->triangles);
-    const std::size_t begin = contacts.size();
-    DetectStats all{};
-    take_all(contacts, all, a, b);
-    tidy_mesh_points(contacts, begin);
-    stats.from_backend += contacts.size() - begin;
+    collide_meshes(contacts, stats, a, b);
 }
 
 void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {

@@ -21,8 +21,8 @@ double distance(const Spot& p, const Spot& q) { return std::hypot(p.x - q.x, p.y
 
 class PlaneReducer {
 public:
-    PlaneReducer(Contact* all, std::size_t count, bool surface_is_a)
-        : all_(all), surface_is_a_(surface_is_a) {
+    PlaneReducer(Contact* all, std::size_t count, bool surface_is_a, double bend)
+        : all_(all), surface_is_a_(surface_is_a), bend_(bend) {
         kept_.assign(count, 0);
         done_.assign(count, 0);
     }
@@ -47,11 +47,11 @@ private:
         const Vec3 u = any_perpendicular(n), w = cross(n, u);
         spots_.clear();
         deepest_ = first;
+        const double least = 1 - 1e-10 - 0.5 * bend_ * bend_;
         for (std::size_t i = first; i < kept_.size(); ++i) {
             const Vec3 d = place(i) - p;
-            const double off = 1e-6 * norm(d) + 1e-9;
-            if (done_[i] || dot(all_[i].normal, n) < 1 - 1e-10 || std::abs(dot(d, n)) > off)
-                continue;
+            const double off = (1e-6 + bend_) * norm(d) + 1e-9;
+            if (done_[i] || dot(all_[i].normal, n) < least || std::abs(dot(d, n)) > off) continue;
             done_[i] = 1;
             spots_.push_back({dot(d, u), dot(d, w), static_cast<std::uint32_t>(i)});
         }
@@ -114,6 +114,7 @@ private:
 
     Contact* all_;
     bool surface_is_a_;
+    double bend_;      ///< [rad]
     double size_ = 0;  ///< of what was gathered [m]
     std::size_t deepest_ = 0;
     // Memory of the thread, so that a pair allocates nothing.
@@ -126,11 +127,11 @@ thread_local std::vector<Spot> PlaneReducer::spots_, PlaneReducer::hull_;
 
 }  // namespace
 
-void reduce_by_planes(ContactList& contacts, std::size_t begin, bool surface_is_a) {
+void reduce_by_planes(ContactList& contacts, std::size_t begin, bool surface_is_a, double bend) {
     Contact* all = contacts.data() + begin;
     const std::size_t count = contacts.size() - begin;
     if (count < 2) return;
-    PlaneReducer reducer(all, count, surface_is_a);
+    PlaneReducer reducer(all, count, surface_is_a, bend);
     for (std::size_t i = 0; i < count; ++i) reducer.reduce_plane_of(i);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < count; ++i)

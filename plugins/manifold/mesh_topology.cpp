@@ -84,6 +84,9 @@ void MeshTopology::connect(const std::vector<Vec3>& all) {
         i = end;
     }
     make_rings(*this, sides, all.size());
+    facet_of.assign(all.size(), kNoFacet);
+    for (std::size_t f = facets.size(); f-- > 0;)
+        for (const std::uint32_t k : facets[f].corner) facet_of[k] = static_cast<std::uint32_t>(f);
 }
 
 }  // namespace plumb

@@ -37,6 +37,7 @@ struct MeshTopology {
     std::vector<Facet> facets;              ///< as the surface counts its triangles
     std::vector<std::uint32_t> ring_begin;  ///< [vertex + 1] where its neighbours begin in `ring`
     std::vector<std::uint32_t> ring;        ///< vertices
+    std::vector<std::uint32_t> facet_of;    ///< [vertex] its first facet, or kNoFacet
 
     /// Adds a facet that is not joined to others yet.
     void add(const std::uint32_t (&corner)[3], std::uint32_t id, Vec3 normal);

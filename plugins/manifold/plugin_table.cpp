@@ -3,15 +3,14 @@
 
 namespace plumb {
 
-std::uint32_t built_ability(ShapeKind a, ShapeKind b, std::uint32_t two_meshes) {
+std::uint32_t built_ability(ShapeKind a, ShapeKind b) {
     constexpr std::uint32_t full = kPairPoint | kPairManifold | kPairSeparated | kPairThreadSafe;
     const auto has = [&](ShapeKind k) { return a == k || b == k; };
     if (a == b && a == ShapeKind::plane) return kPairNone;
     if (!has_surface(a) && !has_surface(b)) return full;
     // A height field has no inside that a mesh or a half-space could be measured against.
-    if (has_surface(a) && has_surface(b))
-        return has(ShapeKind::height_field) ? std::uint32_t{kPairNone} : two_meshes;
-    if (has(ShapeKind::height_field) && has(ShapeKind::plane)) return kPairNone;
+    const bool other = has(ShapeKind::mesh) || has(ShapeKind::plane) || a == b;
+    if (has(ShapeKind::height_field) && other) return kPairNone;
     return full | kPairMovingMesh;
 }
 

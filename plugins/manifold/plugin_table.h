@@ -8,9 +8,8 @@
 
 namespace plumb {
 
-/// What a plugin can do with a pair when the shared builder makes its contacts. `two_meshes`: bits
-/// for mesh against mesh, where the back-end's own points are all there is.
-std::uint32_t built_ability(ShapeKind a, ShapeKind b, std::uint32_t two_meshes);
+/// What a plugin can do with a pair when the shared builder makes its contacts.
+std::uint32_t built_ability(ShapeKind a, ShapeKind b);
 
 /// Marks in `table` what `ability` says of all pairs of kinds that are supported.
 template <class Ability>

@@ -7,6 +7,7 @@
 #include "ode/narrow.h"
 
 #include "manifold/gjk.h"
+#include "manifold/mesh_pair.h"
 #include "manifold/mesh_points.h"
 #include "manifold/support.h"
 
@@ -191,15 +192,7 @@ void collide_mesh(Output out, const Part& a, const Part& b, Workspace& workspace
     if (!has_surface(a.shape.kind) || !has_surface(b.shape.kind))
         return collide_triangles(out.contacts, out.stats, a, b, workspace.answers,
                                  workspace.scratch);
-    const std::lock_guard<std::mutex> guard(mesh_lock());
-    static dContactGeom c[kMostFromOde];  // behind the lock
-    const Geoms &ga = geoms_of(a), &gb = geoms_of(b);
-    const int count = dCollide(ga.widest(), gb.widest(), kMostFromOde, c, sizeof(dContactGeom));
-    const std::size_t begin = out.contacts.size();
-    add_all(out, a, b, c, count, std::max(widened(a), widened(b)));
-    tidy_mesh_points(out.contacts, begin);
-    out.stats.from_backend -= static_cast<std::uint64_t>(count);
-    out.stats.from_backend += out.contacts.size() - begin;
+    collide_meshes(out.contacts, out.stats, a, b);
 }
 
 void collide_raw(Output out, const Part& a, const Part& b) {

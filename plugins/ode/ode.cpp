@@ -15,11 +15,6 @@ namespace {
 constexpr Supported kSupported{{true, true, true, true, true, false, true, true, true, true},
                                "ode has no cones; bullet has them"};
 
-/// Two meshes: what ODE says itself.
-std::uint32_t ability(ShapeKind a, ShapeKind b) {
-    return built_ability(a, b, kPairPoint | kPairManifold | kPairMovingMesh);
-}
-
 class Ode final : public Collider {
 public:
     explicit Ode(std::uint32_t threads) : Collider(kSupported, threads) {
@@ -61,7 +56,7 @@ private:
 
     static void collide(const Output& out, const Part& a, const Part& b, bool raw,
                         Workspace& workspace) {
-        if (!ability(a.shape.kind, b.shape.kind)) return;
+        if (!built_ability(a.shape.kind, b.shape.kind)) return;
         if (raw) return collide_raw(out, a, b);
         if (has_surface(a.shape.kind) || has_surface(b.shape.kind))
             return collide_mesh(out, a, b, workspace);
@@ -107,7 +102,7 @@ PluginTable make_table() {
     t.name = "ode";
     t.description = "Open Dynamics Engine: native pairs, shared clipping";
     t.backend_version = "ODE 0.16.2";
-    fill_pairs(t, kSupported, ability);
+    fill_pairs(t, kSupported, built_ability);
     fill_costs(t, kCosts);
     t.create = create;
     t.destroy = destroy_collider<Ode>;

@@ -36,8 +36,7 @@ PluginTable make_table() {
     t.name = "reference";
     t.description = "closed forms and exact separating axes; no package behind it";
     t.backend_version = "Plumb reference 1";
-    fill_pairs(t, kSupported,
-               [](ShapeKind a, ShapeKind b) { return built_ability(a, b, kPairNone); });
+    fill_pairs(t, kSupported, built_ability);
     fill_costs(t, kCosts);
     t.create = create_collider<Reference>;
     t.destroy = destroy_collider<Reference>;

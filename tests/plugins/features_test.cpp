@@ -23,8 +23,7 @@ protected:
         // The edges of a face that is nearly level on a capsule are as deep as the face.
         const bool edges = stack.lower.shape.kind == ShapeKind::capsule &&
                            stack.upper.shape.kind == ShapeKind::mesh;
-        return !stack.approximate && !edges && !round(stack.lower.shape.kind) &&
-               !round(stack.upper.shape.kind);
+        return !edges && !round(stack.lower.shape.kind) && !round(stack.upper.shape.kind);
     }
 
     static bool of_parts(const Stack& stack) {

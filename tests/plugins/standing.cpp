@@ -82,16 +82,7 @@ std::vector<Stack> stacks(const std::string& plugin, double size) {
             // A half-space is never dynamic, and one of two must be.
             if (high == ShapeKind::mesh && !(able & kPairMovingMesh) && low == ShapeKind::plane)
                 continue;
-            Stack stack{below(low, 2 * size), *above(high, size), able,
-                        low == ShapeKind::mesh && high == ShapeKind::mesh};
-            if (low == ShapeKind::mesh && high == ShapeKind::mesh) {
-                // Two flat meshes face on face share no single point that cuts; a ring does.
-                stack.upper = {torus_mesh(size, .4 * size, 48, 24),
-                               {V(0, .4 * size, 0), Q::Identity()},
-                               4,
-                               {}};
-            }
-            all.push_back(stack);
+            all.push_back({below(low, 2 * size), *above(high, size), able});
         }
     return all;
 }

@@ -29,7 +29,6 @@ std::optional<Standing> above(ShapeKind kind, double size);
 struct Stack {
     Standing lower, upper;
     std::uint32_t ability;
-    bool approximate;  ///< two meshes: what the back-end says itself, with its own depths
 
     int points() const { return std::min(lower.points, upper.points); }
     std::string name() const;
