@@ -69,13 +69,16 @@ std::string filter_of(const std::string& wanted, const std::vector<std::string>&
 }  // namespace
 
 Child start_child(const std::string& plugin_file, const std::string& filter,
-                  const std::vector<std::string>& done) {
+                  const std::vector<std::string>& done, const std::optional<KindPair>& pair,
+                  unsigned limit) {
     int ends[2];
     if (pipe(ends) != 0) return {};
     std::fflush(nullptr);
     const pid_t pid = fork();
     if (pid == 0) {
         close(ends[0]);
+        if (pair) choose_pair(*pair);
+        alarm(limit);  // 0: never
         run_tests(ends[1], plugin_file, filter_of(filter, done));
     }
     close(ends[1]);

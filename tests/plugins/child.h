@@ -2,8 +2,11 @@
 /// A run of the suite in a process of its own, and what it tells its parent, line by line.
 #pragma once
 
+#include "standing.h"
+
 #include <sys/types.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +26,10 @@ struct Child {
     int lines = -1;  ///< file descriptor to read from
 };
 
-/// Starts the tests that `filter` names, but for those done, on one plugin.
+/// Starts the tests that `filter` names, but for those done, on one plugin. With a pair of kinds,
+/// only stacks of these two are looked at; with a limit [s], the process is ended after it.
 Child start_child(const std::string& plugin_file, const std::string& filter,
-                  const std::vector<std::string>& done);
+                  const std::vector<std::string>& done, const std::optional<KindPair>& pair = {},
+                  unsigned limit = 0);
 
 }  // namespace plumb::test

@@ -2,7 +2,11 @@
 /// plumb_check_collider: the conformance suite of collision plugins.
 ///
 ///     plumb_check_collider NAME|FILE.so [--limit S] [--filter TEST]   a verdict on one plugin
-///     plumb_check_collider --gtest_…                                  GoogleTest on all of Plumb's
+///     plumb_check_collider --table [NAME|FILE.so…]                    what each can do, in
+///     Markdown plumb_check_collider --gtest_…                                  GoogleTest on all
+///     of Plumb's
+#include "ability_table.h"
+#include "loading.h"
 #include "verdict.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +24,10 @@ constexpr const char* kUsage =
     "PLUMB_PLUGIN_PATH\n"
     "and among the installed plugins; a test may take 60 s unless a limit is given; TEST is a "
     "name\n"
-    "as the verdict prints it, and may end with *. Exit codes: 0 conforms, 1 does not, 2 usage.\n";
+    "as the verdict prints it, and may end with *. Exit codes: 0 conforms, 1 does not, 2 usage.\n"
+    "plumb_check_collider --table [NAME|FILE.so...]\n"
+    "Prints what each plugin was seen to do with each pair of shapes; all of Plumb's unless "
+    "named.\n";
 
 int usage() {
     std::fputs(kUsage, stderr);
@@ -44,7 +51,13 @@ int verdict(int argc, char** argv) {
     return check_plugin(options) ? 0 : 1;
 }
 
+int table(int argc, char** argv) {
+    std::vector<std::string> names(argv + 2, argv + argc);
+    return print_ability_table(names.empty() ? plugin_names() : names) ? 0 : 1;
+}
+
 int program(int argc, char** argv) {
+    if (argc > 1 && std::strcmp(argv[1], "--table") == 0) return table(argc, argv);
     if (argc > 1 && std::strncmp(argv[1], "--gtest", 7) != 0) return verdict(argc, argv);
     ::testing::InitGoogleTest(&argc, argv);
     return RUN_ALL_TESTS();

@@ -112,6 +112,29 @@ TEST_P(Pairs, SweepsOfBothWidenTheMargin) {
     }
 }
 
+TEST_P(Pairs, MovingSurfacesTakeTheirContactsAlong) {
+    for (const Stack& stack : stacks(GetParam())) {
+        // A half-space that is turned away may still hold what stood on it.
+        if (!(stack.ability & kPairMovingMesh) || stack.lower.shape.kind == ShapeKind::plane)
+            continue;
+        SCOPED_TRACE(stack.name());
+        World world(GetParam());
+        Place upper = stack.upper.place;
+        upper.x.y() -= 0.001;
+        world.add(1, stack.lower.shape, stack.lower.place, Mobility::kinematic);
+        world.add(2, stack.upper.shape, upper);
+        ASSERT_FALSE(world.detect(kMargin).empty());
+        const Place away{V(3, -2, 5), Q(Eigen::AngleAxisd(1.3, V(1, 2, -3).normalized()))};
+        world.move(1, away * stack.lower.place);
+        EXPECT_TRUE(world.detect(kMargin).empty()) << "the surface has gone";
+        world.move(2, away * upper);
+        ASSERT_FALSE(world.detect(kMargin).empty()) << "both have moved";
+        const Contact& d = deepest(world.last());
+        EXPECT_NEAR(d.gap, -0.001, relative_accuracy(GetParam()));
+        EXPECT_LT(v(d.normal).dot(away.q * V::UnitY()), -0.99);
+    }
+}
+
 TEST_P(Pairs, FaceContactsSpanTheirArea) {
     for (double shift : {0.0, 0.35})
         for (Stack stack : stacks(GetParam())) {

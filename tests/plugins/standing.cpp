@@ -22,7 +22,19 @@ Shape two_boxes(double size) {
                      {box(h, h, size), {V(h, 0, 0), Q::Identity()}}});
 }
 
+std::optional<KindPair>& chosen_pair() {
+    static std::optional<KindPair> pair;
+    return pair;
+}
+
+bool is_chosen(ShapeKind a, ShapeKind b) {
+    const std::optional<KindPair>& pair = chosen_pair();
+    return !pair || KindPair(a, b) == *pair || KindPair(b, a) == *pair;
+}
+
 }  // namespace
+
+void choose_pair(const KindPair& pair) { chosen_pair() = pair; }
 
 Standing below(ShapeKind kind, double s) {
     const Q flat = Q::Identity();
@@ -78,7 +90,7 @@ std::vector<Stack> stacks(const std::string& plugin, double size) {
         for (std::uint32_t j = 0; j < kShapeKindCount; ++j) {
             const auto low = static_cast<ShapeKind>(i), high = static_cast<ShapeKind>(j);
             const std::uint32_t able = ability(plugin, low, high);
-            if (able == kPairNone || !above(high, size)) continue;
+            if (able == kPairNone || !above(high, size) || !is_chosen(low, high)) continue;
             // A half-space is never dynamic, and one of two must be.
             if (high == ShapeKind::mesh && !(able & kPairMovingMesh) && low == ShapeKind::plane)
                 continue;

@@ -37,6 +37,10 @@ struct Stack {
 /// All stacks that a plugin claims; a mesh that may not move is fixed, whichever it is.
 std::vector<Stack> stacks(const std::string& plugin, double size = 0.3);
 
+/// From here on `stacks` has only those of two kinds, either on the other.
+using KindPair = std::pair<ShapeKind, ShapeKind>;
+void choose_pair(const KindPair& pair);
+
 /// Puts the lower body at id `lower` and the other at 3 − lower, the upper one `gap` higher.
 void build(World& world, const Stack& stack, double gap, const Place& frame = {},
            std::uint32_t lower = 1);
