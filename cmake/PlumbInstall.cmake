@@ -3,6 +3,7 @@ include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(PLUMB_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
 set(PLUMB_PLUGIN_DIR "lib/plumb/plugins")  # as seen from bin/, core/host/collider_library.cpp looks here
+set(PLUMB_BACKEND_DIR "lib/plumb/backends")  # beside, plugins/bullet/load_backend.cpp looks here
 
 install(TARGETS plumb_interfaces plumb_scene plumb_core plumb_host EXPORT plumbTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
@@ -15,8 +16,9 @@ if(TARGET plumb_check_collider)
   install(TARGETS plumb_check_collider RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 endif()
 if(PLUMB_BUILD_PLUGINS)
-  install(TARGETS plumb_collider_reference plumb_collider_ode plumb_collider_bullet plumb_collider_fcl
-    LIBRARY DESTINATION "${PLUMB_PLUGIN_DIR}")
+  install(TARGETS plumb_collider_reference plumb_collider_ode plumb_collider_bullet plumb_collider_bullet_float
+    plumb_collider_fcl LIBRARY DESTINATION "${PLUMB_PLUGIN_DIR}")
+  install(TARGETS plumb_bullet plumb_bullet_float LIBRARY DESTINATION "${PLUMB_BACKEND_DIR}")
 endif()
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/samples/scenes" "${PROJECT_SOURCE_DIR}/samples/schema"
   DESTINATION "${CMAKE_INSTALL_DATADIR}/plumb")

@@ -1,11 +1,23 @@
 // SPDX-License-Identifier: MIT
 #include "bullet/broad.h"
 
+#include "bullet/shapes.h"
+
+#include <cmath>
+#include <limits>
+
 namespace plumb::bullet {
 namespace {
 
+/// Rounded to Bullet's precision, never up.
+btScalar bt_below(double x) {
+    const btScalar near = bt(x);
+    return near > x ? std::nextafter(near, -std::numeric_limits<btScalar>::infinity()) : near;
+}
+btVector3 bt_below(Vec3 v) { return {bt_below(v.x), bt_below(v.y), bt_below(v.z)}; }
+
 btDbvtVolume volume_of(const Aabb& b) {
-    return btDbvtVolume::FromMM({b.low.x, b.low.y, b.low.z}, {b.high.x, b.high.y, b.high.z});
+    return btDbvtVolume::FromMM(bt_below(b.low), -bt_below(-b.high));
 }
 
 /// Takes the tree's candidates; its volumes may be stale, so bounds are compared again.
@@ -51,7 +63,7 @@ void Tree::update(const BodyTable& table) {
             tree_.update(leaf, volume, spare);
             continue;
         }
-        volume.Expand({spare, spare, spare});
+        volume.Expand(bt(Vec3{spare, spare, spare}));
         leaf = tree_.insert(volume, nullptr);
         leaf->dataAsInt = static_cast<int>(i);
     }

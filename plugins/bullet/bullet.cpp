@@ -1,20 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// The collider on Bullet 3.24 in double precision: tree of volumes, closest points, shared
-/// support-face clipping.
+/// The collider on Bullet 3.24, in the precision that it is compiled for: tree of volumes, closest
+/// points, shared support-face clipping.
+#include "bullet/backend.h"
 #include "bullet/broad.h"
-#include "bullet/costs.h"
 #include "bullet/narrow.h"
-#include "manifold/plugin_table.h"
+#include "bullet/supported.h"
 
 namespace plumb::bullet {
 namespace {
-
-#ifndef BT_USE_DOUBLE_PRECISION
-#error "this plugin needs bullet-float64: pkg-config bullet-float64 defines BT_USE_DOUBLE_PRECISION"
-#endif
-
-constexpr Supported kSupported{{true, true, true, true, true, true, true, true, true, true},
-                               "bullet does not know this kind of shape"};
 
 class Bullet final : public Collider {
 public:
@@ -53,23 +46,13 @@ private:
     std::vector<std::unique_ptr<Narrow>> narrow_;  ///< [worker]
 };
 
-PluginTable make_table() {
-    PluginTable t = blank_table();
-    t.name = "bullet";
-    t.description =
-        "Bullet Physics in double precision: volume tree, closest points, shared clipping";
-    t.backend_version = "Bullet 3.24";
-    fill_pairs(t, kSupported, built_ability);
-    fill_costs(t, kCosts);
-    t.create = create_collider<Bullet>;
-    t.destroy = destroy_collider<Bullet>;
-    return t;
-}
-
 }  // namespace
 }  // namespace plumb::bullet
 
-extern "C" PLUMB_PLUGIN_EXPORT const plumb::PluginTable* plumb_collider_plugin(void) {
-    static const plumb::PluginTable table = plumb::bullet::make_table();
-    return &table;
+plumb::Proximity* plumb_bullet_create(const plumb::CreateRequest* request, const char** message) {
+    return plumb::create_collider<plumb::bullet::Bullet>(request, message);
+}
+
+void plumb_bullet_destroy(plumb::Proximity* proximity) {
+    plumb::destroy_collider<plumb::bullet::Bullet>(proximity);
 }

@@ -10,6 +10,7 @@
 #include "manifold/least_overlap.h"
 #include "manifold/mesh_pair.h"
 #include "manifold/mesh_points.h"
+#include "manifold/sharpen.h"
 #include "manifold/support.h"
 
 #include <BulletCollision/CollisionDispatch/btBoxBoxDetector.h>
@@ -21,6 +22,8 @@
 
 namespace plumb::bullet {
 namespace {
+
+constexpr bool kSingle = sizeof(btScalar) < sizeof(double);
 
 bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 
@@ -59,12 +62,19 @@ public:
     std::vector<Point> points;
 };
 
+/// Bullet is asked in a frame whose origin is that of a, so that its precision does not depend on
+/// where in the world a pair is.
+btTransform place_in_pair(const Part& part, const Part& a) {
+    return btTransform(shapes_of(part).turn, bt(part.world.origin - a.world.origin));
+}
+Vec3 to_world(const btVector3& p, const Part& a) { return from(p) + a.world.origin; }
+
 btDiscreteCollisionDetectorInterface::ClosestPointInput input_of(const Part& a, const Part& b,
                                                                  double reach) {
     btDiscreteCollisionDetectorInterface::ClosestPointInput input;
-    input.m_transformA = shapes_of(a).place;
-    input.m_transformB = shapes_of(b).place;
-    input.m_maximumDistanceSquared = reach * reach;
+    input.m_transformA = place_in_pair(a, a);
+    input.m_transformB = place_in_pair(b, a);
+    input.m_maximumDistanceSquared = bt(reach * reach);
     return input;
 }
 
@@ -91,8 +101,9 @@ bool Narrow::ask_boxes(Witness& witness, const Part& a, const Part& b, bool grow
     Deepest result;
     detector.getClosestPoints(input_of(a, b, 1e9), result, nullptr);
     if (result.depth > 1e299) return false;
-    witness = {from(result.normal), from(result.point),
+    witness = {from(result.normal), to_world(result.point, a),
                result.depth + (grown ? pair_margin(a, b) : 0), false};
+    if (kSingle) sharpen(witness, a, b);
     return true;
 }
 
@@ -110,7 +121,9 @@ bool Narrow::ask_closest(Witness& witness, const Part& a, const Part& b) {
                               nullptr);
     if (result.depth > 1e299) return false;
     const Vec3 n = from(result.normal);
-    witness = {n, from(result.point) + (0.5 * result.depth) * n, result.depth + cushions, false};
+    witness = {n, to_world(result.point, a) + (0.5 * result.depth) * n, result.depth + cushions,
+               false};
+    if (kSingle) sharpen(witness, a, b);
     return true;
 }
 
@@ -157,8 +170,8 @@ void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& 
     btCollisionObject object_a, object_b;
     object_a.setCollisionShape(shape_a);
     object_b.setCollisionShape(shape_b);
-    object_a.setWorldTransform(sa.place);
-    object_b.setWorldTransform(sb.place);
+    object_a.setWorldTransform(place_in_pair(a, a));
+    object_b.setWorldTransform(place_in_pair(b, a));
     const btCollisionObjectWrapper wrap_a(nullptr, shape_a, &object_a, object_a.getWorldTransform(),
                                           -1, -1);
     const btCollisionObjectWrapper wrap_b(nullptr, shape_b, &object_b, object_b.getWorldTransform(),
@@ -180,8 +193,8 @@ void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& 
         const bool mesh_a = has_surface(a.shape.kind), mesh_b = has_surface(b.shape.kind);
         const auto ta = mesh_a && p.index_a >= 0 ? static_cast<std::uint32_t>(p.index_a) : 0;
         const auto tb = mesh_b && p.index_b >= 0 ? static_cast<std::uint32_t>(p.index_b) : 0;
-        const Witness w{p.normal, p.on_b + (0.5 * p.distance) * p.normal, p.distance + cushions,
-                        mesh_a || mesh_b};
+        const Witness w{p.normal, p.on_b + a.world.origin + (0.5 * p.distance) * p.normal,
+                        p.distance + cushions, mesh_a || mesh_b};
         const std::size_t before = contacts.size();
         add_raw(contacts, stats, a, b, w, feature_key({ta, tb}));
         if (contacts.size() == before) continue;

@@ -10,7 +10,11 @@
 namespace plumb::bullet {
 namespace {
 
-static_assert(sizeof(btScalar) == sizeof(double), "this plugin needs Bullet in double precision");
+#ifdef PLUMB_BULLET_SINGLE
+static_assert(sizeof(btScalar) == sizeof(float), "bullet_float needs Bullet in single precision");
+#else
+static_assert(sizeof(btScalar) == sizeof(double), "bullet needs Bullet in double precision");
+#endif
 
 std::unique_ptr<btConvexShape> cushioned_box(Vec3 half, double cushion) {
     auto box = std::make_unique<btBoxShape>(bt(half + Vec3{cushion, cushion, cushion}));
@@ -55,6 +59,7 @@ void make_mesh(Shapes& made, const Vec3* vertices, std::size_t vertex_count,
     mesh.m_numVertices = static_cast<int>(vertex_count);
     mesh.m_vertexBase = reinterpret_cast<const unsigned char*>(vertices);
     mesh.m_vertexStride = sizeof(Vec3);
+    mesh.m_vertexType = PHY_DOUBLE;
     made.triangles = std::make_unique<btTriangleIndexVertexArray>();
     made.triangles->addIndexedMesh(mesh, PHY_INTEGER);
     auto shape = std::make_unique<btGImpactMeshShape>(made.triangles.get());
@@ -133,8 +138,8 @@ void place_shapes(const Part& part) {
     Shapes& shapes = shapes_of(part);
     const Frame& f = part.world;
     const Vec3 &x = f.axis[0], &y = f.axis[1], &z = f.axis[2];
-    shapes.place =
-        btTransform(btMatrix3x3(x.x, y.x, z.x, x.y, y.y, z.y, x.z, y.z, z.z), bt(f.origin));
+    shapes.turn = btMatrix3x3(bt(x.x), bt(y.x), bt(z.x), bt(x.y), bt(y.y), bt(z.y), bt(x.z),
+                              bt(y.z), bt(z.z));
     if (shapes.grown_box) {
         const Vec3 grown{part.reach, part.reach, part.reach};
         shapes.grown_box->setImplicitShapeDimensions(bt(part.shape.half_extents + grown));

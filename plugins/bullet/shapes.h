@@ -27,7 +27,7 @@ struct Shapes {
     std::unique_ptr<btTriangleIndexVertexArray> triangles;  ///< behind a mesh or height field
     std::vector<std::uint32_t> corners;                     ///< behind a height field
     std::unique_ptr<btCollisionShape> other;                ///< plane, mesh, height field
-    btTransform place;
+    btMatrix3x3 turn;                                       ///< shape frame → world
 
     /// The shape that stands for the part in Bullet's own algorithms.
     btCollisionShape* any() const { return cushioned ? cushioned.get() : other.get(); }
@@ -46,7 +46,8 @@ void fit_triangle(const Part& triangle);
 /// Moves a part to its world frame and fits the grown box to its reach.
 void place_shapes(const Part& part);
 
-inline btVector3 bt(Vec3 v) { return {v.x, v.y, v.z}; }
+inline btScalar bt(double x) { return static_cast<btScalar>(x); }
+inline btVector3 bt(Vec3 v) { return {bt(v.x), bt(v.y), bt(v.z)}; }
 inline Vec3 from(const btVector3& v) { return {v.x(), v.y(), v.z()}; }
 
 }  // namespace plumb::bullet

@@ -84,10 +84,11 @@ Vec3 middle(const Part& part) {
     return to_outer(part.world, 0.5 * (part.own_bounds.low + part.own_bounds.high));
 }
 
-/// How the parts are changed before they are asked about.
+/// How the parts are changed before they are asked about, and which way is asked first.
 struct Change {
     double scale = 1;  ///< of both, about their middles
     Vec3 shift{};      ///< of a [m]
+    Vec3 way{};        ///< where the search begins; zero: from middle to middle
 };
 
 Vertex support(const Part& a, const Part& b, Vec3 d, const Change& change) {
@@ -103,7 +104,7 @@ Vertex support(const Part& a, const Part& b, Vec3 d, const Change& change) {
 bool closest(Witness& witness, const Part& a, const Part& b, const Change& change) {
     const double size = size_of(a) + size_of(b), tiny = 1e-9 * size;
     Simplex s;
-    Vec3 v = middle(a) - middle(b);
+    Vec3 v = dot(change.way, change.way) > 0 ? change.way : middle(a) - middle(b);
     if (dot(v, v) < tiny * tiny) v = {0, 1, 0};
     s.vertex[0] = support(a, b, v, change);
     s.count = 1;
@@ -141,12 +142,12 @@ bool closest(Witness& witness, const Part& a, const Part& b, const Change& chang
 
 }  // namespace
 
-bool closest_when_apart(Witness& witness, const Part& a, const Part& b) {
-    return closest(witness, a, b, {});
+bool closest_when_apart(Witness& witness, const Part& a, const Part& b, Vec3 way) {
+    return closest(witness, a, b, {1, {}, way});
 }
 
 bool closest_when_touching(Witness& witness, const Part& a, const Part& b) {
-    if (!closest(witness, a, b, {0.98, {}})) return false;
+    if (!closest(witness, a, b, {0.98, {}, {}})) return false;
     witness.gap = support_gap(a, b, witness.normal);
     return true;
 }
@@ -154,7 +155,7 @@ bool closest_when_touching(Witness& witness, const Part& a, const Part& b) {
 bool touching_point(Vec3& point, const Part& a, const Part& b, Vec3 n, double gap) {
     const double apart = std::max(0.0, 0.01 * (size_of(a) + size_of(b)) - gap);
     Witness witness;
-    if (!closest(witness, a, b, {1, apart * n})) return false;
+    if (!closest(witness, a, b, {1, apart * n, {}})) return false;
     point = witness.point - 0.5 * apart * n;
     return true;
 }

@@ -8,8 +8,9 @@
 namespace plumb {
 
 /// The witness of two separated parts, a before b. Returns false where the cores overlap or come
-/// closer than about 1e-9 of their size. Neither part may be a plane or a mesh.
-bool closest_when_apart(Witness& witness, const Part& a, const Part& b);
+/// closer than about 1e-9 of their size. Neither part may be a plane or a mesh. `way` is where the
+/// search begins, out of b towards a; zero: from middle to middle.
+bool closest_when_apart(Witness& witness, const Part& a, const Part& b, Vec3 way = {});
 
 /// The same where parts touch or overlap a little: asks about both shrunk by a fiftieth, which
 /// keeps the direction of faces and edges, and so mostly the normal; the gap is then measured on

@@ -98,7 +98,7 @@ expect 6 "stdout" bash -c "'$plumb' run '$scenes/stack.json' --collider ode --du
 
 # bad plugins are listed with their reason and do not stand in the way of good ones
 "$plumb" colliders --short --plugin-path "$bad_plugins" >"$work/list" || failures=$((failures + 1))
-for words in "refused: its table has no name" "refused: its table is smaller" "refused: plumb_collider_plugin threw" "reference" "ode" "bullet" "fcl"; do
+for words in "refused: its table has no name" "refused: its table is smaller" "refused: plumb_collider_plugin threw" "reference" "ode" "bullet" "bullet_float" "fcl"; do
   grep -q "$words" "$work/list" || { echo "FAILED: plumb colliders does not say $words"; failures=$((failures + 1)); }
 done
 exit $((failures > 0))

@@ -40,6 +40,15 @@ ends 0 "The colliders agree." "$small" --colliders ode,bullet,reference --every 
 [ "$(value "$work/apart.json" /disagreements)" = "$(value "$work/small.json" /disagreements)" ] || fail "a process of its own changes the answers"
 ends 0 "driven by bullet" "$small" --colliders ode,bullet --drive bullet --every 50
 
+# Bullet's two precisions must not share a process: the second one gets its own, whichever it is.
+for pair in bullet,bullet_float bullet_float,bullet; do
+  ends 0 "The colliders agree." "$small" --colliders $pair --every 20 --json "$work/precisions.json"
+  [ "$(value "$work/precisions.json" /colliders/0/own_process)" = false ] || fail "$pair: the first one did not drive"
+  [ "$(value "$work/precisions.json" /colliders/1/own_process)" = true ] || fail "$pair: both ran in one process"
+  [ "$(value "$work/precisions.json" /pairs/0/clipped/convex/compared)" -gt 100 ] || fail "$pair: nothing was compared"
+done
+"$plumb" run "$scenes/pile.json" --collider bullet_float --duration 2 --quiet >"$work/out" 2>&1 || fail "bullet_float: $(cat "$work/out")"
+
 # Deep boxes: two colliders take the exact axes for others than the third. Both answers are kept whole.
 ends 1 "The colliders differ." "$scenes/deep_boxes.json" --colliders ode,reference --duration 0.5 --json "$work/deep.json"
 grep -q "THEY DIFFER" "$work/out" || fail "no verdict for the pair of colliders"

@@ -14,7 +14,7 @@ for flags in "" -march=native; do
   "$cmake" -S "$source/samples/hello" -B "$work/hello$flags" -G Ninja -DCMAKE_BUILD_TYPE=Release \
     -DCMAKE_CXX_FLAGS="$flags" -DCMAKE_PREFIX_PATH="$work/prefix" >/dev/null
   "$cmake" --build "$work/hello$flags" >/dev/null
-  for collider in reference ode bullet fcl; do
+  for collider in reference ode bullet fcl bullet_float; do
     said=$("$work/hello$flags/hello" "$collider")
     echo "$said"
     [ "$said" = "$collider: after 3 s the box rests at 0.2500 m and the ball at 0.3000 m" ]

@@ -15,6 +15,8 @@ namespace {
 class Closest : public EachPlugin {
 protected:
     void SetUp() override {
+        EachPlugin::SetUp();
+        if (IsSkipped()) return;
         World world(GetParam());
         Contact c{};
         if (world.collider().closest(0, 1, &c).code == Status::unsupported)

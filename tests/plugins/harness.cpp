@@ -77,6 +77,12 @@ Gaps deepest_of_pairs(const std::vector<Contact>& contacts) {
     return gaps;
 }
 
+void EachPlugin::SetUp() {
+    const std::string other = note_use(GetParam());
+    if (!other.empty())
+        GTEST_SKIP() << "it must not share a process with " << other << ", which was tested before";
+}
+
 bool same(const std::vector<Contact>& p, const std::vector<Contact>& q) {
     return p.size() == q.size() &&
            (p.empty() || std::memcmp(p.data(), q.data(), p.size() * sizeof(Contact)) == 0);

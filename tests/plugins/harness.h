@@ -64,6 +64,9 @@ void expect_sound(const std::vector<Contact>& contacts, double margin);
 
 class EachPlugin : public ::testing::TestWithParam<std::string> {
 protected:
+    /// Skips where a plugin was tested before that must not share a process with this one.
+    void SetUp() override;
+
     /// Whether the plugin claims any of these abilities for a pair.
     bool claims(ShapeKind a, ShapeKind b, std::uint32_t wanted = ~0u) const {
         return (ability(GetParam(), a, b) & wanted) != 0;

@@ -9,6 +9,7 @@
 #include <iostream>
 #include <map>
 #include <mutex>
+#include <set>
 #include <sstream>
 
 namespace plumb::test {
@@ -96,8 +97,14 @@ bool takes(const std::string& name, ShapeKind kind) {
     return false;
 }
 
-bool may_meet(const PluginTable& p, const PluginTable& q) {
-    return !names(p.conflicts, q.name) && !names(q.conflicts, p.name);
+std::string note_use(const std::string& name) {
+    static std::set<const PluginTable*> used;
+    const PluginTable& table = plugin(name);
+    for (const PluginTable* other : used)
+        if (names(table.conflicts, other->name) || names(other->conflicts, table.name))
+            return other->name;
+    used.insert(&table);
+    return {};
 }
 
 double relative_accuracy(const std::string& name) {

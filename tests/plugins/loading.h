@@ -29,8 +29,9 @@ std::uint32_t ability(const std::string& name, ShapeKind a, ShapeKind b);
 /// Whether a plugin takes a shape of this kind at all: it claims some pair with it.
 bool takes(const std::string& name, ShapeKind kind);
 
-/// Whether two plugins may share a process, by what their tables say.
-bool may_meet(const PluginTable& p, const PluginTable& q);
+/// Notes that a plugin is going to be used in this process. Answers the name of one used before
+/// that must not share a process with it, by what their tables say; else "", and then it may be.
+std::string note_use(const std::string& name);
 
 /// Accuracy of a plugin, by the precision that its table declares, relative to a shape's size.
 double relative_accuracy(const std::string& name);

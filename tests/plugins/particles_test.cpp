@@ -21,6 +21,8 @@ Contact* grow(void* ctx, std::uint32_t count) {
 class Particles : public EachPlugin {
 protected:
     void SetUp() override {
+        EachPlugin::SetUp();
+        if (IsSkipped()) return;
         World world(GetParam());
         std::vector<Contact> none;
         const ContactSink sink{&none, grow};

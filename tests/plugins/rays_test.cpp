@@ -11,6 +11,8 @@ namespace {
 class Rays : public EachPlugin {
 protected:
     void SetUp() override {
+        EachPlugin::SetUp();
+        if (IsSkipped()) return;
         World world(GetParam());
         if (world.collider().cast_rays(nullptr, nullptr, 0).code == Status::unsupported)
             GTEST_SKIP() << "the plugin casts no rays";

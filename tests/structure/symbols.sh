@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# symbols.sh BUILD NM: what leaves the kernel units and the plugins, and what the programs link.
+# symbols.sh BUILD NM: what leaves the kernel units, the plugins and their backends, and what the
+# programs link.
 set -eu
 build=$1 nm=$2
 fail() { echo "$1"; exit 1; }
@@ -15,6 +16,14 @@ done
 for plugin in "$build"/lib/plumb/plugins/plumb_collider_*.so; do
   exported=$("$nm" -D --defined-only "$plugin" | awk '{print $NF}' | tr '\n' ' ')
   [ "$exported" = "plumb_collider_plugin " ] || fail "$plugin exports $exported"
+done
+for backend in "$build"/lib/plumb/backends/*.so; do
+  exported=$("$nm" -D --defined-only "$backend" | awk '{print $NF}' | sort | tr '\n' ' ')
+  [ "$exported" = "plumb_bullet_create plumb_bullet_destroy " ] || fail "$backend exports $exported"
+done
+for plugin in "$build"/lib/plumb/plugins/plumb_collider_bullet*.so; do
+  linked=$(readelf -d "$plugin" | grep NEEDED) || fail "$plugin: its libraries cannot be read"
+  if echo "$linked" | grep -E 'lib(Bullet|LinearMath)'; then fail "$plugin brings Bullet before it is asked for"; fi
 done
 for program in "$build"/bin/*; do
   case "$(basename "$program")" in peer_*) continue ;; esac
