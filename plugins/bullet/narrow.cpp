@@ -79,7 +79,7 @@ btDiscreteCollisionDetectorInterface::ClosestPointInput input_of(const Part& a, 
 }
 
 /// Overlapping parts that Bullet leaves out or gets wrong: the closest points of the parts a little
-/// smaller, or the best axis. False where the parts are apart after all.
+/// smaller, or the direction of least overlap. False where the parts are apart after all.
 bool ask_beside(Witness& witness, const Part& a, const Part& b) {
     const bool apart = closest_when_apart(witness, a, b);
     if (!apart && !closest_when_touching(witness, a, b)) witness = least_overlap(a, b);
@@ -135,7 +135,7 @@ bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
     }
     if (!ask_closest(witness, a, b)) {
         // Nothing near, unless the cores coincide: such pairs Bullet leaves out.
-        return least_overlap(a, b).gap <= 0 && ask_beside(witness, a, b);
+        return !axes_part(a, b) && ask_beside(witness, a, b);
     }
     // An answer that its own normal contradicts is not trusted.
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));

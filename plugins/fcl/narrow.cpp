@@ -34,7 +34,7 @@ bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 bool either(const Part& a, const Part& b, ShapeKind kind) { return is(a, kind) || is(b, kind); }
 bool has_triangles(const Part& part) { return has_surface(part.shape.kind); }
 
-/// The closest points of parts that FCL is silent or wrong about, or the best axis.
+/// The closest points of parts that FCL is silent or wrong about, or the direction of least overlap.
 Witness ask_beside(const Part& a, const Part& b) {
     Witness witness;
     if (!closest_when_apart(witness, a, b) && !closest_when_touching(witness, a, b))

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
-/// The last resort for parts whose middles coincide, where every search for a direction ends.
+/// The last resort for parts whose middles nearly coincide, where every other search for a
+/// direction ends somewhere.
 #pragma once
 
 #include "manifold/manifold.h"
 
 namespace plumb {
 
-/// Of all axes of both frames, the one along which two convex parts overlap least.
+/// The direction along which two convex parts overlap least: a search over the sphere that begins
+/// at the axes, edges and corners of both frames. Its overlap is never less than the true one, and
+/// seldom more.
 Witness least_overlap(const Part& a, const Part& b);
+
+/// Whether an axis of one of the frames parts two convex parts.
+bool axes_part(const Part& a, const Part& b);
 
 }  // namespace plumb

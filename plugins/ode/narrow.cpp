@@ -7,6 +7,7 @@
 #include "ode/narrow.h"
 
 #include "manifold/gjk.h"
+#include "manifold/least_overlap.h"
 #include "manifold/mesh_pair.h"
 #include "manifold/mesh_points.h"
 #include "manifold/support.h"
@@ -17,6 +18,8 @@ namespace plumb::ode {
 namespace {
 
 constexpr int kMostFromOde = 512;
+constexpr double kDeep =
+    0.01;  ///< overlap, as a share of size, that is compared with other ways out
 
 bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 
@@ -105,12 +108,24 @@ bool ask_boxes_apart(Witness& witness, const Part& a, const Part& b) {
     return (parts && gap_is_reached(a, b, witness.normal)) || ask_beside(witness, a, b);
 }
 
+/// Of parts that overlap far ODE may name a long way out, or say nothing at all.
+bool ask_deep(Witness& witness, const Part& a, const Part& b, bool overlap) {
+    const double size = size_of(a) + size_of(b);
+    const Vec3 n = unit_or(witness.normal, {0, 1, 0});
+    const double implied = overlap ? support_gap(a, b, n) : -1e300;
+    if (implied > -kDeep * size || axes_part(a, b)) return overlap;
+    const Witness other = least_overlap(a, b);
+    if (other.gap > implied + 1e-5 * size) witness = other;
+    return true;
+}
+
 bool ask_any(Witness& witness, const Part& a, const Part& b) {
     const bool boxes = is(a, ShapeKind::box) && is(b, ShapeKind::box);
     const bool overlap = boxes ? ask_boxes(witness, a, b, 0) : ask(witness, a, b);
     if (overlap) doubt(witness, a, b);
     if (overlap && (is(a, ShapeKind::hull) || is(b, ShapeKind::hull))) shorten(witness, a, b);
-    return overlap || (boxes ? ask_boxes_apart(witness, a, b) : ask_beside(witness, a, b));
+    if (boxes) return overlap || ask_boxes_apart(witness, a, b);
+    return (!overlap && ask_beside(witness, a, b)) || ask_deep(witness, a, b, overlap);
 }
 
 bool is_plane_pair(const Part& a, const Part& b) {

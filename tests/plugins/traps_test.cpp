@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Traps that back-ends are known for, one test each: a right answer, or none that was claimed.
+#include "population.h"
 #include "surfaces.h"
 
 #include <atomic>
@@ -236,6 +237,34 @@ TEST_P(Traps, DeepBoxesKnowTheirPair) {
         const Q turned(Eigen::AngleAxisd(.3, V::UnitY()));
         expect_gap(meet(cube, kTop, cube, {V(.01, .5 - depth, .02), turned}), -depth);
     }
+}
+
+TEST_P(Traps, CoincidingMiddlesArePartedByAShortWay) {
+    // The middle of a cone's bounds lies halfway up, as its origin does.
+    const Shape shapes[] = {cone(.5, .5), cone(.3, .8), cone(.8, .3), cylinder(.4, .5),
+                            box(.5, .4, .3)};
+    const Q lying(Eigen::AngleAxisd(M_PI / 2, V::UnitX())),
+        over(Eigen::AngleAxisd(M_PI, V::UnitX()));
+    Dice dice(5);
+    const std::vector<Q> turns = {Q::Identity(), lying,       over,        kOnEdge,    kOnVertex,
+                                  dice.turn(),   dice.turn(), dice.turn(), dice.turn()};
+    for (const Shape& a : shapes)
+        for (const Shape& b : shapes)
+            for (std::size_t i = 0; i < turns.size(); ++i)
+                for (double off : {0., .05}) {
+                    if (!claims(a, b)) continue;
+                    if (a.kind == ShapeKind::box && b.kind == ShapeKind::box) continue;
+                    SCOPED_TRACE(std::string(name_of(a.kind)) + " in " + name_of(b.kind) + " " +
+                                 std::to_string(i) + " off " + std::to_string(off));
+                    const Place pa{V::Zero(), Q::Identity()}, pb{off * dice.way(), turns[i]};
+                    const auto contacts = meet(a, pa, b, pb);
+                    ASSERT_FALSE(contacts.empty());
+                    const Contact& c = deepest(contacts);
+                    // No direction that the search finds is shorter, and the contact's own proves
+                    // it.
+                    EXPECT_GT(c.gap, widest_gap(a, pa, b, pb).gap - .005);
+                    EXPECT_LT(c.gap, support_gap(a, pa, b, pb, v(c.normal)) + 1e-4);
+                }
 }
 
 PLUMB_FOR_EACH_PLUGIN(Traps);
