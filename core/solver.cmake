@@ -1,6 +1,6 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
-  world/build_world.cpp world/mass_properties.cpp world/shape_store.cpp
+  world/build_joints.cpp world/build_world.cpp world/mass_properties.cpp world/shape_store.cpp
   schedule/colouring.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/plan.cpp

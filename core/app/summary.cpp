@@ -186,7 +186,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["bodies"] = world.bodies.size();
     j["dynamic_bodies"] = world.dynamic_count;
     j["particles"] = 0;
-    j["joints"] = world.balls.size();
+    j["joints"] = world.joints.size();
     j["contacts"] = {{"mean", s.contact_sum / steps},
                      {"max", s.contact_max},
                      {"end", world.contacts.found_before.size()}};

@@ -71,7 +71,7 @@ Wish gyroscopic(const World& w) {
                    "dynamic bodies have unequal moments of inertia",
                    "all moments of inertia are equal");
 }
-Wish joints(const World& w) { return counted(w.balls.size(), "joints", "no joints"); }
+Wish joints(const World& w) { return counted(w.joints.size(), "joints", "no joints"); }
 Wish kinematics(const World& w) {
     return counted(static_cast<std::size_t>(w.kinematic_count),
                    "bodies are moved by a script or a given velocity", "no kinematic bodies");

@@ -72,10 +72,10 @@ std::vector<double> joint_errors(const World& world) {
         return body == kNoIndex ? anchor
                                 : Vector3d(b.position[body] + b.orientation[body] * anchor);
     };
-    for (std::size_t i = 0; i < world.balls.size(); ++i)
-        errors.push_back((point(world.balls.a[i], world.balls.anchor_a[i]) -
-                          point(world.balls.b[i], world.balls.anchor_b[i]))
-                             .norm());
+    for (const Joint& joint : world.joints.joints)
+        errors.push_back(
+            (point(joint.a, joint.frame_a.position) - point(joint.b, joint.frame_b.position))
+                .norm());
     return errors;
 }
 

@@ -6,18 +6,16 @@
 #pragma once
 
 #include "scene/geometry.h"
+#include "scene/joint.h"
 #include "scene/settings.h"
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace plumb {
-
-inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
 
 struct Material {
     std::string name = "default";
@@ -71,18 +69,6 @@ struct BodySpec {
     std::uint32_t color = 0;  ///< 0xRRGGBB, 0 = chosen by the viewer
 };
 
-enum class JointKind : std::uint32_t { ball };
-
-/// A joint between two bodies, or a body and the world (body_b = kNoIndex).
-struct JointSpec {
-    std::string name;
-    JointKind kind = JointKind::ball;
-    std::uint32_t body_a = kNoIndex, body_b = kNoIndex;  ///< indices into Scene::bodies
-    Eigen::Vector3d anchor =
-        Eigen::Vector3d::Zero();  ///< common point at the start, world frame [m]
-    bool collide = false;         ///< whether the linked bodies collide with each other
-};
-
 /// Where the picture is taken from.
 struct View {
     Eigen::Vector3d eye{9, 6, 12};      ///< [m]
@@ -99,6 +85,7 @@ struct Scene {
     std::vector<Geometry> geometries;
     std::vector<BodySpec> bodies;
     std::vector<JointSpec> joints;
+    std::vector<CouplingSpec> couplings;
     std::optional<View> view;
 };
 

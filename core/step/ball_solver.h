@@ -19,8 +19,11 @@ public:
     BallSolver(const World& world, Workers& workers)
         : kernels_(ball_kernels<Real, W>()), workers_(workers) {
         std::vector<BodyPair> pairs;
-        for (std::uint32_t i = 0; i < world.balls.size(); ++i)
-            pairs.push_back({world.bodies.row[world.balls.a[i]], row_b(world, i), i, 1, 0});
+        for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+            if (!world.joints.joints[i].is_plain_ball()) continue;
+            joints_.push_back(i);
+            pairs.push_back({world.bodies.row[world.joints.joints[i].a], row_b(world, i), i, 1, 0});
+        }
         colouring_.colour(pairs, world.dynamic_count);
         lay_out(world, pairs);
     }
@@ -32,12 +35,13 @@ public:
         const Bodies& bodies = world.bodies;
         for (std::size_t i = 0; i < places_.size(); ++i) {
             BallBlock<Real, W>& block = blocks_[places_[i].block];
-            const std::uint32_t lane = places_[i].lane, a = world.balls.a[i], b = world.balls.b[i];
-            const Vector3d arm_a = bodies.orientation[a] * world.balls.anchor_a[i];
-            Vector3d arm_b = Vector3d::Zero(), point_b = world.balls.anchor_b[i];
+            const Joint& joint = world.joints.joints[joints_[i]];
+            const std::uint32_t lane = places_[i].lane, a = joint.a, b = joint.b;
+            const Vector3d arm_a = bodies.orientation[a] * joint.frame_a.position;
+            Vector3d arm_b = Vector3d::Zero(), point_b = joint.frame_b.position;
             fill_mass(bodies, a, block.inverse_mass_a, block.inverse_inertia_a, lane);
             if (b != kNoIndex) {
-                arm_b = bodies.orientation[b] * world.balls.anchor_b[i];
+                arm_b = bodies.orientation[b] * joint.frame_b.position;
                 point_b = bodies.position[b] + arm_b;
                 fill_mass(bodies, b, block.inverse_mass_b, block.inverse_inertia_b, lane);
             }
@@ -69,7 +73,7 @@ private:
     };
 
     static std::int32_t row_b(const World& world, std::uint32_t joint) {
-        const std::uint32_t b = world.balls.b[joint];
+        const std::uint32_t b = world.joints.joints[joint].b;
         return b == kNoIndex ? world.zero_row() : world.bodies.row[b];
     }
 
@@ -101,6 +105,7 @@ private:
     Colouring colouring_;
     std::vector<BallBlock<Real, W>> blocks_;
     std::vector<BlockRange> ranges_;
+    std::vector<std::uint32_t> joints_;
     std::vector<Place> places_;
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// From what the user wrote to the tables of the world.
 #include "scene/error.h"
+#include "world/build_joints.h"
 #include "world/mass_properties.h"
 #include "world/world.h"
 
@@ -174,34 +175,6 @@ void add_surface_pairs(World& world, const Scene& scene) {
         }
 }
 
-void add_joint(World& world, const Scene& scene, std::size_t i) {
-    const JointSpec& spec = scene.joints[i];
-    const std::string pointer = "/joints/" + std::to_string(i);
-    const Bodies& b = world.bodies;
-    if (spec.body_a >= b.size() || (spec.body_b != kNoIndex && spec.body_b >= b.size()) ||
-        spec.body_a == spec.body_b)
-        throw SceneError("", pointer + "/bodies",
-                         "a joint links two different bodies, or one body and the world");
-    if (!spec.anchor.allFinite())
-        throw SceneError("", pointer + "/anchor", "must be finite numbers");
-    auto dynamic = [&](std::uint32_t k) { return k != kNoIndex && b.motion[k] == Motion::dynamic; };
-    if (!dynamic(spec.body_a) && !dynamic(spec.body_b))
-        throw SceneError("", pointer + "/bodies",
-                         "at least one of the linked bodies must be dynamic");
-    auto local = [&](std::uint32_t k) -> Vector3d {
-        return k == kNoIndex
-                   ? spec.anchor
-                   : Vector3d(b.orientation[k].conjugate() * (spec.anchor - b.position[k]));
-    };
-    world.balls.a.push_back(spec.body_a);
-    world.balls.b.push_back(spec.body_b);
-    world.balls.anchor_a.push_back(local(spec.body_a));
-    world.balls.anchor_b.push_back(local(spec.body_b));
-    if (spec.body_b != kNoIndex && !spec.collide)
-        world.excluded.push_back(
-            pair_key(std::min(spec.body_a, spec.body_b), std::max(spec.body_a, spec.body_b)));
-}
-
 }  // namespace
 
 World build_world(const Scene& scene) {
@@ -215,8 +188,7 @@ World build_world(const Scene& scene) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add_body(world, scene, i);
     assign_rows(world);
     add_surface_pairs(world, scene);
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) add_joint(world, scene, i);
-    std::sort(world.excluded.begin(), world.excluded.end());
+    build_joints(world, scene);
     return world;
 }
 

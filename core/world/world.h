@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 #include "world/bodies.h"
 #include "world/contacts.h"
+#include "world/joints.h"
 #include "world/shape_store.h"
 
 #include <cstdint>
@@ -17,14 +18,6 @@ struct SurfacePair {
     double friction, restitution, rolling_friction, spinning_friction;
 };
 
-/// Ball joints, [joint].
-struct BallJoints {
-    std::vector<std::uint32_t> a, b;  ///< bodies; b may be kNoIndex: the world
-    std::vector<Vector3d> anchor_a,
-        anchor_b;  ///< in the bodies' frames; world frame where b is kNoIndex [m]
-    std::size_t size() const { return a.size(); }
-};
-
 /// Two bodies as one number that sorts as (a, b) does; a < b.
 constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
     return std::uint64_t(a) << 32 | b;
@@ -33,7 +26,7 @@ constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
 struct World {
     Settings settings;
     Bodies bodies;
-    BallJoints balls;
+    JointTable joints;
     std::vector<SurfacePair> surface_pairs;  ///< [material_a × material_count + material_b]
     std::uint32_t material_count = 1;
     std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that a joint keeps apart, sorted

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+/// A joint's coordinates: how far it has moved along or turned about an axis, and the row by which
+/// the bodies' velocities change that.
+///
+///   rate = e · (v_a − v_b) + g_a · ω_a − g_b · ω_b
+///
+/// Along: q = e_k · (p_a − p_b) with e_k riding on b, so e = e_k, g_a = r_a × e, and on b the same
+/// impulse acts at the same point p_a, g_b = (p_a − x_b) × e. About: e = 0 and g_a = g_b = g, for a
+/// joint only feels how the bodies turn against each other. One free axis: the whole angle about
+/// it. Several: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual basis of the three
+/// axes x_b, y′, z_a). Cone and twist: R = swing · twist about x (§5 names neither).
+#pragma once
+
+#include "math/rotation.h"
+#include "scene/joint.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+
+/// Where a joint's two frames and the bodies' centres of mass are.
+struct JointPose {
+    Vector3d point_a, point_b;    ///< anchors, world frame [m]
+    Matrix3d axes_a, axes_b;      ///< columns: the frames' axes, world frame
+    Vector3d centre_a, centre_b;  ///< [m]
+};
+
+struct JointCoordinate {
+    double value = 0;  ///< [m], [rad]
+    Vector3d along = Vector3d::Zero(), turn_a = Vector3d::Zero(), turn_b = Vector3d::Zero();
+};
+
+/// Along e, which rides on b.
+inline JointCoordinate coordinate_along(const JointPose& p, const Vector3d& e) {
+    const Vector3d apart = p.point_a - p.point_b;
+    return {e.dot(apart), e, (p.point_a - p.centre_a).cross(e), (p.point_a - p.centre_b).cross(e)};
+}
+
+/// Between the two anchors.
+inline JointCoordinate coordinate_distance(const JointPose& p) {
+    const Vector3d apart = p.point_a - p.point_b;
+    const double length = apart.norm();
+    JointCoordinate q =
+        coordinate_along(p, length > 0 ? Vector3d(apart / length) : p.axes_b.col(0));
+    q.value = length;
+    return q;
+}
+
+/// The angle from −π to π of a sine and a cosine.
+inline double full_angle(double sine, double cosine) {
+    constexpr double kHalfTurn = 3.141592653589793;
+    const double first = angle_of(std::abs(sine), std::abs(cosine));
+    const double upper = cosine < 0 ? kHalfTurn - first : first;
+    return sine < 0 ? -upper : upper;
+}
+
+/// About axis k, the only one that is free.
+inline JointCoordinate coordinate_about(const JointPose& p, int k) {
+    const Vector3d axis = p.axes_b.col(k);
+    const Vector3d across = p.axes_a.col((k + 1) % 3);
+    return {
+        full_angle(across.dot(p.axes_b.col((k + 2) % 3)), across.dot(p.axes_b.col((k + 1) % 3))),
+        Vector3d::Zero(), axis, axis};
+}
+
+/// α, β or γ (k = 0, 1, 2) of R_bᵀ R_a = R_x(α) R_y(β) R_z(γ).
+inline JointCoordinate coordinate_euler(const JointPose& p, int k) {
+    const Matrix3d r = p.axes_b.transpose() * p.axes_a;
+    const double sine = std::clamp(r(0, 2), -1.0, 1.0);
+    const double cosine = std::sqrt(r(0, 0) * r(0, 0) + r(0, 1) * r(0, 1));
+    const double angle[3] = {full_angle(-r(1, 2), r(2, 2)), full_angle(sine, cosine),
+                             full_angle(-r(0, 1), r(0, 0))};
+    const Vector3d first = p.axes_b.col(0), last = p.axes_a.col(2);
+    const Vector3d middle = last.cross(first).normalized();
+    // Where first and last fall together the outer two angles are one, and only their sum counts.
+    const Vector3d axes[3] = {first, middle, last};
+    Vector3d dual = axes[(k + 1) % 3].cross(axes[(k + 2) % 3]);
+    const double volume = axes[k].dot(dual);
+    dual = volume > 1e-3 ? Vector3d(dual / volume) : axes[k];
+    return {angle[k], Vector3d::Zero(), dual, dual};
+}
+
+/// The twist about the x axes of a cone-and-twist, from −π to π.
+inline JointCoordinate coordinate_twist(const JointPose& p) {
+    const Quaterniond q(Matrix3d(p.axes_b.transpose() * p.axes_a));
+    const double sign = q.w() < 0 ? -1 : 1;
+    const Vector3d sum = p.axes_a.col(0) + p.axes_b.col(0);
+    const double squared = sum.squaredNorm();
+    // x_a + x_b over 1 + x_a · x_b; a swing of half a turn has no twist
+    const Vector3d turn = squared > 1e-9 ? Vector3d(sum * (2 / squared)) : Vector3d::Zero();
+    return {2 * full_angle(sign * q.x(), sign * q.w()), Vector3d::Zero(), turn, turn};
+}
+
+/// The angle between the x axes, from 0 to π.
+inline JointCoordinate coordinate_swing(const JointPose& p) {
+    const Vector3d across = p.axes_b.col(0).cross(p.axes_a.col(0));
+    const double sine = across.norm(), cosine = p.axes_a.col(0).dot(p.axes_b.col(0));
+    const Vector3d turn = sine > 1e-9 ? Vector3d(across / sine) : p.axes_b.col(1);
+    return {full_angle(sine, cosine), Vector3d::Zero(), turn, turn};
+}
+
+/// The coordinate of a joint along or about an axis that it leaves free. `free_turns`: how many
+/// rotations it leaves.
+inline JointCoordinate joint_coordinate(JointKind kind, int free_turns, const JointPose& p,
+                                        std::uint32_t axis) {
+    if (kind == JointKind::distance) return coordinate_distance(p);
+    if (axis <= kAlongZ) return coordinate_along(p, p.axes_b.col(axis));
+    if (kind == JointKind::cone_twist)
+        return axis == kTurnX ? coordinate_twist(p) : coordinate_swing(p);
+    const int k = static_cast<int>(axis - kTurnX);
+    return free_turns == 1 ? coordinate_about(p, k) : coordinate_euler(p, k);
+}
+
+}  // namespace plumb

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+/// Joints as the step sees them.
+///
+/// A joint's frame rides on both bodies, and what the joint takes away is up to six rows:
+///
+///   along k  C = e_k · (p_a − p_b)   e_k an axis of b's copy of the frame, p the two anchors
+///   about k  C = u_k · w_k           u_k rides on a, w_k on b, and they are to stay perpendicular
+#pragma once
+
+#include "math/types.h"
+#include "scene/joint.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+/// Impulses of the rows and of what acts along the free axes, of the last substep.
+struct JointMemory {
+    std::array<double, kJointAxes> rows{};  ///< [N s], [N m s]
+    bool has = false;                       ///< whether there was a substep before
+};
+
+/// Two directions that a rotational row keeps perpendicular, each in its body's frame.
+struct PerpendicularPair {
+    Vector3d u = Vector3d::Zero(), w = Vector3d::Zero();
+};
+
+struct Joint {
+    JointKind kind = JointKind::ball;
+    std::uint32_t a = kNoIndex, b = kNoIndex;  ///< bodies; b may be kNoIndex: the world
+    Placement frame_a, frame_b;  ///< joint frame → body; → world where b is kNoIndex
+    std::array<bool, kJointAxes> locked{};
+    std::array<PerpendicularPair, 3> turns{};        ///< of the locked rotations about x y z
+    double length = 0;                               ///< that a distance joint keeps [m]
+    double compliance = 0, angular_compliance = 0;   ///< [m/N], [rad/(N m)]
+    double breaking_force = 0, breaking_torque = 0;  ///< [N], [N m]
+    bool broken = false;                             ///< a broken joint acts no more
+    JointMemory memory;
+
+    /// Solved by the kernel for one common point, which is quicker.
+    bool is_plain_ball() const { return kind == JointKind::ball && compliance == 0; }
+};
+
+enum class DriveKind : std::uint32_t { limit, motor, spring, friction };
+
+/// One row along or about an axis that a joint leaves free.
+struct JointDrive {
+    std::uint32_t joint = 0, axis = 0;  ///< index into JointTable::joints; JointAxis
+    DriveKind kind = DriveKind::limit;
+    JointAxisSpec spec;
+    double impulse = 0;  ///< of the last substep [N s], [N m s]
+};
+
+/// q_b = ratio q_a + offset.
+struct JointCoupling {
+    std::uint32_t joint_a = 0, joint_b = 0, axis_a = 0, axis_b = 0;
+    double ratio = 1, offset = 0;
+    double impulse = 0;  ///< of the last substep, along q_b [N s], [N m s]
+};
+
+struct JointTable {
+    std::vector<Joint> joints;
+    std::vector<double> turn;  ///< of each joint about its one free axis, counted through whole
+                               ///< turns [rad]; 0 where there is none
+    std::vector<JointDrive> drives;  ///< by joint, then axis
+    std::vector<JointCoupling> couplings;
+    std::size_t size() const { return joints.size(); }
+};
+
+}  // namespace plumb
