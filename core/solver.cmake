@@ -1,11 +1,11 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
   world/build_joints.cpp world/build_world.cpp world/mass_properties.cpp world/shape_store.cpp
-  schedule/colouring.cpp schedule/workers.cpp
+  schedule/colouring.cpp schedule/joint_forest.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/plan.cpp
   step/choose_rebounds.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp
-  step/follow_contacts.cpp step/integrate.cpp step/reuse_contacts.cpp
+  step/follow_contacts.cpp step/integrate.cpp step/joint_state.cpp step/reuse_contacts.cpp
   step/match_contacts.cpp step/move_scripted.cpp step/row_solver.cpp step/step.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/shape_support.cpp)

@@ -25,8 +25,8 @@ inline Vector3<T> join(Velocity<T>& change_a, Velocity<T>& change_b, const Veloc
                        const Velocity<T>& total_b, const InverseMass<T>& inverse_a,
                        const InverseMass<T>& inverse_b, const Vector3<T>& r_a,
                        const Vector3<T>& r_b, const Vector3<T>& gap_before, const T& h) {
-    const Vector3<T> turn_a = turn_of<T>(total_a.w * h, r_a);
-    const Vector3<T> turn_b = turn_of<T>(total_b.w * h, r_b);
+    const Vector3<T> turn_a = Turn<T>(total_a.w * h).change(r_a);
+    const Vector3<T> turn_b = Turn<T>(total_b.w * h).change(r_b);
     const Vector3<T> c = gap_before + (total_a.v - total_b.v) * h + (turn_a - turn_b);
 
     const Vector3<T> now_a = r_a + turn_a, now_b = r_b + turn_b;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Hands out kernels, and only those that this processor runs.
-#include "kernels/ball_kernels.h"
 #include "kernels/contact_kernels.h"
+#include "kernels/joint_kernels.h"
 #include "kernels/kernel_tables.h"
 
 #include <stdexcept>
@@ -41,13 +41,13 @@ const ContactKernels<Real, W>& contact_kernels(ContactVariant variant) {
     return checked_table<ContactKernels<Real, W>, W>()[static_cast<int>(variant)];
 }
 template <class Real, int W>
-const BallKernels<Real, W>& ball_kernels() {
-    return *checked_table<BallKernels<Real, W>, W>();
+const JointKernels<Real, W>& joint_kernels() {
+    return *checked_table<JointKernels<Real, W>, W>();
 }
 
 #define PLUMB_INSTANTIATE(Real, W)                                                    \
     template const ContactKernels<Real, W>& contact_kernels<Real, W>(ContactVariant); \
-    template const BallKernels<Real, W>& ball_kernels<Real, W>();
+    template const JointKernels<Real, W>& joint_kernels<Real, W>();
 PLUMB_INSTANTIATE(float, 1)
 PLUMB_INSTANTIATE(float, 4)
 PLUMB_INSTANTIATE(float, 8)

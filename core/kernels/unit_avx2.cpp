@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Kernels for processors with AVX2: lanes of width 8.
-#include "kernels/ball_passes.h"
 #include "kernels/contact_passes.h"
+#include "kernels/joint_passes.h"
 #include "kernels/kernel_tables.h"
 
 namespace plumb::kernels {
@@ -12,8 +12,8 @@ const ContactKernels<float, 8>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<float, 8>* kernel_table() {
-    static constexpr BallKernels<float, 8> table{solve_balls<float, 8>};
+const JointKernels<float, 8>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<float, 8>();
     return &table;
 }
 
@@ -23,8 +23,8 @@ const ContactKernels<double, 8>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<double, 8>* kernel_table() {
-    static constexpr BallKernels<double, 8> table{solve_balls<double, 8>};
+const JointKernels<double, 8>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<double, 8>();
     return &table;
 }
 

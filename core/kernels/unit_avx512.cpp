@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Kernels for processors with AVX-512: lanes of width 16.
-#include "kernels/ball_passes.h"
 #include "kernels/contact_passes.h"
+#include "kernels/joint_passes.h"
 #include "kernels/kernel_tables.h"
 
 namespace plumb::kernels {
@@ -12,8 +12,8 @@ const ContactKernels<float, 16>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<float, 16>* kernel_table() {
-    static constexpr BallKernels<float, 16> table{solve_balls<float, 16>};
+const JointKernels<float, 16>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<float, 16>();
     return &table;
 }
 
@@ -23,8 +23,8 @@ const ContactKernels<double, 16>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<double, 16>* kernel_table() {
-    static constexpr BallKernels<double, 16> table{solve_balls<double, 16>};
+const JointKernels<double, 16>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<double, 16>();
     return &table;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Kernels for every x86-64 processor: lanes of width 1 and 4.
-#include "kernels/ball_passes.h"
 #include "kernels/contact_passes.h"
+#include "kernels/joint_passes.h"
 #include "kernels/kernel_tables.h"
 
 namespace plumb::kernels {
@@ -12,8 +12,8 @@ const ContactKernels<float, 1>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<float, 1>* kernel_table() {
-    static constexpr BallKernels<float, 1> table{solve_balls<float, 1>};
+const JointKernels<float, 1>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<float, 1>();
     return &table;
 }
 
@@ -23,8 +23,8 @@ const ContactKernels<double, 1>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<double, 1>* kernel_table() {
-    static constexpr BallKernels<double, 1> table{solve_balls<double, 1>};
+const JointKernels<double, 1>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<double, 1>();
     return &table;
 }
 
@@ -34,8 +34,8 @@ const ContactKernels<float, 4>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<float, 4>* kernel_table() {
-    static constexpr BallKernels<float, 4> table{solve_balls<float, 4>};
+const JointKernels<float, 4>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<float, 4>();
     return &table;
 }
 
@@ -45,8 +45,8 @@ const ContactKernels<double, 4>* kernel_table() {
     return table.data();
 }
 template <>
-const BallKernels<double, 4>* kernel_table() {
-    static constexpr BallKernels<double, 4> table{solve_balls<double, 4>};
+const JointKernels<double, 4>* kernel_table() {
+    static constexpr auto table = all_joint_kernels<double, 4>();
     return &table;
 }
 

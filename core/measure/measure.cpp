@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "measure/measure.h"
 
+#include "step/joint_state.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -66,16 +68,34 @@ std::vector<double> penetrations(const World& world) {
 }
 
 std::vector<double> joint_errors(const World& world) {
-    const Bodies& b = world.bodies;
     std::vector<double> errors;
-    auto point = [&](std::uint32_t body, const Vector3d& anchor) -> Vector3d {
-        return body == kNoIndex ? anchor
-                                : Vector3d(b.position[body] + b.orientation[body] * anchor);
-    };
-    for (const Joint& joint : world.joints.joints)
-        errors.push_back(
-            (point(joint.a, joint.frame_a.position) - point(joint.b, joint.frame_b.position))
-                .norm());
+    for (const Joint& joint : world.joints.joints) {
+        const JointPose pose = joint_pose(world.bodies, joint);
+        const Vector3d apart = pose.point_a - pose.point_b;
+        Vector3d error = Vector3d::Zero();
+        if (joint.length > 0)
+            error[0] = joint.locked[kAlongX] ? apart.norm() - joint.length : 0;
+        else
+            for (int k = 0; k < 3; ++k)
+                if (joint.locked[k]) error[k] = pose.axes_b.col(k).dot(apart);
+        errors.push_back(error.norm());
+    }
+    return errors;
+}
+
+std::vector<double> joint_turn_errors(const World& world) {
+    std::vector<double> errors;
+    for (const Joint& joint : world.joints.joints) {
+        Vector3d error = Vector3d::Zero();
+        for (int k = 0; k < 3; ++k) {
+            if (!joint.locked[kTurnX + k]) continue;
+            const auto turned = [&](std::uint32_t body, const Vector3d& v) -> Vector3d {
+                return body == kNoIndex ? v : Vector3d(world.bodies.orientation[body] * v);
+            };
+            error[k] = turned(joint.a, joint.turns[k].u).dot(turned(joint.b, joint.turns[k].w));
+        }
+        errors.push_back(error.norm());
+    }
     return errors;
 }
 

@@ -20,8 +20,11 @@ Vector3d angular_momentum(const World& world);  ///< about the origin [kg m²/s]
 /// detection.
 std::vector<double> penetrations(const World& world);
 
-/// Distance between the two points of each joint [m].
+/// How far each joint's points have parted along what it locks [m].
 std::vector<double> joint_errors(const World& world);
+
+/// How far each joint's bodies have turned against each other about what it locks [rad].
+std::vector<double> joint_turn_errors(const World& world);
 
 /// 64-bit hash (FNV-1a) of all positions, orientations and velocities, bit for bit.
 std::uint64_t state_hash(const World& world);

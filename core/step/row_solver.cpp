@@ -3,8 +3,8 @@
 
 #include "math/root.h"
 #include "scene/error.h"
-#include "step/ball_solver.h"
 #include "step/contact_solver.h"
+#include "step/joint_solver.h"
 
 #include <optional>
 #include <string>
@@ -42,7 +42,7 @@ public:
           shocks_(plan.runs(Effect::shock_propagation)),
           warm_start_(settings_.warm_start && !shocks_),
           contacts_(plan, workers) {
-        if (plan.runs(Effect::joints)) balls_.emplace(world, workers);
+        if (plan.runs(Effect::joints)) joints_.emplace(world, workers);
         if (shocks_) shock_.emplace(plan, workers);
     }
 
@@ -70,7 +70,7 @@ public:
         std::uint32_t clamped = 0;
         if (!contacts_.empty()) clamped = contacts_.begin(world, table_.rows(), pass_);
         if (shocks_) shock_->begin(world, table_.rows(), pass_);
-        if (balls_) balls_->begin(world);
+        if (joints_) joints_->begin(world, h);
         return clamped;
     }
 
@@ -88,13 +88,12 @@ public:
     }
 
     void solve_positions() override {
-        if (contacts_.empty() && !balls_) return;
+        if (contacts_.empty() && !joints_) return;
         workers_.run([this](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.position_iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
-                if (balls_)
-                    balls_->position_iteration(table_.rows(), pass.h, pass.forwards, worker);
+                if (joints_) joints_->position_iteration(table_.rows(), pass.h, worker);
                 if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
             }
         });
@@ -122,7 +121,10 @@ public:
         return table_.angular_velocity_change(row);
     }
 
-    void store_impulses(World& world) override { contacts_.store_impulses(world.contacts); }
+    void store_impulses(World& world) override {
+        contacts_.store_impulses(world.contacts);
+        if (joints_) joints_->store_impulses(world);
+    }
 
 private:
     bool forwards(std::uint32_t sweep) const {
@@ -139,7 +141,7 @@ private:
     PassSettings<Real> pass_{};
     ContactSolver<Real, W> contacts_;
     std::optional<ContactSolver<Real, W>> shock_;
-    std::optional<BallSolver<Real, W>> balls_;
+    std::optional<JointSolver<Real, W>> joints_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_ = 0;  // since the start: each begins in the other direction
     std::uint32_t sweeps_ = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/step.h"
 
+#include "step/joint_state.h"
+
 #include <cmath>
 
 namespace plumb {
@@ -41,6 +43,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::kinematics))
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
+        if (plan.runs(Effect::joints)) timed(Stage::begin, [&] { count_turns(world); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, h); });

@@ -16,12 +16,6 @@
 
 namespace plumb {
 
-/// Impulses of the rows and of what acts along the free axes, of the last substep.
-struct JointMemory {
-    std::array<double, kJointAxes> rows{};  ///< [N s], [N m s]
-    bool has = false;                       ///< whether there was a substep before
-};
-
 /// Two directions that a rotational row keeps perpendicular, each in its body's frame.
 struct PerpendicularPair {
     Vector3d u = Vector3d::Zero(), w = Vector3d::Zero();
@@ -37,7 +31,8 @@ struct Joint {
     double compliance = 0, angular_compliance = 0;   ///< [m/N], [rad/(N m)]
     double breaking_force = 0, breaking_torque = 0;  ///< [N], [N m]
     bool broken = false;                             ///< a broken joint acts no more
-    JointMemory memory;
+    std::array<double, kJointAxes> rows{};  ///< impulses of the last substep [N s], [N m s]; of a
+                                            ///< plain ball along the world's axes
 
     /// Solved by the kernel for one common point, which is quicker.
     bool is_plain_ball() const { return kind == JointKind::ball && compliance == 0; }

@@ -85,7 +85,7 @@ TEST(BallJoint, OneIterationClosesASmallGap) {
         Velocity<double> x = rest, y = rest;
         const Vector3d impulse = join(x, y, rest, rest, a.inverse, b.inverse, r_a, r_b, gap, h);
         const Vector3d left =
-            gap + h * (x.v - y.v) + turn_of<double>(h * x.w, r_a) - turn_of<double>(h * y.w, r_b);
+            gap + h * (x.v - y.v) + Turn<double>(h * x.w).change(r_a) - Turn<double>(h * y.w).change(r_b);
         EXPECT_LT(left.norm(), 1e-3 * gap.norm());
         EXPECT_LT((x.v / a.inverse.mass + y.v / b.inverse.mass).norm(), 1e-12 * impulse.norm());
     }
@@ -105,7 +105,7 @@ TEST(BallJoint, ConvergesFastForFastTurns) {
     };
     auto error = [&] {
         const Velocity<double> p = sum(start_a, x), q = sum(start_b, y);
-        return (h * (p.v - q.v) + turn_of<double>(h * p.w, r_a) - turn_of<double>(h * q.w, r_b))
+        return (h * (p.v - q.v) + Turn<double>(h * p.w).change(r_a) - Turn<double>(h * q.w).change(r_b))
             .norm();
     };
     EXPECT_GT(error(), 0.01);

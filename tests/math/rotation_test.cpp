@@ -53,7 +53,7 @@ TEST(Turned, StaysAUnitQuaternionOverManySmallTurns) {
 
 /// The bound that the function states: |ϑ| up to 1.5 rad.
 template <class T>
-double worst_error_of_turn_of() {
+double worst_error_of_turns() {
     Random random(3);
     double worst = 0;
     for (int i = 0; i < 5000; ++i) {
@@ -61,23 +61,23 @@ double worst_error_of_turn_of() {
         const Vector3<T> r = random.vector(3).cast<T>();
         const Vector3d exact_r = r.template cast<double>();
         const Vector3d law = exponential_map(theta.template cast<double>()) * exact_r - exact_r;
-        const Vector3<T> turn = turn_of<T>(theta, r);
+        const Vector3<T> turn = Turn<T>(theta).change(r);
         worst = std::max(worst, (turn.template cast<double>() - law).norm() / exact_r.norm());
     }
     return worst;
 }
 TEST(TurnOf, IsTheExactTurnWithinItsBoundInDouble) {
-    EXPECT_LT(worst_error_of_turn_of<double>(), 1e-13);
+    EXPECT_LT(worst_error_of_turns<double>(), 1e-13);
 }
 TEST(TurnOf, IsTheExactTurnToAFewRoundingsInSingle) {
-    EXPECT_LT(worst_error_of_turn_of<float>(), 3e-7);
+    EXPECT_LT(worst_error_of_turns<float>(), 3e-7);
 }
 
 /// Small turns keep their digits: an error is a share of the turn, not of the arm.
 TEST(TurnOf, KeepsTheDigitsOfSmallTurns) {
     const Vector3<float> theta(1e-5f, 0, 0), r(0, 1, 0);
-    EXPECT_FLOAT_EQ(turn_of<float>(theta, r)[2], 1e-5f);
-    EXPECT_NEAR(turn_of<float>(theta, r)[1], -0.5e-10, 1e-16);
+    EXPECT_FLOAT_EQ(Turn<float>(theta).change(r)[2], 1e-5f);
+    EXPECT_NEAR(Turn<float>(theta).change(r)[1], -0.5e-10, 1e-16);
 }
 
 }  // namespace

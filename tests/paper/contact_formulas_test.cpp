@@ -108,7 +108,7 @@ TEST(Rotation, TurnOfIsTheExponentialMap) {
             Vector3d(number(random), number(random), number(random)).normalized() * 1.5 *
             (i / 1000.0);
         const Vector3d r(number(random), number(random), number(random));
-        EXPECT_LT((turn_of<double>(theta, r) - (exponential_map(theta) * r - r)).norm(),
+        EXPECT_LT((Turn<double>(theta).change(r) - (exponential_map(theta) * r - r)).norm(),
                   1e-12 * r.norm());
         EXPECT_LT((rotation_vector(exponential_map(theta)) - theta).norm(), 1e-12);
     }

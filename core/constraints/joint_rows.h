@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+/// What a joint takes away (§5): up to three translations and three rotations, solved together as
+/// one block by Eq. 6.
+///
+///   along k  C = e_k · (p_a − p_b)   e_k rides on b    ∂C: e_k on v_a, r_a × e_k on ω_a,
+///                                                      −e_k on v_b, −(p_a − x_b) × e_k on ω_b
+///   about k  C = u_k · w_k           u_k on a, w_k on b   ∂C: ±(u_k × w_k) on ω_a, ω_b
+///
+/// for d(e · (p_a − p_b)) also turns e: ω_b × e · (p_a − p_b), which moves b's arm out to p_a. So
+/// both bodies feel opposite impulses at one point, and momentum is kept to rounding. Rotation is
+/// not linear: points and directions are taken anew at each iteration, from the turn of the whole
+/// substep. A row with compliance α has C + α λ/h = 0 for the impulse λ of the whole substep, which
+/// puts α/h² on the diagonal.
+#pragma once
+
+#include "constraints/connector.h"
+#include "math/dense.h"
+#include "math/rotation.h"
+
+namespace plumb {
+
+/// A joint at the start of a substep, world frame.
+template <class T>
+struct JointGeometry {
+    Vector3<T> r_a, r_b;  ///< arms [m]
+    Vector3<T> apart;     ///< p_a − p_b [m]
+    Vector3<T> e[3], u[3], w[3];
+    T lock[6];      ///< 1 where the row is taken away, else 0
+    T softness[6];  ///< α/h² [1/kg], [1/(kg m²)]
+    T length;       ///< of a distance joint, whose row 0 is along the line between the
+                    ///< points; else 0 [m]
+};
+
+template <class T>
+struct JointRows {
+    T c[6];                     ///< [m], [rad]
+    Vector3<T> e[3];            ///< what the impulse of a translational row does to v
+    Vector3<T> g_a[6], g_b[6];  ///< and what each row's does to ω
+};
+
+/// Rows at the preview poses: x₀ + h v, turned by h ω.
+template <class T>
+inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>& a,
+                               const Velocity<T>& b, const T& h) {
+    const Turn<T> turn_a(a.w * h), turn_b(b.w * h);
+    const Vector3<T> change_a = turn_a.change(joint.r_a), change_b = turn_b.change(joint.r_b);
+    const Vector3<T> apart = joint.apart + (a.v - b.v) * h + (change_a - change_b);
+    const Vector3<T> arm_a = joint.r_a + change_a, arm_b = joint.r_b + change_b + apart;
+    JointRows<T> rows;
+    for (int k = 0; k < 3; ++k) {
+        rows.e[k] = turn_b(joint.e[k]);
+        rows.c[k] = dot(rows.e[k], apart);
+    }
+    const T distance = sqrt(dot(apart, apart));
+    const T scale = T(1) / max(distance, T(1e-20));
+    for (int i = 0; i < 3; ++i)
+        rows.e[0][i] = select_greater(joint.length, T(0), apart[i] * scale, rows.e[0][i]);
+    rows.c[0] = select_greater(joint.length, T(0), distance - joint.length, rows.c[0]);
+    for (int k = 0; k < 3; ++k) {
+        rows.g_a[k] = cross(arm_a, rows.e[k]);
+        rows.g_b[k] = cross(arm_b, rows.e[k]);
+        const Vector3<T> u = turn_a(joint.u[k]), w = turn_b(joint.w[k]);
+        rows.c[3 + k] = dot(u, w);
+        rows.g_a[3 + k] = rows.g_b[3 + k] = cross(u, w);
+    }
+    return rows;
+}
+
+/// Impulses λ of the rows, on both bodies.
+template <class T>
+inline void apply_rows(Velocity<T>& a, Velocity<T>& b, const InverseMass<T>& mass_a,
+                       const InverseMass<T>& mass_b, const JointRows<T>& rows,
+                       const T (&lambda)[6]) {
+    const Vector3<T> push = rows.e[0] * lambda[0] + rows.e[1] * lambda[1] + rows.e[2] * lambda[2];
+    Vector3<T> turn_a = rows.g_a[0] * lambda[0], turn_b = rows.g_b[0] * lambda[0];
+    for (int k = 1; k < 6; ++k) {
+        turn_a += rows.g_a[k] * lambda[k];
+        turn_b += rows.g_b[k] * lambda[k];
+    }
+    a.v += push * mass_a.mass;
+    a.w += mass_a.inertia * turn_a;
+    b.v -= push * mass_b.mass;
+    b.w -= mass_b.inertia * turn_b;
+}
+
+/// K = J M⁻¹ Jᵀ, its lower triangle; rows that are not taken away stand alone.
+template <class T>
+inline void joint_response(T (&k)[6][6], const JointRows<T>& rows, const JointGeometry<T>& joint,
+                           const InverseMass<T>& mass_a, const InverseMass<T>& mass_b) {
+    const T mass = mass_a.mass + mass_b.mass;
+    for (int j = 0; j < 6; ++j) {
+        const Vector3<T> on_a = mass_a.inertia * rows.g_a[j], on_b = mass_b.inertia * rows.g_b[j];
+        for (int i = j; i < 6; ++i) {
+            T entry = dot(rows.g_a[i], on_a) + dot(rows.g_b[i], on_b);
+            if (i < 3) entry = entry + mass * dot(rows.e[i], rows.e[j]);
+            k[i][j] = entry * joint.lock[i] * joint.lock[j];
+        }
+        k[j][j] = k[j][j] + joint.softness[j] * joint.lock[j] + (T(1) - joint.lock[j]);
+    }
+}
+
+/// One iteration of Eq. 6: all rows at once. `change` is corrected; `total` is the whole velocity.
+template <class T>
+inline void solve_joint(Velocity<T>& change_a, Velocity<T>& change_b, const Velocity<T>& total_a,
+                        const Velocity<T>& total_b, const InverseMass<T>& mass_a,
+                        const InverseMass<T>& mass_b, const JointGeometry<T>& joint, T (&lambda)[6],
+                        const T& h) {
+    const JointRows<T> rows = joint_rows<T>(joint, total_a, total_b, h);
+    T k[6][6];
+    joint_response<T>(k, rows, joint, mass_a, mass_b);
+    T push[6];
+    for (int i = 0; i < 6; ++i)
+        push[i] = -(rows.c[i] / h + joint.softness[i] * lambda[i]) * joint.lock[i];
+    solve_ldlt<T, 6>(k, push);
+    for (int i = 0; i < 6; ++i) lambda[i] = lambda[i] + push[i];
+    apply_rows<T>(change_a, change_b, mass_a, mass_b, rows, push);
+}
+
+}  // namespace plumb

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: MIT
+/// Couplings (gears, racks, mimics): C = q_b − ratio q_a − offset = 0. A row has up to four bodies,
+/// so they are solved one after another.
+#pragma once
+
+#include "schedule/contact_rows.h"
+#include "step/joint_state.h"
+
+#include <array>
+#include <vector>
+
+namespace plumb {
+
+template <class Real>
+class CouplingSolver {
+public:
+    bool empty() const { return rows_.empty(); }
+
+    void begin(const World& world, double h) {
+        rows_.resize(world.joints.couplings.size());
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            const JointCoupling& coupling = world.joints.couplings[i];
+            Row row;
+            const JointCoordinate a = joint_coordinate(world, coupling.joint_a, coupling.axis_a),
+                                  b = joint_coordinate(world, coupling.joint_b, coupling.axis_b);
+            add_sides(row, world, world.joints.joints[coupling.joint_a], a, -coupling.ratio);
+            add_sides(row, world, world.joints.joints[coupling.joint_b], b, 1);
+            double k = 0;
+            for (const Side& side : row.sides)
+                k += side.along.dot(side.to_v) + side.turn.dot(side.to_w);
+            row.mass = k > 0 ? 1 / k : 0;
+            row.bias = (b.value - coupling.ratio * a.value - coupling.offset) / h;
+            rows_[i] = row;
+        }
+    }
+
+    void solve(const BodyRows<Real>& bodies) {
+        for (Row& row : rows_) {
+            double rate = 0;
+            for (const Side& side : row.sides) rate += rate_of(side, bodies);
+            const double impulse = -row.mass * (rate + row.bias);
+            row.lambda += impulse;
+            push(row, bodies, impulse);
+        }
+    }
+
+    void store_impulses(JointTable& table) const {
+        for (std::size_t i = 0; i < rows_.size(); ++i) table.couplings[i].impulse = rows_[i].lambda;
+    }
+
+private:
+    /// What one body adds to the row, and what an impulse of the row does to it.
+    struct Side {
+        std::int32_t body = -1;
+        Vector3d along = Vector3d::Zero(), turn = Vector3d::Zero();
+        Vector3d to_v = Vector3d::Zero(), to_w = Vector3d::Zero();
+    };
+    struct Row {
+        std::array<Side, 4> sides;
+        double mass = 0, bias = 0, lambda = 0;
+    };
+
+    /// A body that stands on both sides, as the frame that carries two wheels does, has one entry.
+    static void add_side(Row& row, const World& world, std::uint32_t body, const Vector3d& along,
+                         const Vector3d& turn) {
+        if (body == kNoIndex || world.bodies.motion[body] == Motion::fixed) return;
+        const std::int32_t at = world.bodies.row[body];
+        for (Side& side : row.sides) {
+            if (side.body != -1 && side.body != at) continue;
+            side.body = at;
+            side.along += along, side.turn += turn;
+            side.to_v = world.bodies.inverse_mass[body] * side.along;
+            side.to_w = world.bodies.world_inverse_inertia[body] * side.turn;
+            return;
+        }
+    }
+    static void add_sides(Row& row, const World& world, const Joint& joint,
+                          const JointCoordinate& q, double factor) {
+        add_side(row, world, joint.a, factor * q.along, factor * q.turn_a);
+        add_side(row, world, joint.b, -factor * q.along, -factor * q.turn_b);
+    }
+
+    static double rate_of(const Side& side, const BodyRows<Real>& bodies) {
+        if (side.body < 0) return 0;
+        const Real* start = bodies.start + side.body * kBodyRowSize;
+        const Real* change = bodies.change + side.body * kBodyRowSize;
+        double rate = 0;
+        for (int k = 0; k < 3; ++k)
+            rate += side.along[k] * (double(start[k]) + double(change[k])) +
+                    side.turn[k] * (double(start[4 + k]) + double(change[4 + k]));
+        return rate;
+    }
+
+    static void push(const Row& row, const BodyRows<Real>& bodies, double impulse) {
+        for (const Side& side : row.sides) {
+            if (side.body < 0 || side.body >= bodies.dynamic_count) continue;
+            Real* change = bodies.change + side.body * kBodyRowSize;
+            for (int k = 0; k < 3; ++k) {
+                change[k] += static_cast<Real>(side.to_v[k] * impulse);
+                change[4 + k] += static_cast<Real>(side.to_w[k] * impulse);
+            }
+        }
+    }
+
+    std::vector<Row> rows_;
+};
+
+}  // namespace plumb

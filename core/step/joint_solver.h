@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+/// Joints of one precision and lane width: from the world's tables to blocks, iterations, and back.
+#pragma once
+
+#include "constraints/drive_rows.h"
+#include "schedule/joint_forest.h"
+#include "step/coupling_solver.h"
+#include "step/joint_state.h"
+#include "step/lane_blocks.h"
+#include "step/velocity_table.h"
+
+#include <vector>
+
+namespace plumb {
+
+template <class Real, int W>
+class JointSolver {
+public:
+    JointSolver(const World& world, Workers& workers)
+        : kernels_(joint_kernels<Real, W>()), workers_(workers) {
+        lay_out(world);
+    }
+
+    /// Arms, errors and masses at the start of a substep. Impulses start from nothing: those of the
+    /// substep before point where the bodies were, and chains that swing gain energy from them.
+    void begin(const World& world, double h) {
+        const auto& joints = world.joints.joints;
+        for (std::size_t i = 0; i < ball_joints_.size(); ++i)
+            fill_ball(world, joints[ball_joints_[i]], i);
+        for (std::size_t i = 0; i < block_joints_.size(); ++i)
+            fill_block(world, joints[block_joints_[i]], i, h);
+        for (std::size_t i = 0; i < world.joints.drives.size(); ++i)
+            fill_drive(world, world.joints.drives[i], i, h);
+        couplings_.begin(world, h);
+    }
+
+    /// One sweep from the roots of the trees outwards.
+    void position_iteration(const BodyRows<Real>& bodies, Real h, std::uint32_t worker) {
+        balls_.sweep(kernels_.balls, bodies, h, workers_, worker);
+        blocks_.sweep(kernels_.joints, bodies, h, workers_, worker);
+        drives_.sweep(kernels_.drives, bodies, h, workers_, worker);
+        if (couplings_.empty()) return;
+        if (worker == 0) couplings_.solve(bodies);
+        workers_.barrier();
+    }
+
+    void store_impulses(World& world) {
+        JointTable& table = world.joints;
+        for (std::size_t i = 0; i < ball_joints_.size(); ++i)
+            for (int k = 0; k < 3; ++k)
+                table.joints[ball_joints_[i]].rows[k] =
+                    double(balls_.block(i).impulse[k][balls_.lane(i)]);
+        for (std::size_t i = 0; i < block_joints_.size(); ++i)
+            for (int k = 0; k < 6; ++k)
+                table.joints[block_joints_[i]].rows[k] =
+                    double(blocks_.block(i).lambda[k][blocks_.lane(i)]);
+        for (std::size_t i = 0; i < table.drives.size(); ++i)
+            table.drives[i].impulse = double(drives_.block(i).lambda[drives_.lane(i)]);
+        couplings_.store_impulses(table);
+    }
+
+private:
+    static std::int32_t row_of(const World& world, std::uint32_t body) {
+        return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
+    }
+    static BodyPair pair_of(const World& world, const Joint& joint, std::uint32_t item) {
+        return {row_of(world, joint.a), row_of(world, joint.b), item, 1, 0};
+    }
+
+    void lay_out(const World& world) {
+        std::vector<BodyPair> all, balls, blocks, drives;
+        for (std::uint32_t i = 0; i < world.joints.size(); ++i)
+            all.push_back(pair_of(world, world.joints.joints[i], i));
+        find_joint_levels(all, world.dynamic_count);
+        for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+            const Joint& joint = world.joints.joints[i];
+            if (joint.is_plain_ball()) {
+                ball_joints_.push_back(i);
+                balls.push_back(all[i]);
+            } else if (joint.locked != decltype(joint.locked){}) {
+                block_joints_.push_back(i);
+                blocks.push_back(all[i]);
+            }
+        }
+        for (const JointDrive& drive : world.joints.drives) drives.push_back(all[drive.joint]);
+        balls_.lay_out(balls, world);
+        blocks_.lay_out(blocks, world);
+        drives_.lay_out(drives, world);
+    }
+
+    static void put(Real (&to)[3][W], std::uint32_t lane, const Vector3d& v) {
+        for (int k = 0; k < 3; ++k) to[k][lane] = static_cast<Real>(v[k]);
+    }
+
+    void fill_ball(const World& world, const Joint& joint, std::size_t item) {
+        const Bodies& bodies = world.bodies;
+        BallBlock<Real, W>& block = balls_.block(item);
+        const std::uint32_t lane = balls_.lane(item);
+        const Vector3d arm_a = bodies.orientation[joint.a] * joint.frame_a.position;
+        Vector3d arm_b = Vector3d::Zero(), point_b = joint.frame_b.position;
+        if (joint.b != kNoIndex) {
+            arm_b = bodies.orientation[joint.b] * joint.frame_b.position;
+            point_b = bodies.position[joint.b] + arm_b;
+        }
+        balls_.fill_masses(item, bodies, joint.a, joint.b);
+        put(block.arm_a, lane, arm_a), put(block.arm_b, lane, arm_b);
+        put(block.gap, lane, (bodies.position[joint.a] + arm_a) - point_b);
+        for (int k = 0; k < 3; ++k) block.impulse[k][lane] = 0;
+        block.used[lane] = 1;
+    }
+
+    void fill_block(const World& world, const Joint& joint, std::size_t item, double h) {
+        JointBlock<Real, W>& block = blocks_.block(item);
+        const std::uint32_t lane = blocks_.lane(item);
+        const JointPose pose = joint_pose(world.bodies, joint);
+        blocks_.fill_masses(item, world.bodies, joint.a, joint.b);
+        put(block.arm_a, lane, pose.point_a - pose.centre_a);
+        put(block.arm_b, lane,
+            joint.b == kNoIndex ? Vector3d::Zero() : Vector3d(pose.point_b - pose.centre_b));
+        put(block.apart, lane, pose.point_a - pose.point_b);
+        for (int k = 0; k < 3; ++k) {
+            put(block.e[k], lane, pose.axes_b.col(k));
+            put(block.u[k], lane, world.bodies.orientation[joint.a] * joint.turns[k].u);
+            put(block.w[k], lane,
+                joint.b == kNoIndex
+                    ? joint.turns[k].w
+                    : Vector3d(world.bodies.orientation[joint.b] * joint.turns[k].w));
+        }
+        for (std::uint32_t k = 0; k < kJointAxes; ++k) {
+            const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
+            block.lock[k][lane] = joint.locked[k];
+            block.softness[k][lane] = static_cast<Real>(alpha / (h * h));
+            block.lambda[k][lane] = 0;
+        }
+        block.length[lane] = static_cast<Real>(joint.locked[kAlongX] ? joint.length : 0);
+    }
+
+    /// J M⁻¹ Jᵀ of a row along or about an axis.
+    static double response_of(const Bodies& b, const Joint& joint, const JointCoordinate& q) {
+        const double linear = q.along.squaredNorm();
+        const auto of = [&](std::uint32_t body, const Vector3d& turn) {
+            if (body == kNoIndex) return 0.0;
+            return linear * b.inverse_mass[body] +
+                   turn.dot(Vector3d(b.world_inverse_inertia[body] * turn));
+        };
+        return of(joint.a, q.turn_a) + of(joint.b, q.turn_b);
+    }
+
+    void fill_drive(const World& world, const JointDrive& drive, std::size_t item, double h) {
+        const Joint& joint = world.joints.joints[drive.joint];
+        const JointCoordinate q = joint_coordinate(world, drive.joint, drive.axis);
+        const double k = response_of(world.bodies, joint, q);
+        const DriveRow row = drive_row(drive, q.value, k, world.settings, world.time + h, h);
+        DriveBlock<Real, W>& block = drives_.block(item);
+        const std::uint32_t lane = drives_.lane(item);
+        drives_.fill_masses(item, world.bodies, joint.a, joint.b);
+        put(block.along, lane, q.along);
+        put(block.turn_a, lane, q.turn_a), put(block.turn_b, lane, q.turn_b);
+        block.bias[lane] = static_cast<Real>(row.bias);
+        block.softness[lane] = static_cast<Real>(row.softness);
+        block.mass[lane] = static_cast<Real>(k > 0 ? 1 / (k + row.softness) : 0);
+        block.lowest[lane] = static_cast<Real>(row.lowest);
+        block.highest[lane] = static_cast<Real>(row.highest);
+        block.lambda[lane] = 0;
+    }
+
+    static DriveRow drive_row(const JointDrive& drive, double q, double response,
+                              const Settings& settings, double time, double h) {
+        const JointAxisSpec& spec = drive.spec;
+        const MotorTarget target = motor_target(spec.motor, time);
+        switch (drive.kind) {
+            case DriveKind::limit:
+                return limit_row(q, spec.lower, spec.upper, settings.stiffness,
+                                 settings.recovery_speed, h);
+            case DriveKind::motor:
+                if (spec.motor.mode == MotorMode::velocity)
+                    return velocity_motor_row(target.value, spec.motor.greatest, h);
+                return position_motor_row(q, target.value, target.speed, spec.motor,
+                                          response > 0 ? 1 / response : 0, h);
+            case DriveKind::spring:
+                return spring_row(q, spec.rest, 0, spec.stiffness, spec.damping, h);
+            case DriveKind::friction:
+                return friction_row(spec.friction, h);
+        }
+        return {};
+    }
+
+    const JointKernels<Real, W>& kernels_;
+    Workers& workers_;
+    std::vector<std::uint32_t> ball_joints_, block_joints_;  ///< index into JointTable::joints
+    LaneBlocks<BallBlock<Real, W>, Real, W> balls_;
+    LaneBlocks<JointBlock<Real, W>, Real, W> blocks_;
+    LaneBlocks<DriveBlock<Real, W>, Real, W> drives_;
+    CouplingSolver<Real> couplings_;
+};
+
+}  // namespace plumb

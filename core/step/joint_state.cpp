@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "step/joint_state.h"
+
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+constexpr double kWholeTurn = 6.283185307179586;
+
+/// The axis of the one rotation that a joint leaves free, kJointAxes where there is none or more.
+std::uint32_t single_turn(const Joint& joint) {
+    if (joint.kind == JointKind::cone_twist || free_turns(joint) != 1) return kJointAxes;
+    for (std::uint32_t axis = kTurnX; axis <= kTurnZ; ++axis)
+        if (!joint.locked[axis]) return axis;
+    return kJointAxes;
+}
+
+}  // namespace
+
+JointPose joint_pose(const Bodies& b, const Joint& joint) {
+    JointPose pose;
+    const auto put = [&](std::uint32_t body, const Placement& frame, Vector3d& point,
+                         Matrix3d& axes, Vector3d& centre) {
+        if (body == kNoIndex) {
+            point = frame.position, axes = frame.rotation.toRotationMatrix();
+            centre = Vector3d::Zero();
+            return;
+        }
+        centre = b.position[body];
+        point = centre + b.orientation[body] * frame.position;
+        axes = (b.orientation[body] * frame.rotation).toRotationMatrix();
+    };
+    put(joint.a, joint.frame_a, pose.point_a, pose.axes_a, pose.centre_a);
+    put(joint.b, joint.frame_b, pose.point_b, pose.axes_b, pose.centre_b);
+    return pose;
+}
+
+int free_turns(const Joint& joint) {
+    return !joint.locked[kTurnX] + !joint.locked[kTurnY] + !joint.locked[kTurnZ];
+}
+
+JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::uint32_t axis) {
+    const Joint& joint = world.joints.joints[index];
+    JointCoordinate q =
+        joint_coordinate(joint.kind, free_turns(joint), joint_pose(world.bodies, joint), axis);
+    if (axis == single_turn(joint))
+        q.value += kWholeTurn * std::round((world.joints.turn[index] - q.value) / kWholeTurn);
+    return q;
+}
+
+void count_turns(World& world) {
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i)
+        if (const std::uint32_t axis = single_turn(world.joints.joints[i]); axis < kJointAxes)
+            world.joints.turn[i] = joint_coordinate(world, i, axis).value;
+}
+
+}  // namespace plumb

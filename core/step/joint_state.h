@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/// Where the world's joints stand.
+#pragma once
+
+#include "constraints/joint_axis.h"
+#include "world/world.h"
+
+namespace plumb {
+
+JointPose joint_pose(const Bodies& bodies, const Joint& joint);
+
+/// How many rotations a joint leaves free.
+int free_turns(const Joint& joint);
+
+/// The coordinate of a joint along or about an axis that it leaves free. The angle about a single
+/// free axis is counted through whole turns.
+JointCoordinate joint_coordinate(const World& world, std::uint32_t joint, std::uint32_t axis);
+
+/// Follows the angles about single free axes through whole turns; called once a substep.
+void count_turns(World& world);
+
+}  // namespace plumb
