@@ -7,14 +7,17 @@
 ///   about k  C = u_k · w_k           u_k on a, w_k on b   ∂C: ±(u_k × w_k) on ω_a, ω_b
 ///
 /// for d(e · (p_a − p_b)) also turns e: ω_b × e · (p_a − p_b), which moves b's arm out to p_a. So
-/// both bodies feel opposite impulses at one point, and momentum is kept to rounding. Rotation is
-/// not linear: points and directions are taken anew at each iteration, from the turn of the whole
-/// substep. A row with compliance α has C + α λ/h = 0 for the impulse λ of the whole substep, which
-/// puts α/h² on the diagonal.
+/// both bodies feel opposite impulses at one point. Rotation is not linear: C is taken anew at each
+/// iteration, from the turn of the whole substep. The impulses act where the joint was at the start
+/// of the substep, which keeps momentum to rounding and energy to second order, or follow it to its
+/// end, which bears any load but loses some of both (joint_follow.h says when). A row with
+/// compliance α has C + α λ/h = 0 for the impulse λ of the whole substep, which puts α/h² on the
+/// diagonal.
 #pragma once
 
 #include "constraints/connector.h"
 #include "math/dense.h"
+#include "math/lanes.h"
 #include "math/rotation.h"
 
 namespace plumb {
@@ -25,10 +28,11 @@ struct JointGeometry {
     Vector3<T> r_a, r_b;  ///< arms [m]
     Vector3<T> apart;     ///< p_a − p_b [m]
     Vector3<T> e[3], u[3], w[3];
-    T lock[6];      ///< 1 where the row is taken away, else 0
-    T softness[6];  ///< α/h² [1/kg], [1/(kg m²)]
-    T length;       ///< of a distance joint, whose row 0 is along the line between the
-                    ///< points; else 0 [m]
+    T lock[6];             ///< 1 where the row is taken away, else 0
+    T softness[6];         ///< α/h² [1/kg], [1/(kg m²)]
+    T follow_a, follow_b;  ///< share of its body's turn that an impulse goes along with
+    T length;              ///< of a distance joint, whose row 0 is along the line between the
+                           ///< points; else 0 [m]
 };
 
 template <class T>
@@ -38,18 +42,21 @@ struct JointRows {
     Vector3<T> g_a[6], g_b[6];  ///< and what each row's does to ω
 };
 
-/// Rows at the preview poses: x₀ + h v, turned by h ω.
+/// Errors at the preview poses (x₀ + h v, turned by h ω), and the rows by which impulses act.
 template <class T>
 inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>& a,
                                const Velocity<T>& b, const T& h) {
     const Turn<T> turn_a(a.w * h), turn_b(b.w * h);
     const Vector3<T> change_a = turn_a.change(joint.r_a), change_b = turn_b.change(joint.r_b);
     const Vector3<T> apart = joint.apart + (a.v - b.v) * h + (change_a - change_b);
-    const Vector3<T> arm_a = joint.r_a + change_a, arm_b = joint.r_b + change_b + apart;
+    const Vector3<T> arm_a = joint.r_a + change_a * joint.follow_a;
+    const Vector3<T> arm_b =
+        joint.r_b + joint.apart + (change_b + (apart - joint.apart)) * joint.follow_b;
     JointRows<T> rows;
     for (int k = 0; k < 3; ++k) {
-        rows.e[k] = turn_b(joint.e[k]);
-        rows.c[k] = dot(rows.e[k], apart);
+        const Vector3<T> change = turn_b.change(joint.e[k]);
+        rows.c[k] = dot(Vector3<T>(joint.e[k] + change), apart);
+        rows.e[k] = joint.e[k] + change * joint.follow_b;
     }
     const T distance = sqrt(dot(apart, apart));
     const T scale = T(1) / max(distance, T(1e-20));
@@ -59,9 +66,11 @@ inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>&
     for (int k = 0; k < 3; ++k) {
         rows.g_a[k] = cross(arm_a, rows.e[k]);
         rows.g_b[k] = cross(arm_b, rows.e[k]);
-        const Vector3<T> u = turn_a(joint.u[k]), w = turn_b(joint.w[k]);
-        rows.c[3 + k] = dot(u, w);
-        rows.g_a[3 + k] = rows.g_b[3 + k] = cross(u, w);
+        const Vector3<T> change_u = turn_a.change(joint.u[k]), change_w = turn_b.change(joint.w[k]);
+        rows.c[3 + k] = dot(Vector3<T>(joint.u[k] + change_u), Vector3<T>(joint.w[k] + change_w));
+        rows.g_a[3 + k] = rows.g_b[3 + k] =
+            cross(Vector3<T>(joint.u[k] + change_u * joint.follow_a),
+                  Vector3<T>(joint.w[k] + change_w * joint.follow_b));
     }
     return rows;
 }

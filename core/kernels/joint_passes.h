@@ -71,7 +71,8 @@ void solve_balls(BallBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real 
         j.mass_a.mass = j.mass_a.mass + (T(1) - load(block.used));
         const Vector3<T> impulse =
             join<T>(j.a, j.b, j.total_a, j.total_b, j.mass_a, j.mass_b, load_vector(block.arm_a),
-                    load_vector(block.arm_b), load_vector(block.gap), T(h));
+                    load_vector(block.arm_b), load_vector(block.gap), load(block.follow_a),
+                    load(block.follow_b), T(h));
         store_vector(block.impulse, Vector3<T>(load_vector(block.impulse) + impulse));
     });
 }
@@ -90,6 +91,7 @@ inline JointGeometry<T> load_geometry(const JointBlock<Real, W>& block) {
     }
     for (int k = 0; k < 6; ++k)
         g.lock[k] = load(block.lock[k]), g.softness[k] = load(block.softness[k]);
+    g.follow_a = load(block.follow_a), g.follow_b = load(block.follow_b);
     g.length = load(block.length);
     return g;
 }

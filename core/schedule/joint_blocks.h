@@ -19,6 +19,7 @@ template <class Real, int W>
 struct BallBlock : JointBodies<Real, W> {
     Real arm_a[3][W], arm_b[3][W];  // at the start of the substep [m]
     Real gap[3][W];                 // a − b at the start of the substep [m]
+    Real follow_a[W], follow_b[W];  // share of the turn that an impulse goes along with
     Real impulse[3][W];             // on a, summed over the substep [N s]
     Real used[W];                   // 1 where a joint sits, 0 in an empty lane
 };
@@ -28,6 +29,7 @@ template <class Real, int W>
 struct JointBlock : JointBodies<Real, W> {
     Real arm_a[3][W], arm_b[3][W], apart[3][W];  // at the start of the substep [m]
     Real e[3][3][W], u[3][3][W], w[3][3][W];     // [row][component]
+    Real follow_a[W], follow_b[W];
     Real lock[6][W], softness[6][W], length[W];
     Real lambda[6][W];  // summed over the substep [N s], [N m s]
 };

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "constraints/drive_rows.h"
+#include "constraints/joint_follow.h"
 #include "schedule/joint_forest.h"
 #include "step/coupling_solver.h"
 #include "step/joint_state.h"
@@ -26,7 +27,7 @@ public:
     void begin(const World& world, double h) {
         const auto& joints = world.joints.joints;
         for (std::size_t i = 0; i < ball_joints_.size(); ++i)
-            fill_ball(world, joints[ball_joints_[i]], i);
+            fill_ball(world, joints[ball_joints_[i]], i, h);
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
             fill_block(world, joints[block_joints_[i]], i, h);
         for (std::size_t i = 0; i < world.joints.drives.size(); ++i)
@@ -92,7 +93,23 @@ private:
         for (int k = 0; k < 3; ++k) to[k][lane] = static_cast<Real>(v[k]);
     }
 
-    void fill_ball(const World& world, const Joint& joint, std::size_t item) {
+    /// How far each side's impulse follows its body in this substep, by the load of the one before.
+    template <class Block>
+    static void fill_follow(const World& world, const Joint& joint, Block& block,
+                            std::uint32_t lane, double h) {
+        const auto of = [&](std::uint32_t body, const Vector3d& arm) {
+            if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic) return 0.0;
+            const auto& r = joint.rows;
+            return joint_follow(Vector3d(r[0], r[1], r[2]).norm(),
+                                Vector3d(r[3], r[4], r[5]).norm(), arm.norm(),
+                                world.bodies.world_inverse_inertia[body],
+                                h * world.bodies.angular_velocity[body].norm(), h);
+        };
+        block.follow_a[lane] = static_cast<Real>(of(joint.a, joint.frame_a.position));
+        block.follow_b[lane] = static_cast<Real>(of(joint.b, joint.frame_b.position));
+    }
+
+    void fill_ball(const World& world, const Joint& joint, std::size_t item, double h) {
         const Bodies& bodies = world.bodies;
         BallBlock<Real, W>& block = balls_.block(item);
         const std::uint32_t lane = balls_.lane(item);
@@ -106,6 +123,7 @@ private:
         put(block.arm_a, lane, arm_a), put(block.arm_b, lane, arm_b);
         put(block.gap, lane, (bodies.position[joint.a] + arm_a) - point_b);
         for (int k = 0; k < 3; ++k) block.impulse[k][lane] = 0;
+        fill_follow(world, joint, block, lane, h);
         block.used[lane] = 1;
     }
 
@@ -132,6 +150,7 @@ private:
             block.softness[k][lane] = static_cast<Real>(alpha / (h * h));
             block.lambda[k][lane] = 0;
         }
+        fill_follow(world, joint, block, lane, h);
         block.length[lane] = static_cast<Real>(joint.locked[kAlongX] ? joint.length : 0);
     }
 

@@ -83,9 +83,10 @@ TEST(BallJoint, OneIterationClosesASmallGap) {
                        gap = 1e-5 * random.direction();
         const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
         Velocity<double> x = rest, y = rest;
-        const Vector3d impulse = join(x, y, rest, rest, a.inverse, b.inverse, r_a, r_b, gap, h);
-        const Vector3d left =
-            gap + h * (x.v - y.v) + Turn<double>(h * x.w).change(r_a) - Turn<double>(h * y.w).change(r_b);
+        const Vector3d impulse =
+            join(x, y, rest, rest, a.inverse, b.inverse, r_a, r_b, gap, 1.0, 1.0, h);
+        const Vector3d left = gap + h * (x.v - y.v) + Turn<double>(h * x.w).change(r_a) -
+                              Turn<double>(h * y.w).change(r_b);
         EXPECT_LT(left.norm(), 1e-3 * gap.norm());
         EXPECT_LT((x.v / a.inverse.mass + y.v / b.inverse.mass).norm(), 1e-12 * impulse.norm());
     }
@@ -105,12 +106,14 @@ TEST(BallJoint, ConvergesFastForFastTurns) {
     };
     auto error = [&] {
         const Velocity<double> p = sum(start_a, x), q = sum(start_b, y);
-        return (h * (p.v - q.v) + Turn<double>(h * p.w).change(r_a) - Turn<double>(h * q.w).change(r_b))
+        return (h * (p.v - q.v) + Turn<double>(h * p.w).change(r_a) -
+                Turn<double>(h * q.w).change(r_b))
             .norm();
     };
     EXPECT_GT(error(), 0.01);
     for (int i = 0; i < 30; ++i)
-        join(x, y, sum(start_a, x), sum(start_b, y), a.inverse, b.inverse, r_a, r_b, gap, h);
+        join(x, y, sum(start_a, x), sum(start_b, y), a.inverse, b.inverse, r_a, r_b, gap, 1.0, 1.0,
+             h);
     EXPECT_LT(error(), 1e-12);
 }
 

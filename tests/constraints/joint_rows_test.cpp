@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+/// Rows and coordinates of joints against finite differences.
+#include "constraints/joint_rows.h"
+#include "constraints/joint_axis.h"
+#include "support/random.h"
+
+#include <gtest/gtest.h>
+
+namespace plumb {
+namespace {
+
+using test::Random;
+
+constexpr double kTiny = 1e-6;
+
+JointGeometry<double> random_joint(Random& random, double length) {
+    JointGeometry<double> joint{};
+    joint.r_a = random.vector(), joint.r_b = random.vector(), joint.apart = random.vector();
+    for (int k = 0; k < 3; ++k) {
+        joint.e[k] = random.direction();
+        joint.u[k] = random.direction(), joint.w[k] = random.direction();
+    }
+    for (int k = 0; k < 6; ++k) joint.lock[k] = 1;
+    joint.follow_a = random.number(0, 1), joint.follow_b = random.number(0, 1);
+    joint.length = length;
+    return joint;
+}
+
+/// What a row's rate is, of velocities that start from rest.
+double rate(const JointRows<double>& rows, int k, const Velocity<double>& a,
+            const Velocity<double>& b) {
+    const Vector3d along = k < 3 ? rows.e[k] : Vector3d::Zero();
+    return along.dot(a.v - b.v) + rows.g_a[k].dot(a.w) - rows.g_b[k].dot(b.w);
+}
+
+TEST(JointRows, AreTheDerivativesOfTheirErrors) {
+    Random random(11);
+    for (const double length : {0.0, 0.7})
+        for (int i = 0; i < 100; ++i) {
+            const JointGeometry<double> joint = random_joint(random, length);
+            const Velocity<double> a{random.vector(), random.vector()},
+                b{random.vector(), random.vector()};
+            const Velocity<double> back_a{-a.v, -a.w}, back_b{-b.v, -b.w};
+            const JointRows<double> rows =
+                joint_rows<double>(joint, {Vector3d::Zero(), Vector3d::Zero()},
+                                   {Vector3d::Zero(), Vector3d::Zero()}, kTiny);
+            const JointRows<double> after = joint_rows<double>(joint, a, b, kTiny),
+                                    before = joint_rows<double>(joint, back_a, back_b, kTiny);
+            for (int k = 0; k < 6; ++k)
+                EXPECT_NEAR((after.c[k] - before.c[k]) / (2 * kTiny), rate(rows, k, a, b), 1e-6)
+                    << k;
+        }
+}
+
+/// Two bodies with a joint's frames, moved on by their velocities for a time.
+struct Moving {
+    Placement a, b;  ///< the bodies
+    Placement frame_a, frame_b;
+    Velocity<double> va, vb;
+
+    JointPose at(double time) const {
+        const auto moved = [time](const Placement& body, const Velocity<double>& v) {
+            return Placement{body.position + time * v.v, turned(body.rotation, time * v.w)};
+        };
+        const Placement pa = moved(a, va), pb = moved(b, vb);
+        return {pa.position + pa.rotation * frame_a.position,
+                pb.position + pb.rotation * frame_b.position,
+                (pa.rotation * frame_a.rotation).toRotationMatrix(),
+                (pb.rotation * frame_b.rotation).toRotationMatrix(),
+                pa.position,
+                pb.position};
+    }
+};
+
+Quaterniond random_rotation(Random& random) { return random.rotation(); }
+
+template <class Coordinate>
+void expect_rate(Coordinate coordinate, std::uint64_t seed, bool aligned_about_x = false) {
+    Random random(static_cast<unsigned>(seed));
+    for (int i = 0; i < 100; ++i) {
+        Moving m{
+            {random.vector(), random_rotation(random)}, {random.vector(), random_rotation(random)},
+            {random.vector(), random_rotation(random)}, {random.vector(), Quaterniond::Identity()},
+            {random.vector(), random.vector()},         {random.vector(), random.vector()}};
+        // a's frame stands turned by up to 1 rad from b's
+        const Quaterniond between = aligned_about_x
+                                        ? exponential_map({3 * random.vector().x(), 0, 0})
+                                        : exponential_map(0.6 * random.vector());
+        m.frame_a.rotation = (m.a.rotation.conjugate() * m.b.rotation * between).normalized();
+        if (aligned_about_x)
+            m.va.w = m.vb.w + random.vector().x() * (m.b.rotation * Vector3d::UnitX());
+        const JointCoordinate q = coordinate(m.at(0));
+        const double rate =
+            q.along.dot(m.va.v - m.vb.v) + q.turn_a.dot(m.va.w) - q.turn_b.dot(m.vb.w);
+        const double difference = coordinate(m.at(kTiny)).value - coordinate(m.at(-kTiny)).value;
+        if (std::abs(difference) > 1) continue;  // stepped over from π to −π
+        EXPECT_NEAR(difference / (2 * kTiny), rate, 1e-5) << i;
+    }
+}
+
+TEST(JointCoordinates, ChangeAtTheirRates) {
+    for (int k = 0; k < 3; ++k) {
+        expect_rate([k](const JointPose& p) { return coordinate_along(p, p.axes_b.col(k)); }, 1);
+        expect_rate([k](const JointPose& p) { return coordinate_euler(p, k); }, 2);
+    }
+    expect_rate([](const JointPose& p) { return coordinate_distance(p); }, 3);
+    expect_rate([](const JointPose& p) { return coordinate_twist(p); }, 4);
+    expect_rate([](const JointPose& p) { return coordinate_swing(p); }, 5);
+    expect_rate([](const JointPose& p) { return coordinate_about(p, 0); }, 6, true);
+}
+
+TEST(JointCoordinates, OfEulerAnglesAreThoseOfTheRotation) {
+    Random random(7);
+    for (int i = 0; i < 50; ++i) {
+        const Vector3d angles = 1.5 * random.direction();
+        JointPose pose{};
+        pose.axes_b = random_rotation(random).toRotationMatrix();
+        const Quaterniond r = exponential_map({angles.x(), 0, 0}) *
+                              exponential_map({0, angles.y(), 0}) *
+                              exponential_map({0, 0, angles.z()});
+        pose.axes_a = pose.axes_b * r.toRotationMatrix();
+        for (int k = 0; k < 3; ++k) EXPECT_NEAR(coordinate_euler(pose, k).value, angles[k], 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace plumb
