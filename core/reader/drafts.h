@@ -32,7 +32,7 @@ private:
 
 struct SceneDraft {
     Scene scene;
-    Names materials{"material"}, shapes{"shape"}, bodies{"body"};
+    Names materials{"material"}, shapes{"shape"}, bodies{"body"}, joints{"joint"};
 };
 
 /// A body, and how often a "repeat" deals it.
@@ -50,6 +50,13 @@ struct PairDraft {
 struct JointDraft {
     SceneDraft* scene;
     JointSpec spec;
+    std::optional<Eigen::Vector3d> anchor, axis, second_axis;  // as the file has them
+    JointAxisSpec main;                                        ///< "limits" and so on beside "type"
+};
+
+struct CouplingDraft {
+    SceneDraft* scene;
+    CouplingSpec spec;
 };
 
 struct ShapeDraft {
@@ -64,6 +71,7 @@ const Table<PairDraft>& pair_table();
 const Table<ShapeDraft>& shape_table();
 const Table<BodyDraft>& body_table();
 const Table<JointDraft>& joint_table();
+const Table<CouplingDraft>& coupling_table();
 const Table<View>& view_table();
 const Table<SceneDraft>& scene_table();
 
@@ -71,6 +79,8 @@ const Table<SceneDraft>& scene_table();
 void add_shape_definitions(SchemaJson& definitions);
 void add_body_definitions(SchemaJson& definitions);
 void add_repeat_definitions(SchemaJson& definitions);
+void add_joint_definitions(SchemaJson& definitions);
+void add_coupling_definitions(SchemaJson& definitions);
 
 // Whole parts of a scene.
 void read_materials(SceneDraft& draft, const Node& node);
@@ -78,6 +88,7 @@ void read_material_pairs(SceneDraft& draft, const Node& node);
 void read_shapes(SceneDraft& draft, const Node& node);
 void read_bodies(SceneDraft& draft, const Node& node);
 void read_joints(SceneDraft& draft, const Node& node);
+void read_couplings(SceneDraft& draft, const Node& node);
 
 /// One shape object, {"sphere": {…}}; compounds may name shapes of the scene.
 Geometry read_geometry(const SceneDraft& draft, const Node& node);
@@ -90,6 +101,13 @@ void add_body(SceneDraft& draft, BodySpec spec, const Node& node);
 
 /// An entry {"repeat": …, "bodies": …}: bodies on a grid.
 void read_repeat(SceneDraft& draft, const Node& node);
+
+/// Adds a joint under its name; fails at `node` when the name is in use.
+void add_joint(SceneDraft& draft, JointSpec spec, const Node& node);
+
+/// Whether an axis that the joint's kind leaves free moves in this joint: "locked" of a six_axis
+/// joint stops it, and a distance joint moves only between limits or on a spring.
+bool is_free(const JointSpec& joint, JointAxis axis);
 
 /// {"axis", "degrees"}, {"quaternion"} or {"euler_degrees"}.
 struct Rotation {

@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// "joints".
+#include <algorithm>
+#include <cmath>
+
 #include "reader/drafts.h"
+#include "reader/frames.h"
+#include "reader/joint_drives.h"
+#include "reader/joint_kinds.h"
 
 namespace plumb::reader {
 
 namespace {
+
+constexpr Range kBreaking{1e-9, 1e15};
 
 void read_linked_bodies(JointDraft& draft, const Node& node) {
     if (!node.json().is_array() || node.size() < 1 || node.size() > 2) {
@@ -25,26 +33,77 @@ void read_linked_bodies(JointDraft& draft, const Node& node) {
     }
 }
 
-}  // namespace
+void read_locked(JointDraft& draft, const Node& node) {
+    if (!node.json().is_array()) node.fail_wanting("a list of axes");
+    const Choice<JointAxis> axis{joint_axes()};
+    for (std::size_t i = 0; i < node.size(); ++i) draft.spec.locked[axis.read(node.at(i))] = true;
+}
 
-const Table<JointDraft>& joint_table() {
+SchemaJson axes_schema() {
+    SchemaJson names = names_of_axes(joint_axes());
+    for (const NamedAxis& axis : traits_of(JointKind::cone_twist).axes) names.push_back(axis.first);
+    SchemaJson schema = names_of("joint_axis");
+    schema["propertyNames"] = {{"enum", names}};
+    return schema;
+}
+
+/// {"turn_x": {"limits": …}, …}.
+void read_axes(JointDraft& draft, const Node& node) {
+    if (!node.json().is_object()) node.fail_wanting("an object of axes by name");
+    const KindTraits& kind = traits_of(draft.spec.kind);
+    const auto names = names_of_axes(kind.axes);
+    for (const auto& item : node.json().items()) {
+        const Node entry = node.at(item.key());
+        const auto found = std::find(names.begin(), names.end(), item.key());
+        if (found == names.end())
+            entry.fail("a joint of type " + kind.name + " is not free in \"" + item.key() + "\"" +
+                       advice(item.key(), names));
+        const JointAxis axis = kind.axes[static_cast<std::size_t>(found - names.begin())].second;
+        if (draft.spec.locked[axis])
+            entry.fail("\"locked\" has \"" + item.key() + "\", so nothing can act there");
+        read_object(draft.spec.axes[axis], entry, joint_axis_table());
+    }
+}
+
+const Table<JointDraft>& placement_table() {
+    using J = JointDraft;
+    static const Table<J> table = {
+        field<J>("anchor", Vector3{kCoordinate}, &J::anchor,
+                 "origin of the joint's frame at the start, on both bodies [m]; may be left out "
+                 "where no translation is locked: the first body's position"),
+        field<J>(
+            "anchor_b", Vector3{kCoordinate}, [](J & j) -> auto& { return j.spec.anchor_b; },
+            "of a distance joint: its end on the second body; the anchor is the one on the first "
+            "[m]"),
+        field<J>("axis", Vector3{kCoordinate}, &J::axis,
+                 "x axis of the joint's frame, of any length but 0"),
+        field<J>("second_axis", Vector3{kCoordinate}, &J::second_axis,
+                 "y axis, made perpendicular to axis; left out: any that is"),
+        special<J>(
+            "locked", {{"type", "array"}, {"items", Choice<JointAxis>{joint_axes()}.schema()}},
+            read_locked, "of a six_axis joint: the axes along and about which it does not move"),
+    };
+    return table;
+}
+
+const Table<JointDraft>& strength_table() {
     using J = JointDraft;
     static const Table<J> table = {
         field<J>(
-            "name", Text{}, [](J & j) -> auto& { return j.spec.name; },
-            "name in errors and recordings"),
+            "compliance", Number{kStrength}, [](J & j) -> auto& { return j.spec.compliance; },
+            "of the locked translations [m/N]"),
         field<J>(
-            "type", Choice<JointKind>{{{"ball", JointKind::ball}}},
-            [](J & j) -> auto& { return j.spec.kind; }, "kind of joint; ball: one common point",
-            Presence::required),
-        special<J>(
-            "bodies",
-            {{"type", "array"}, {"items", Text{}.schema()}, {"minItems", 1}, {"maxItems", 2}},
-            read_linked_bodies, "names of the linked bodies; one alone is joined to the world",
-            Presence::required),
+            "angular_compliance", Number{kStrength},
+            [](J & j) -> auto& { return j.spec.angular_compliance; },
+            "of the locked rotations [rad/(N m)]"),
         field<J>(
-            "anchor", Vector3{kCoordinate}, [](J & j) -> auto& { return j.spec.anchor; },
-            "common point at the start, world frame [m]", Presence::required),
+            "breaking_force", Number{kBreaking},
+            [](J & j) -> auto& { return j.spec.breaking_force; },
+            "force above which it breaks for good [N]"),
+        field<J>(
+            "breaking_torque", Number{kBreaking},
+            [](J & j) -> auto& { return j.spec.breaking_torque; },
+            "torque above which it breaks for good [N m]"),
         field<J>(
             "collide", Flag{}, [](J & j) -> auto& { return j.spec.collide; },
             "whether the linked bodies collide with each other"),
@@ -52,16 +111,169 @@ const Table<JointDraft>& joint_table() {
     return table;
 }
 
+/// The keys of an axis, for the one that a hinge or a slider has.
+Table<JointDraft> main_axis_table() {
+    Table<JointDraft> table;
+    for (const Field<JointAxisSpec>& f : joint_axis_table())
+        table.push_back({f.key, f.meaning, f.schema, f.presence,
+                         [read = f.read](JointDraft& j, const Node& n) { read(j.main, n); }});
+    return table;
+}
+
+void check_keys(const JointDraft& draft, const Node& node) {
+    const std::string& kind = traits_of(draft.spec.kind).name;
+    const auto usable = usable_keys(draft.spec.kind);
+    for (const auto& item : node.json().items()) {
+        if (std::find(usable.begin(), usable.end(), item.key()) != usable.end()) continue;
+        node.at(item.key())
+            .fail("a joint of type " + kind + " cannot use \"" + item.key() + "\"" +
+                  advice("", usable));
+    }
+    for (const std::string& key : required_keys(draft.spec.kind)) {
+        if (!node.has(key))
+            node.fail("\"" + key + "\" is missing, which a joint of type " + kind + " needs");
+    }
+}
+
+void set_frame(JointDraft& draft, const Node& node) {
+    const BodySpec& body = draft.scene->scene.bodies[draft.spec.body_a];
+    draft.spec.anchor = draft.anchor.value_or(body.placement.position);
+    if (draft.second_axis && !draft.axis)
+        node.at("second_axis").fail("\"second_axis\" needs an \"axis\" beside it");
+    if (!draft.axis) return;
+    if (!has_direction(*draft.axis))
+        node.at("axis").fail("the axis is zero, so it has no direction");
+    const Eigen::Vector3d x = draft.axis->normalized();
+    const Eigen::Vector3d y = draft.second_axis.value_or(any_across(x));
+    if (!has_direction(y)) node.at("second_axis").fail("the axis is zero, so it has no direction");
+    if (are_parallel(x, y)) node.at("second_axis").fail("is parallel to \"axis\"");
+    draft.spec.frame = frame_of(x, y);
+}
+
+/// Puts what stands beside "type" on the axis that it belongs to.
+void set_main_axis(JointDraft& draft, const Node& node) {
+    const KindTraits& kind = traits_of(draft.spec.kind);
+    if (!kind.has_main_axis) return;
+    const auto& [name, axis] = kind.axes.front();
+    const auto keys = keys_of(joint_axis_table());
+    const bool beside = std::any_of(keys.begin(), keys.end(),
+                                    [&](const std::string& key) { return node.has(key); });
+    if (!beside) return;
+    if (node.has("axes") && node.at("axes").has(name))
+        node.at("axes").at(name).fail("what acts on \"" + name +
+                                      "\" stands beside \"type\" too; it must be in one place");
+    draft.spec.axes[axis] = draft.main;
+}
+
+/// A swing has a size and no direction.
+void check_swing(JointDraft& draft, const Node& node) {
+    if (draft.spec.kind != JointKind::cone_twist || !node.has("axes") ||
+        !node.at("axes").has("swing"))
+        return;
+    const Node swing = node.at("axes").at("swing");
+    JointAxisSpec& spec = draft.spec.axes[kTurnY];
+    if (swing.has("motor"))
+        swing.at("motor").fail("a swing has no direction that a motor could take");
+    if (!swing.has("limits")) return;
+    if (spec.upper < 0 || spec.lower > 0 || std::isinf(spec.upper))
+        swing.at("limits").fail(
+            "a swing begins at 0 and is never negative, so its limits are "
+            "[0, greatest]");
+    spec.lower = -std::numeric_limits<double>::infinity();
+}
+
+/// The coordinate of a distance joint is the distance itself, so a spring's rest is not 0.
+void set_distance(JointDraft& draft, const Node& node) {
+    if (draft.spec.kind != JointKind::distance) return;
+    JointAxisSpec& axis = draft.spec.axes[kAlongX];
+    const double length = (draft.spec.anchor - *draft.spec.anchor_b).norm();
+    const Node keys = node.has("axes") && node.at("axes").has("x") ? node.at("axes").at("x") : node;
+    if (keys.has("spring") && !keys.at("spring").has("rest")) axis.rest = length;
+    if (is_free(draft.spec, kAlongX)) {
+        if (axis.upper < 0) keys.at("limits").fail("a distance is never negative");
+        return;
+    }
+    for (const char* key : {"motor", "spring", "friction"}) {
+        if (keys.has(key))
+            keys.at(key).fail(
+                "a distance with neither \"limits\" nor a spring's \"stiffness\" is a rod, along "
+                "which nothing moves");
+    }
+    if (length < kShortestDirection)
+        node.at("anchor_b").fail("a rod needs two anchors that are apart");
+}
+
+JointSpec read_joint(SceneDraft& scene, const Node& node, const std::string& name) {
+    JointDraft draft{&scene, {}, {}, {}, {}, {}};
+    draft.spec.name = name;
+    read_object(draft, node, joint_table());
+    check_keys(draft, node);
+    set_frame(draft, node);
+    set_main_axis(draft, node);
+    check_swing(draft, node);
+    set_distance(draft, node);
+    return std::move(draft.spec);
+}
+
+}  // namespace
+
+bool is_free(const JointSpec& joint, JointAxis axis) {
+    const JointAxisSpec& x = joint.axes[kAlongX];
+    if (joint.kind == JointKind::distance)
+        return std::isfinite(x.lower) || std::isfinite(x.upper) || x.stiffness > 0;
+    return !joint.locked[axis];
+}
+
+const Table<JointDraft>& joint_table() {
+    using J = JointDraft;
+    static const Table<J> table = [] {
+        Table<J> fields = {
+            field<J>(
+                "name", Text{}, [](J & j) -> auto& { return j.spec.name; },
+                "name for couplings, errors and recordings"),
+            field<J>(
+                "type", joint_kinds(), [](J & j) -> auto& { return j.spec.kind; },
+                joint_kinds_in_words(), Presence::required),
+            special<J>(
+                "bodies",
+                {{"type", "array"}, {"items", Text{}.schema()}, {"minItems", 1}, {"maxItems", 2}},
+                read_linked_bodies, "names of the linked bodies; one alone is joined to the world",
+                Presence::required),
+        };
+        const auto append = [&](const Table<J>& more) {
+            fields.insert(fields.end(), more.begin(), more.end());
+        };
+        append(placement_table());
+        append(main_axis_table());
+        fields.push_back(special<J>("axes", axes_schema(), read_axes,
+                                    "what acts along and about each axis that the joint leaves "
+                                    "free: x y z along, turn_x turn_y turn_z about; of a "
+                                    "cone_twist twist and swing"));
+        append(strength_table());
+        return fields;
+    }();
+    return table;
+}
+
+void add_joint_definitions(SchemaJson& definitions) {
+    add_joint_axis_definitions(definitions);
+    SchemaJson joint = object_schema(joint_table());
+    joint["allOf"] = rules_of_kinds();
+    definitions["joint"] = joint;
+    add_coupling_definitions(definitions);
+}
+
+void add_joint(SceneDraft& draft, JointSpec spec, const Node& node) {
+    auto& joints = draft.scene.joints;
+    draft.joints.add(spec.name, static_cast<std::uint32_t>(joints.size()), node);
+    joints.push_back(std::move(spec));
+}
+
 void read_joints(SceneDraft& draft, const Node& node) {
     if (!node.json().is_array()) node.fail_wanting("a list of joints");
-    Names names("joint");
-    auto& joints = draft.scene.joints;
     for (std::size_t i = 0; i < node.size(); ++i) {
-        JointDraft joint{&draft, {}};
-        joint.spec.name = "joint_" + std::to_string(i + 1);
-        read_object(joint, node.at(i), joint_table());
-        names.add(joint.spec.name, static_cast<std::uint32_t>(i), node.at(i));
-        joints.push_back(joint.spec);
+        const Node entry = node.at(i);
+        add_joint(draft, read_joint(draft, entry, "joint_" + std::to_string(i + 1)), entry);
     }
 }
 

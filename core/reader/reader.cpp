@@ -72,6 +72,8 @@ const Table<SceneDraft>& scene_table() {
                    "shapes by name, for several bodies to share"),
         special<D>("bodies", list_of("body_or_repeat"), read_bodies, "bodies, and grids of them"),
         special<D>("joints", list_of("joint"), read_joints, "joints between bodies"),
+        special<D>("couplings", list_of("coupling"), read_couplings,
+                   "ties between joints: gears, racks, screws, pulleys"),
         special<D>("view", reference_to("view"), read_view, "where pictures are taken from"),
     };
     return table;

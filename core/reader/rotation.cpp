@@ -4,12 +4,11 @@
 #include <numbers>
 
 #include "reader/drafts.h"
+#include "reader/frames.h"
 
 namespace plumb::reader {
 
 namespace {
-
-constexpr double kShortest = 1e-9;  // length below which an axis or a quaternion has no direction
 
 struct RotationDraft {
     std::optional<Eigen::Vector3d> axis;  // any length but 0
@@ -53,13 +52,13 @@ Eigen::Quaterniond turn(double degrees, const Eigen::Vector3d& unit_axis) {
 
 Eigen::Quaterniond from_axis(const RotationDraft& draft, const Node& node) {
     if (!draft.axis || !draft.degrees) node.fail("\"axis\" and \"degrees\" go together");
-    if (draft.axis->norm() < kShortest)
+    if (!has_direction(*draft.axis))
         node.at("axis").fail("the axis is zero, so it has no direction");
     return turn(*draft.degrees, draft.axis->normalized());
 }
 
 Eigen::Quaterniond from_quaternion(const Eigen::Vector4d& q, const Node& node) {
-    if (q.norm() < kShortest)
+    if (q.norm() < kShortestDirection)
         node.at("quaternion").fail("the quaternion is zero, so it is no rotation");
     return Eigen::Quaterniond(q.normalized());
 }

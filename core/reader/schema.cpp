@@ -13,7 +13,7 @@ std::string scene_schema() {
     add_shape_definitions(definitions);
     add_body_definitions(definitions);
     add_repeat_definitions(definitions);
-    definitions["joint"] = object_schema(joint_table());
+    add_joint_definitions(definitions);
     definitions["view"] = object_schema(view_table());
 
     SchemaJson schema = {
