@@ -32,7 +32,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-    if (word.size() > kLongestWord) return "";
+    if (word.empty() || word.size() > kLongestWord) return "";
 
     // Two fifths of the letters may be wrong, and one always.
     std::size_t best_distance = std::max<std::size_t>(1, 2 * word.size() / 5) + 1;

@@ -17,6 +17,7 @@ TEST(Nearest, FindsTheNearestOrNothing) {
     const std::vector<std::string> keys = {"density", "friction", "restitution"};
     EXPECT_EQ(nearest("restituton", keys), "restitution");
     EXPECT_EQ(nearest("colour", keys), "");
+    EXPECT_EQ(nearest("", {"x", "turn_x"}), "");  // every short word is one letter away
     EXPECT_EQ(nearest(std::string(1000, 'f'), keys), "");
 }
 

@@ -41,6 +41,8 @@ TEST(Schema, ReferencesAreDefined) {
 }
 
 TEST(Schema, NamesKeysThatTheReaderKnows) {
+    const std::string joint =
+        R"({"bodies": [{"name": "a", "mass": 1, "inertia": [1, 1, 1]}], "joints": [{"type": "hinge", "bodies": ["a"], )";
     // How an object of a definition gets into a scene; %s is a key with a value.
     const std::map<std::string, std::pair<std::string, std::string>> places = {
         {"settings", {R"({"settings": {)", "}}"}},
@@ -59,6 +61,10 @@ TEST(Schema, NamesKeysThatTheReaderKnows) {
         {"repeat", {R"({"bodies": [{"repeat": {"count": [1, 1, 1]}, )", "}]}"}},
         {"prototype", {R"({"bodies": [{"repeat": {"count": [1, 1, 1]}, "bodies": [{)", "}]}]}"}},
         {"joint", {R"({"joints": [{)", "}]}"}},
+        {"joint_axis", {joint + R"("axes": {"turn_x": {)", "}}}]}"}},
+        {"motor", {joint + R"("motor": {)", "}}]}"}},
+        {"spring", {joint + R"("spring": {)", "}}]}"}},
+        {"coupling", {R"({"couplings": [{)", "}]}"}},
         {"view", {R"({"view": {)", "}}"}}};
 
     const Json definitions = schema()["$defs"];
