@@ -4,8 +4,8 @@ find_package(tinyobjloader REQUIRED CONFIG)
 find_package(Qhull REQUIRED CONFIG)
 
 add_library(plumb_reader STATIC
-  reader/bodies.cpp reader/couplings.cpp reader/decompose.cpp reader/height_fields.cpp reader/hull.cpp
-  reader/joint_drives.cpp reader/joint_kinds.cpp reader/joints.cpp reader/materials.cpp reader/names.cpp reader/nearest.cpp
+  reader/bodies.cpp reader/chain.cpp reader/couplings.cpp reader/decompose.cpp reader/height_fields.cpp reader/hull.cpp
+  reader/joint_drives.cpp reader/joint_kinds.cpp reader/joints.cpp reader/materials.cpp reader/mobile.cpp reader/names.cpp reader/nearest.cpp
   reader/node.cpp reader/obj.cpp reader/parse.cpp reader/polyhedra.cpp reader/reader.cpp reader/repeat.cpp
   reader/rotation.cpp reader/schema.cpp reader/settings.cpp reader/shapes.cpp reader/solid.cpp reader/table.cpp reader/torus.cpp reader/types.cpp)
 add_library(plumb::reader ALIAS plumb_reader)

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// "bodies": single bodies; grids of them are in repeat.cpp.
+/// "bodies": single bodies; entries that stand for several are in repeat.cpp, chain.cpp and
+/// mobile.cpp.
+#include <algorithm>
 #include <cstdio>
+#include <iterator>
 
 #include "reader/drafts.h"
 
@@ -127,6 +130,22 @@ const Table<BodyDraft>& prototype_table() {
     return table;
 }
 
+/// An entry that stands for several bodies, by the key that it has.
+struct Several {
+    const char* key;
+    void (*read)(SceneDraft&, const Node&);
+    const char* definition;
+};
+constexpr Several kSeveral[] = {{"repeat", read_repeat, "repeat"},
+                                {"chain", read_chain, "chain_entry"},
+                                {"mobile", read_mobile, "mobile_entry"}};
+
+const Several* find_several(const Node& entry) {
+    const auto* found = std::find_if(std::begin(kSeveral), std::end(kSeveral),
+                                     [&](const Several& s) { return entry.has(s.key); });
+    return found == std::end(kSeveral) ? nullptr : found;
+}
+
 /// Bodies without a name get "body_0001" by their place in the scene.
 void name_the_rest(SceneDraft& draft) {
     auto& bodies = draft.scene.bodies;
@@ -222,11 +241,11 @@ void read_bodies(SceneDraft& draft, const Node& node) {
     if (!node.json().is_array()) node.fail_wanting("a list of bodies");
     for (std::size_t i = 0; i < node.size(); ++i) {
         const Node entry = node.at(i);
-        if (entry.has("repeat")) {
-            read_repeat(draft, entry);
-        } else {
+        const auto* several = find_several(entry);
+        if (several)
+            several->read(draft, entry);
+        else
             add_body(draft, read_body(draft, entry, false).spec, entry);
-        }
     }
     name_the_rest(draft);
 }
@@ -236,6 +255,12 @@ void add_body_definitions(SchemaJson& definitions) {
     definitions["script"] = object_schema(script_table());
     definitions["body"] = object_schema(body_table());
     definitions["prototype"] = object_schema(prototype_table());
+    SchemaJson entry = reference_to("body");
+    for (const Several& several : kSeveral)
+        entry = {{"if", {{"required", {several.key}}}},
+                 {"then", reference_to(several.definition)},
+                 {"else", entry}};
+    definitions["body_entry"] = entry;
 }
 
 }  // namespace plumb::reader

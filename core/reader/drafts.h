@@ -30,6 +30,9 @@ private:
     std::unordered_map<std::string, std::uint32_t> indices_;
 };
 
+/// "crate_0007"; of no name, no name.
+std::string numbered(const std::string& name, std::size_t number);
+
 struct SceneDraft {
     Scene scene;
     Names materials{"material"}, shapes{"shape"}, bodies{"body"}, joints{"joint"};
@@ -79,6 +82,8 @@ const Table<SceneDraft>& scene_table();
 void add_shape_definitions(SchemaJson& definitions);
 void add_body_definitions(SchemaJson& definitions);
 void add_repeat_definitions(SchemaJson& definitions);
+void add_chain_definitions(SchemaJson& definitions);
+void add_mobile_definitions(SchemaJson& definitions);
 void add_joint_definitions(SchemaJson& definitions);
 void add_coupling_definitions(SchemaJson& definitions);
 
@@ -101,6 +106,10 @@ void add_body(SceneDraft& draft, BodySpec spec, const Node& node);
 
 /// An entry {"repeat": …, "bodies": …}: bodies on a grid.
 void read_repeat(SceneDraft& draft, const Node& node);
+
+/// Entries {"chain": …} and {"mobile": …}: bodies with the joints between them.
+void read_chain(SceneDraft& draft, const Node& node);
+void read_mobile(SceneDraft& draft, const Node& node);
 
 /// Adds a joint under its name; fails at `node` when the name is in use.
 void add_joint(SceneDraft& draft, JointSpec spec, const Node& node);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cstdio>
 
 #include "reader/drafts.h"
 
@@ -19,6 +20,13 @@ std::uint32_t Names::find(const Node& node) const {
     for (const auto& entry : indices_) known.push_back(entry.first);
     std::sort(known.begin(), known.end());
     node.fail("there is no " + kind_ + " named \"" + name + "\"" + advice(name, known));
+}
+
+std::string numbered(const std::string& name, std::size_t number) {
+    if (name.empty()) return "";
+    char text[32];
+    std::snprintf(text, sizeof text, "_%04zu", number);
+    return name + text;
 }
 
 }  // namespace plumb::reader

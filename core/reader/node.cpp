@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reader/node.h"
 
+#include <cstdio>
+
 #include "scene/error.h"
 
 namespace plumb::reader {
@@ -23,6 +25,18 @@ std::string described(const Json& json) {
         default:
             return json.dump();
     }
+}
+
+/// Control characters as JSON writes them: a zero in a key would end the error's text.
+std::string visible(const std::string& text) {
+    std::string shown;
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        char escape[8];
+        std::snprintf(escape, sizeof escape, "\\u%04x", static_cast<unsigned>(code));
+        shown += code < 0x20 ? std::string(escape) : std::string(1, c);
+    }
+    return shown;
 }
 
 }  // namespace
@@ -50,7 +64,7 @@ Node Node::at(std::size_t index) const {
 }
 
 void Node::fail(const std::string& sentence) const {
-    throw SceneError(source_->name, pointer_, sentence);
+    throw SceneError(source_->name, visible(pointer_), visible(sentence));
 }
 
 void Node::fail_wanting(const std::string& wanted) const {

@@ -5,7 +5,6 @@
 /// dealt in the proportion of their weights and shuffled by the seed; then each place in turn draws
 /// its jitter (x, y, z) and its rotation. All draws come from one `Random`.
 #include <cmath>
-#include <cstdio>
 
 #include "reader/drafts.h"
 #include "reader/random.h"
@@ -29,7 +28,6 @@ struct Grid {
 };
 
 constexpr Range kJitter{0, 1e6};
-constexpr double kMostExact = 9007199254740992.0;  // 2^53, up to which JSON keeps whole numbers
 
 /// [nx, ny, nz].
 struct Counts {
@@ -157,13 +155,6 @@ void put(BodySpec& body, const Placement& place) {
     for (Keyframe& keyframe : body.script.keyframes) moved(keyframe.placement);
 }
 
-std::string numbered(const std::string& name, std::size_t number) {
-    if (name.empty()) return "";
-    char text[32];
-    std::snprintf(text, sizeof text, "_%04zu", number);
-    return name + text;
-}
-
 }  // namespace
 
 void read_repeat(SceneDraft& draft, const Node& node) {
@@ -191,9 +182,6 @@ void read_repeat(SceneDraft& draft, const Node& node) {
 void add_repeat_definitions(SchemaJson& definitions) {
     definitions["grid"] = object_schema(grid_table());
     definitions["repeat"] = object_schema(repeat_table());
-    definitions["body_or_repeat"] = {{"if", {{"required", {"repeat"}}}},
-                                     {"then", reference_to("repeat")},
-                                     {"else", reference_to("body")}};
 }
 
 }  // namespace plumb::reader

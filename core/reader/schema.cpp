@@ -13,6 +13,8 @@ std::string scene_schema() {
     add_shape_definitions(definitions);
     add_body_definitions(definitions);
     add_repeat_definitions(definitions);
+    add_chain_definitions(definitions);
+    add_mobile_definitions(definitions);
     add_joint_definitions(definitions);
     definitions["view"] = object_schema(view_table());
 

@@ -8,12 +8,6 @@ namespace plumb::reader {
 
 namespace {
 
-std::string short_number(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.10g", value);
-    return text;
-}
-
 SchemaJson list_schema(const SchemaJson& item, std::size_t count) {
     return {{"type", "array"}, {"items", item}, {"minItems", count}, {"maxItems", count}};
 }
@@ -21,6 +15,12 @@ SchemaJson list_schema(const SchemaJson& item, std::size_t count) {
 bool inside(const Range& range, double value) { return value >= range.low && value <= range.high; }
 
 }  // namespace
+
+std::string short_number(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.10g", value);
+    return text;
+}
 
 std::string in_words(const Range& range, const std::string& noun) {
     const std::string above = range.low > 0 && range.low < 1 ? noun + " above 0," : noun;

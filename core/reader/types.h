@@ -30,6 +30,11 @@ inline constexpr Range kLength{1e-6, 1e6};      ///< sizes [m]
 inline constexpr Range kNotNegative{0, 1e9};
 inline constexpr Range kMass{1e-12, 1e15};  ///< [kg], and [kg m²], [kg/m³]
 inline constexpr Range kAny{-1e300, 1e300};
+inline constexpr double kMostExact = 9007199254740992.0;  ///< 2^53, up to which JSON keeps whole
+                                                          ///< numbers
+
+/// "0.25".
+std::string short_number(double value);
 
 /// "a number above 0, from 1e-06 to 1e+06".
 std::string in_words(const Range& range, const std::string& noun);

@@ -57,4 +57,9 @@ TEST(Parse, NamesFilesThatCannotBeRead) {
     }
 }
 
+TEST(Parse, ShowsControlCharactersOfKeys) {
+    expect_error(R"({"vi\u0000ew": 1})", "/vi\\u0000ew", R"(unknown key "vi\u0000ew")");
+    expect_error(R"({"view\n": 1})", "/view\\u000a", "did you mean \"view\"?");
+}
+
 }  // namespace plumb::test

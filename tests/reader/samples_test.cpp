@@ -90,6 +90,74 @@ TEST(Samples, PendulumsJointsAreWhereTheLinksMeet) {
     }
 }
 
+TEST(Samples, LinkagesPinsAreOnTheirLinks) {
+    const Scene scene = sample("linkage");
+    ASSERT_EQ(scene.joints.size(), 8u);
+    for (const JointSpec& joint : scene.joints) {
+        for (const std::uint32_t index : {joint.body_a, joint.body_b}) {
+            if (index == kNoIndex) continue;
+            const BodySpec& body = scene.bodies[index];
+            if (body.name == "piston") continue;
+            // At an end of the link or, of the coupler, in its middle.
+            const Eigen::Vector3d pin =
+                body.placement.rotation.conjugate() * (joint.anchor - body.placement.position);
+            const double half = scene.geometries[body.geometry].half_extents.x();
+            const bool middle = joint.name == "coupler_middle" && body.name == "coupler";
+            EXPECT_NEAR(std::abs(pin.x()), middle ? 0 : half, 1e-12) << joint.name << body.name;
+            EXPECT_NEAR(pin.y(), 0, 1e-12) << joint.name << body.name;
+        }
+    }
+}
+
+TEST(Samples, GearsRollOnEachOther) {
+    const Scene scene = sample("gears");
+    ASSERT_EQ(scene.couplings.size(), 3u);
+    const double radius[] = {0.6, 0.3, 0.45};
+    for (std::size_t i = 0; i < 2; ++i) {
+        const double apart = (scene.joints[i + 1].anchor - scene.joints[i].anchor).norm();
+        EXPECT_NEAR(apart, radius[i] + radius[i + 1], 1e-15);
+        EXPECT_NEAR(scene.couplings[i].ratio, -radius[i] / radius[i + 1], 1e-15);
+    }
+    EXPECT_EQ(scene.couplings[2].ratio, radius[2]);
+}
+
+TEST(Samples, CarsSpringsCarryIt) {
+    const Scene scene = sample("car");
+    double force = 0;
+    for (const JointSpec& joint : scene.joints) {
+        const JointAxisSpec& axis = joint.axes[kAlongX];
+        force -= axis.stiffness * axis.rest;
+    }
+    double weight = 0;
+    for (const BodySpec& body : scene.bodies)
+        if (body.name == "chassis") weight = *body.mass * 9.81;
+    EXPECT_NEAR(force, weight, 0.02 * weight);
+}
+
+TEST(Samples, RagdollsLimbsMeetAtItsJoints) {
+    const Scene scene = sample("ragdoll");
+    ASSERT_EQ(scene.joints.size(), 10u);
+    for (const JointSpec& joint : scene.joints) {
+        for (const std::uint32_t index : {joint.body_a, joint.body_b}) {
+            const BodySpec& body = scene.bodies[index];
+            const Geometry& shape = scene.geometries[body.geometry];
+            const Eigen::Vector3d local =
+                body.placement.rotation.conjugate() * (joint.anchor - body.placement.position);
+            // Within 1 cm of a limb's end, or 3 cm of the trunk.
+            if (shape.kind == ShapeKind::capsule) {
+                EXPECT_NEAR(std::abs(local.y()), shape.half_height + shape.radius, 0.01)
+                    << joint.name << " " << body.name;
+            } else {
+                const Eigen::Vector3d half = shape.kind == ShapeKind::box
+                                                 ? shape.half_extents
+                                                 : Eigen::Vector3d::Constant(shape.radius);
+                EXPECT_TRUE(((local.cwiseAbs() - half).array() <= 0.031).all())
+                    << joint.name << " " << body.name;
+            }
+        }
+    }
+}
+
 TEST(Samples, ConveyorsScriptBeginsWhereThePlatformIs) {
     const Scene scene = sample("conveyor");
     const BodySpec& platform = scene.bodies[1];
