@@ -13,6 +13,8 @@ EnergyWatch::EnergyWatch(const World& world)
       lowest_potential_(potential_energy(world)),
       watches_(world.kinematic_count == 0) {
     for (const Vector3d& torque : world.bodies.torque) watches_ &= torque.norm() == 0;
+    for (const JointDrive& drive : world.joints.drives)
+        watches_ &= drive.kind != DriveKind::motor && drive.kind != DriveKind::spring;
     for (double m : world.bodies.mass) mass_ += m;
     const double speed = world.settings.recovery_speed;
     slack_ = mass_ * (world.settings.gravity.norm() * 0.1 + 0.5 * speed * speed);

@@ -9,7 +9,8 @@ namespace plumb::app {
 
 /// Energy may be what the run began with, plus a tenth of what could be turned over so far (start
 /// less the lowest potential), plus what the pushing out of overlap has given. Scenes where
-/// kinematic bodies or constant torques do work are not watched, since that work is not counted.
+/// kinematic bodies, constant torques, motors or springs do work are not watched, since that work
+/// is not counted.
 class EnergyWatch {
 public:
     explicit EnergyWatch(const World& world);

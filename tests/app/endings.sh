@@ -34,6 +34,10 @@ ends 0 "" "$spinner" --collider reference --duration 20
 ends 0 "" "$source/tests/app/scenes/deep_overlap.json" --collider reference
 ends 0 "" "$source/tests/app/scenes/deep_overlap.json" --collider ode --substeps 4
 
+# Nor is what motors and springs give.
+ends 0 "" "$source/samples/scenes/linkage.json" --collider reference --duration 3
+ends 0 "" "$source/samples/scenes/car.json" --collider ode --duration 3
+
 # A collider that fails now and then is told of, and counted; one that goes on failing ends the run.
 ends 0 'collider "hiccup" failed in 14 of 100 steps: made to fail' "$small" --collider hiccup --plugin-path "$failing" --duration 1
 [ "$("$json_has" "$work/a.json" --print /clamps/collider_failures)" = 14 ] || fail "failures were not counted"
