@@ -6,6 +6,7 @@
 #include "scene/error.h"
 #include "step/step.h"
 
+#include <cmath>
 #include <stdexcept>
 
 namespace plumb {
@@ -127,6 +128,51 @@ void Simulation::set_force(std::uint32_t body, const Eigen::Vector3d& force,
                            const Eigen::Vector3d& torque) {
     const std::size_t i = parts_->checked(body);
     parts_->world.bodies.force[i] = force, parts_->world.bodies.torque[i] = torque;
+}
+
+namespace {
+
+const Joint& checked_joint(const World& world, std::uint32_t joint) {
+    if (joint >= world.joints.size())
+        throw std::out_of_range("there is no joint " + std::to_string(joint));
+    return world.joints.joints[joint];
+}
+
+}  // namespace
+
+Simulation::JointMotion Simulation::joint_motion(std::uint32_t joint, std::uint32_t axis) const {
+    const World& world = parts_->world;
+    const Joint& j = checked_joint(world, joint);
+    if (axis >= kJointAxes || j.locked[axis])
+        throw std::invalid_argument("the joint has no free axis " + std::to_string(axis));
+    const JointCoordinate q = joint_coordinate(world, joint, axis);
+    const auto part = [&](std::uint32_t body, const Vector3d& turn) {
+        if (body == kNoIndex) return 0.0;
+        return q.along.dot(world.bodies.velocity[body]) +
+               turn.dot(world.bodies.angular_velocity[body]);
+    };
+    return {q.value, part(j.a, q.turn_a) - part(j.b, q.turn_b)};
+}
+
+JointLoad Simulation::joint_load(std::uint32_t joint) const {
+    checked_joint(parts_->world, joint);
+    return plumb::joint_load(parts_->world, joint);
+}
+
+bool Simulation::is_broken(std::uint32_t joint) const {
+    return checked_joint(parts_->world, joint).broken;
+}
+
+void Simulation::set_motor_target(std::uint32_t joint, std::uint32_t axis, double target) {
+    checked_joint(parts_->world, joint);
+    if (!std::isfinite(target)) throw std::invalid_argument("a motor's target must be finite");
+    for (JointDrive& drive : parts_->world.joints.drives)
+        if (drive.joint == joint && drive.axis == axis && drive.kind == DriveKind::motor) {
+            drive.spec.motor.keys.clear();
+            drive.spec.motor.target = target;
+            return;
+        }
+    throw std::invalid_argument("the joint has no motor on axis " + std::to_string(axis));
 }
 
 }  // namespace plumb

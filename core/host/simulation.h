@@ -14,6 +14,7 @@
 #include "host/collider_library.h"
 #include "measure/frame.h"
 #include "scene/scene.h"
+#include "step/joint_state.h"
 #include "step/report.h"
 #include "world/world.h"
 
@@ -75,6 +76,23 @@ public:
 
     /// Replaces the constant force [N] and torque [N m] on a body.
     void set_force(std::uint32_t body, const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
+
+    /// Where a joint stands along or about one of its free axes (JointAxis) [m], [rad], and how
+    /// fast that changes [m/s], [rad/s]. This and the next three throw std::out_of_range where
+    /// there is no such joint, std::invalid_argument where the axis is locked or has no motor.
+    struct JointMotion {
+        double position, velocity;
+    };
+    JointMotion joint_motion(std::uint32_t joint, std::uint32_t axis) const;
+
+    /// Force at the joint's point of body a and torque on a, from b, over the last substep.
+    JointLoad joint_load(std::uint32_t joint) const;
+
+    /// Whether a joint gave way to more than its breaking force or torque.
+    bool is_broken(std::uint32_t joint) const;
+
+    /// Replaces the target of a motor [m/s], [rad/s], or [m], [rad].
+    void set_motor_target(std::uint32_t joint, std::uint32_t axis, double target);
 
 private:
     struct Parts;

@@ -28,7 +28,9 @@ public:
             double k = 0;
             for (const Side& side : row.sides)
                 k += side.along.dot(side.to_v) + side.turn.dot(side.to_w);
-            row.mass = k > 0 ? 1 / k : 0;
+            const bool whole = !world.joints.joints[coupling.joint_a].broken &&
+                               !world.joints.joints[coupling.joint_b].broken;
+            row.mass = whole && k > 0 ? 1 / k : 0;
             row.bias = (b.value - coupling.ratio * a.value - coupling.offset) / h;
             rows_[i] = row;
         }

@@ -146,7 +146,7 @@ private:
         }
         for (std::uint32_t k = 0; k < kJointAxes; ++k) {
             const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
-            block.lock[k][lane] = joint.locked[k];
+            block.lock[k][lane] = joint.locked[k] && !joint.broken;
             block.softness[k][lane] = static_cast<Real>(alpha / (h * h));
             block.lambda[k][lane] = 0;
         }
@@ -177,7 +177,7 @@ private:
         put(block.turn_a, lane, q.turn_a), put(block.turn_b, lane, q.turn_b);
         block.bias[lane] = static_cast<Real>(row.bias);
         block.softness[lane] = static_cast<Real>(row.softness);
-        block.mass[lane] = static_cast<Real>(k > 0 ? 1 / (k + row.softness) : 0);
+        block.mass[lane] = static_cast<Real>(k > 0 && !joint.broken ? 1 / (k + row.softness) : 0);
         block.lowest[lane] = static_cast<Real>(row.lowest);
         block.highest[lane] = static_cast<Real>(row.highest);
         block.lambda[lane] = 0;

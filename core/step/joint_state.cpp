@@ -49,6 +49,47 @@ JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::u
     return q;
 }
 
+JointLoad joint_load(const World& world, std::uint32_t index) {
+    const Joint& joint = world.joints.joints[index];
+    const JointPose pose = joint_pose(world.bodies, joint);
+    const double per_second = world.settings.substeps / world.settings.dt;
+    JointLoad load;
+    const auto turned = [&](std::uint32_t body, const Vector3d& v) -> Vector3d {
+        return body == kNoIndex ? v : Vector3d(world.bodies.orientation[body] * v);
+    };
+    const Vector3d apart = pose.point_a - pose.point_b;
+    for (int k = 0; k < 3; ++k) {
+        Vector3d along =
+            joint.is_plain_ball() ? Vector3d(Vector3d::Unit(k)) : Vector3d(pose.axes_b.col(k));
+        if (joint.length > 0 && apart.norm() > 0) along = apart.normalized();
+        load.force += joint.rows[k] * along;
+        load.torque += joint.rows[3 + k] *
+                       turned(joint.a, joint.turns[k].u).cross(turned(joint.b, joint.turns[k].w));
+    }
+    for (const JointDrive& drive : world.joints.drives) {
+        if (drive.joint != index) continue;
+        const JointCoordinate q = joint_coordinate(world, index, drive.axis);
+        load.force += drive.impulse * q.along;
+        if (q.along.isZero()) load.torque += drive.impulse * q.turn_a;
+    }
+    return {per_second * load.force, per_second * load.torque};
+}
+
+std::uint32_t break_joints(World& world) {
+    std::uint32_t broken = 0;
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+        Joint& joint = world.joints.joints[i];
+        if (joint.broken ||
+            !(std::isfinite(joint.breaking_force) || std::isfinite(joint.breaking_torque)))
+            continue;
+        const JointLoad load = joint_load(world, i);
+        joint.broken =
+            load.force.norm() > joint.breaking_force || load.torque.norm() > joint.breaking_torque;
+        broken += joint.broken;
+    }
+    return broken;
+}
+
 void count_turns(World& world) {
     for (std::uint32_t i = 0; i < world.joints.size(); ++i)
         if (const std::uint32_t axis = single_turn(world.joints.joints[i]); axis < kJointAxes)

@@ -16,6 +16,16 @@ int free_turns(const Joint& joint);
 /// free axis is counted through whole turns.
 JointCoordinate joint_coordinate(const World& world, std::uint32_t joint, std::uint32_t axis);
 
+/// Force at the joint's point of a and torque on a, from b, over the last substep; world frame [N],
+/// [N m]. Motors, springs, limits and friction of the joint are part of it.
+struct JointLoad {
+    Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
+};
+JointLoad joint_load(const World& world, std::uint32_t joint);
+
+/// Breaks the joints whose load was more than they bear. Returns how many.
+std::uint32_t break_joints(World& world);
+
 /// Follows the angles about single free axes through whole turns; called once a substep.
 void count_turns(World& world);
 

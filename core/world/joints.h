@@ -11,6 +11,7 @@
 #include "scene/joint.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -35,7 +36,10 @@ struct Joint {
                                             ///< plain ball along the world's axes
 
     /// Solved by the kernel for one common point, which is quicker.
-    bool is_plain_ball() const { return kind == JointKind::ball && compliance == 0; }
+    bool is_plain_ball() const {
+        return kind == JointKind::ball && compliance == 0 && !std::isfinite(breaking_force) &&
+               !std::isfinite(breaking_torque);
+    }
 };
 
 enum class DriveKind : std::uint32_t { limit, motor, spring, friction };
