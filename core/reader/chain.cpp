@@ -14,7 +14,6 @@ struct ChainDraft {
     std::uint32_t links = 0;
     Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();  ///< [m]
     double radius = 0;                                                             ///< [m]
-    bool hold_end = false;
 };
 
 const Table<ChainDraft>& chain_table() {
@@ -30,7 +29,6 @@ const Table<ChainDraft>& chain_table() {
                  Presence::required),
         field<C>("radius", Number{kLength}, &C::radius,
                  "of the links, less than half a link's length [m]", Presence::required),
-        field<C>("hold_end", Flag{}, &C::hold_end, "whether its end is joined to the world too"),
         special<C>(
             "material", Text{}.schema(),
             [](C& c, const Node& n) { c.link.material = c.scene->materials.find(n); },
@@ -103,8 +101,6 @@ void read_chain(SceneDraft& draft, const Node& node) {
         add_joint(draft, ball(link.name, body, before, chain.from + step * i), keys);
         before = body;
     }
-    if (chain.hold_end)
-        add_joint(draft, ball(chain.name + "_end", before, kNoIndex, chain.to), keys);
 }
 
 void add_chain_definitions(SchemaJson& definitions) {
