@@ -180,9 +180,14 @@ void add_coupling(World& world, const CouplingSpec& spec, std::size_t index) {
     }
     if (!std::isfinite(spec.ratio) || spec.ratio == 0)
         throw SceneError("", pointer + "/ratio", "must be a finite number other than 0");
-    // at the start all coordinates are 0, for the frames coincide
+    // at the start all coordinates are 0, for the frames coincide, but of a distance
+    const auto start = [&](std::uint32_t joint) {
+        const Joint& j = table.joints[joint];
+        return j.kind == JointKind::distance ? j.length : 0.0;
+    };
+    const double offset = start(spec.joint_b) - spec.ratio * start(spec.joint_a);
     table.couplings.push_back({spec.joint_a, spec.joint_b, spec.axis_a, spec.axis_b, spec.ratio,
-                               spec.offset.value_or(0), 0});
+                               spec.offset.value_or(offset), 0});
 }
 
 }  // namespace

@@ -124,5 +124,36 @@ TEST_P(EveryJoint, KeepsTheMomentumOfTwoFreeBodies) {
     EXPECT_LT(joint_turn_errors(simulation.world())[0], 1e-5);
 }
 
+/// Two weights on a rope over a pulley, which is two distances whose sum is kept: the heavier one
+/// sinks with (m₁ − m₂)/(m₁ + m₂) g.
+TEST(Pulley, AcceleratesAsAtwoodsMachine) {
+    Scene s;
+    use_fine_steps(s.settings);
+    s.settings.precision = Precision::double_;
+    const double masses[] = {3, 2};
+    for (int i = 0; i < 2; ++i) {
+        add_body(s, box(0.1, 0.1, 0.1), {1.0 * i, -0.5 * i, 0}).mass = masses[i];
+        JointSpec rope;
+        rope.kind = JointKind::distance;
+        rope.body_a = static_cast<std::uint32_t>(i);
+        rope.anchor = s.bodies[static_cast<std::size_t>(i)].placement.position;
+        rope.anchor_b = Vector(i, 2, 0);
+        rope.axes[kAlongX].lower = 0;
+        s.joints.push_back(rope);
+    }
+    CouplingSpec coupling;
+    coupling.joint_a = 0, coupling.joint_b = 1;
+    coupling.axis_a = coupling.axis_b = kAlongX;
+    coupling.ratio = -1;
+    s.couplings.push_back(coupling);
+
+    Simulation simulation(s, colliders(), "reference");
+    EXPECT_DOUBLE_EQ(simulation.world().joints.couplings[0].offset, 4.5);
+    run_for(simulation, 0.5);
+    const double sunk = 0.5 * (9.81 / 5) * 0.25;
+    EXPECT_NEAR(simulation.world().bodies.position[0].y(), -sunk, 0.005 * sunk);
+    EXPECT_NEAR(simulation.world().bodies.position[1].y(), -0.5 + sunk, 0.005 * sunk);
+}
+
 }  // namespace
 }  // namespace plumb::test
