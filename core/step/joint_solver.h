@@ -35,14 +35,16 @@ public:
         couplings_.begin(world, h);
     }
 
-    /// One sweep from the roots of the trees outwards.
+    /// One sweep from the roots of the trees outwards. What holds the bodies together has the last
+    /// word over what drives them.
     void position_iteration(const BodyRows<Real>& bodies, Real h, std::uint32_t worker) {
+        if (!couplings_.empty()) {
+            if (worker == 0) couplings_.solve(bodies);
+            workers_.barrier();
+        }
+        drives_.sweep(kernels_.drives, bodies, h, workers_, worker);
         balls_.sweep(kernels_.balls, bodies, h, workers_, worker);
         blocks_.sweep(kernels_.joints, bodies, h, workers_, worker);
-        drives_.sweep(kernels_.drives, bodies, h, workers_, worker);
-        if (couplings_.empty()) return;
-        if (worker == 0) couplings_.solve(bodies);
-        workers_.barrier();
     }
 
     void store_impulses(World& world) {
