@@ -20,9 +20,10 @@ inline SineCosine sine_cosine(double angle) {
     for (; x > 0.25; x *= 0.5) ++halvings;
     const double y = x * x;
     double sine = 1, cosine = 1;
+#pragma GCC unroll 6
     for (int k = 6; k >= 1; --k) {
-        sine = 1 - y / ((2 * k) * (2 * k + 1)) * sine;
-        cosine = 1 - y / ((2 * k - 1) * (2 * k)) * cosine;
+        sine = 1 - y * (1.0 / ((2 * k) * (2 * k + 1))) * sine;
+        cosine = 1 - y * (1.0 / ((2 * k - 1) * (2 * k))) * cosine;
     }
     sine *= x;
     for (; halvings > 0; --halvings) {

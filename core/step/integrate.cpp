@@ -27,9 +27,9 @@ Vector3d middle_rate(const Bodies& b, std::size_t i, const Vector3d& momentum, d
     for (int round = 0; round < 12; ++round) {
         const Quaterniond middle = turned(b.orientation[i], 0.5 * h * w);
         const Vector3d next = momentum_of(middle, b.inverse_inertia[i], momentum);
-        const double change = (next - w).norm();
+        const double change = (next - w).squaredNorm();
         w = next;
-        if (change <= 1e-14 * w.norm()) break;
+        if (change <= 1e-26 * w.squaredNorm()) break;
     }
     return w;
 }
