@@ -2,7 +2,7 @@
 # Shared by samples/run.sh and tests/run.sh: what Debian packages are needed, and how Plumb is built. Sourced, not run.
 
 build_packages="cmake ninja-build g++ ccache pkg-config binutils libeigen3-dev libspdlog-dev libode-dev libbullet-dev
-  libfcl-dev libccd-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev libqhull-dev libembree-dev libstb-dev zlib1g-dev"
+  libfcl-dev libccd-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev libqhull-dev liburdfdom-dev libembree-dev libstb-dev zlib1g-dev"
 test_packages="libgtest-dev qemu-user"
 
 # Perl and apt complain where no locale is set up; this one is always there.

@@ -38,7 +38,8 @@ struct Decision {
 
 struct Plan {
     std::array<Decision, kEffectCount> decisions;
-    std::vector<std::string> warnings;  ///< an effect that is needed but forbidden
+    std::vector<std::string> warnings;  ///< an effect that is needed but
+                                        ///< forbidden, and the remarks of the scene's reader
 
     bool runs(Effect e) const { return decisions[static_cast<std::size_t>(e)].runs; }
 };

@@ -3,7 +3,7 @@
 
 #include "scene/error.h"
 
-#include <algorithm>
+#include <cstdint>
 
 namespace plumb {
 namespace {
@@ -30,14 +30,12 @@ void add_shapes(Proximity& proximity, const World& world, const Scene& scene,
     }
 }
 
-void exclude_linked(Proximity& proximity, const Scene& scene, const std::string& collider) {
-    for (const JointSpec& j : scene.joints) {
-        if (j.collide || j.body_b == kNoIndex) continue;
-        if (scene.bodies[j.body_a].geometry == kNoIndex ||
-            scene.bodies[j.body_b].geometry == kNoIndex)
-            continue;
-        const auto [a, b] = std::minmax(j.body_a, j.body_b);
-        check(proximity.exclude(a, b, true), collider, "joint");
+void exclude_pairs(Proximity& proximity, const World& world, const Scene& scene,
+                   const std::string& collider) {
+    for (const std::uint64_t key : world.excluded) {
+        const auto a = static_cast<std::uint32_t>(key >> 32), b = static_cast<std::uint32_t>(key);
+        if (scene.bodies[a].geometry == kNoIndex || scene.bodies[b].geometry == kNoIndex) continue;
+        check(proximity.exclude(a, b, true), collider, "pair of bodies kept apart");
     }
 }
 
@@ -46,7 +44,7 @@ void exclude_linked(Proximity& proximity, const Scene& scene, const std::string&
 void add_bodies(Proximity& proximity, const World& world, const Scene& scene,
                 const std::string& collider) {
     add_shapes(proximity, world, scene, collider);
-    exclude_linked(proximity, scene, collider);
+    exclude_pairs(proximity, world, scene, collider);
 }
 
 }  // namespace plumb

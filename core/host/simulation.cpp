@@ -26,6 +26,8 @@ struct Simulation::Parts {
           proximity(p),
           collider_name(std::move(name)),
           collider_version(std::move(version)) {
+        auto& warnings = stepper.plan.warnings;
+        warnings.insert(warnings.begin(), scene.remarks.begin(), scene.remarks.end());
         if (!stepper.plan.runs(Effect::contacts)) return;
         add_bodies(proximity, world, scene, collider_name);
     }

@@ -86,12 +86,14 @@ void add_chain_definitions(SchemaJson& definitions);
 void add_mobile_definitions(SchemaJson& definitions);
 void add_joint_definitions(SchemaJson& definitions);
 void add_coupling_definitions(SchemaJson& definitions);
+void add_robot_definitions(SchemaJson& definitions);
 
 // Whole parts of a scene.
 void read_materials(SceneDraft& draft, const Node& node);
 void read_material_pairs(SceneDraft& draft, const Node& node);
 void read_shapes(SceneDraft& draft, const Node& node);
 void read_bodies(SceneDraft& draft, const Node& node);
+void read_robots(SceneDraft& draft, const Node& node);
 void read_joints(SceneDraft& draft, const Node& node);
 void read_couplings(SceneDraft& draft, const Node& node);
 

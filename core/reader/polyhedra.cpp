@@ -129,15 +129,6 @@ void require_one_source(const PointsDraft& draft, const Node& node) {
         node.at("scale").fail("\"scale\" is for \"obj\" alone");
 }
 
-Geometry hull_geometry(const std::vector<Eigen::Vector3d>& points) {
-    Hull hull = convex_hull(points);
-    Geometry geometry;
-    geometry.kind = ShapeKind::hull;
-    geometry.vertices = std::move(hull.vertices);
-    geometry.faces = std::move(hull.faces);
-    return geometry;
-}
-
 void check_triangles(const PointsDraft& draft, const Node& node) {
     if (!node.has("triangles")) node.fail("\"triangles\" is missing");
     if (draft.triangles.empty()) node.at("triangles").fail("a mesh needs at least one triangle");
@@ -160,6 +151,15 @@ SchemaJson either_source(SchemaJson json, const SchemaJson& inline_keys) {
 }
 
 }  // namespace
+
+Geometry hull_geometry(const std::vector<Eigen::Vector3d>& points) {
+    Hull hull = convex_hull(points);
+    Geometry geometry;
+    geometry.kind = ShapeKind::hull;
+    geometry.vertices = std::move(hull.vertices);
+    geometry.faces = std::move(hull.faces);
+    return geometry;
+}
 
 void read_hull(ShapeDraft& draft, const Node& node) {
     PointsDraft points;

@@ -2,12 +2,10 @@
 /// A whole scene: its top-level keys, in the order in which they depend on each other.
 #include "reader/reader.h"
 
-#include <fstream>
-#include <sstream>
-#include <system_error>
-
 #include "reader/drafts.h"
+#include "reader/file_text.h"
 #include "reader/parse.h"
+#include "reader/urdf.h"
 
 namespace plumb::reader {
 
@@ -19,21 +17,6 @@ void read_view(SceneDraft& draft, const Node& node) {
     if ((view.eye - view.target).norm() < 1e-6)
         node.fail("\"eye\" and \"target\" are the same point");
     draft.scene.view = view;
-}
-
-std::string text_of(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::exists(file, error))
-        throw SceneError(file.string(), "", "there is no such file");
-    if (!std::filesystem::is_regular_file(file, error)) {
-        throw SceneError(file.string(), "", "this is not a file that can be read");
-    }
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-    if (!stream.is_open() || stream.bad())
-        throw SceneError(file.string(), "", "the file cannot be read");
-    return text.str();
 }
 
 }  // namespace
@@ -72,6 +55,7 @@ const Table<SceneDraft>& scene_table() {
                    "shapes by name, for several bodies to share"),
         special<D>("bodies", list_of("body_entry"), read_bodies,
                    "bodies, and grids, chains and mobiles of them"),
+        special<D>("robots", list_of("robot"), read_robots, "robots from URDF files"),
         special<D>("joints", list_of("joint"), read_joints, "joints between bodies"),
         special<D>("couplings", list_of("coupling"), read_couplings,
                    "ties between joints: gears, racks, screws, pulleys"),
@@ -98,7 +82,8 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& origin) {
 }
 
 Scene read_scene(const std::filesystem::path& file) {
-    return parse_scene(reader::text_of(file), file);
+    if (file.extension() == ".urdf") return read_urdf(file);
+    return parse_scene(reader::text_of_file(file), file);
 }
 
 }  // namespace plumb

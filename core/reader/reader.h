@@ -19,7 +19,7 @@ namespace plumb {
 /// Most bodies that a scene may have, those of "repeat" entries counted one by one.
 inline constexpr std::size_t kMaxBodies = 1'000'000;
 
-/// Reads a scene's file.
+/// Reads a scene's file, or a robot's, whose name ends in .urdf (urdf.h).
 Scene read_scene(const std::filesystem::path& file);
 
 /// Reads a scene from text. `origin` names the text in errors, and its folder is where meshes are

@@ -15,6 +15,7 @@ std::string scene_schema() {
     add_repeat_definitions(definitions);
     add_chain_definitions(definitions);
     add_mobile_definitions(definitions);
+    add_robot_definitions(definitions);
     add_joint_definitions(definitions);
     definitions["view"] = object_schema(view_table());
 

@@ -20,6 +20,17 @@ struct Placement {
     Eigen::Quaterniond rotation = Eigen::Quaterniond::Identity();
 };
 
+/// The inner frame of `inner` → the outer frame of `outer`.
+inline Placement operator*(const Placement& outer, const Placement& inner) {
+    return {outer.position + outer.rotation * inner.position,
+            (outer.rotation * inner.rotation).normalized()};
+}
+
+inline Placement inverse(const Placement& p) {
+    const Eigen::Quaterniond back = p.rotation.conjugate();
+    return {-(back * p.position), back};
+}
+
 struct GeometryPart;
 
 /// One shape; the members mean what they mean in plumb::Shape. Shared by all bodies that name it.

@@ -10,6 +10,7 @@
 #include "scene/settings.h"
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -61,6 +62,8 @@ struct BodySpec {
     std::optional<double> mass;                                  ///< [kg]; else density × volume
     std::optional<Eigen::Vector3d>
         inertia;  ///< principal moments in the geometry's frame [kg m²]; else from the shape
+    std::optional<Placement> mass_frame;  ///< centre of mass and axes of `inertia` in the
+                                          ///< geometry's frame; needs mass and inertia
     Eigen::Vector3d force = Eigen::Vector3d::Zero();   ///< constant, at the centre of mass [N]
     Eigen::Vector3d torque = Eigen::Vector3d::Zero();  ///< constant [N m]
     std::uint32_t group = 1;  ///< collides if (group_a & mask_b) and (group_b & mask_a)
@@ -86,6 +89,8 @@ struct Scene {
     std::vector<BodySpec> bodies;
     std::vector<JointSpec> joints;
     std::vector<CouplingSpec> couplings;
+    std::vector<std::array<std::uint32_t, 2>> apart;  ///< bodies that never collide with each other
+    std::vector<std::string> remarks;  ///< what a reader left out or changed, in sentences
     std::optional<View> view;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// From what the user wrote to the tables of the world.
+#include "math/principal.h"
 #include "scene/error.h"
 #include "world/build_joints.h"
 #include "world/mass_properties.h"
 #include "world/world.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -18,27 +18,19 @@ namespace {
                      sentence);
 }
 
-/// Principal moments and axes of a symmetric tensor; axes are left alone where it is diagonal
-/// already.
-struct Principal {
-    Vector3d moments;
-    Quaterniond axes;
-};
-Principal principal_axes(const Matrix3d& tensor) {
-    const Vector3d diagonal = tensor.diagonal();
-    const double off = std::abs(tensor(0, 1)) + std::abs(tensor(0, 2)) + std::abs(tensor(1, 2));
-    if (off <= 1e-12 * diagonal.sum()) return {diagonal, Quaterniond::Identity()};
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(tensor);
-    Matrix3d axes = solver.eigenvectors();
-    if (axes.determinant() < 0) axes.col(2) *= -1;
-    return {solver.eigenvalues(), Quaterniond(axes).normalized()};
-}
-
 struct BodyMass {
     double mass = 0;
     Vector3d moments = Vector3d::Zero();
     Placement body_in_geometry;  ///< centre of mass and principal axes
 };
+
+Placement mass_frame(const Scene& scene, std::size_t i) {
+    const Placement& frame = *scene.bodies[i].mass_frame;
+    if (!frame.position.allFinite() || !frame.rotation.coeffs().allFinite() ||
+        frame.rotation.norm() < 1e-9)
+        refuse(i, "mass_frame", "must be a point and a rotation");
+    return {frame.position, frame.rotation.normalized()};
+}
 
 BodyMass body_mass(const Scene& scene, std::size_t i) {
     const BodySpec& spec = scene.bodies[i];
@@ -47,8 +39,11 @@ BodyMass body_mass(const Scene& scene, std::size_t i) {
         if (!spec.mass || !spec.inertia)
             refuse(i, "", "a body without a shape needs both mass and inertia");
         result.mass = *spec.mass, result.moments = *spec.inertia;
+        if (spec.mass_frame) result.body_in_geometry = mass_frame(scene, i);
         return result;
     }
+    if (spec.mass_frame && !(spec.mass && spec.inertia))
+        refuse(i, "mass_frame", "goes with both mass and inertia");
     const MassProperties m = mass_properties(scene.geometries[spec.geometry]);
     if (!(m.volume > 0) && !(spec.mass && spec.inertia))
         refuse(i, "shape",
@@ -56,7 +51,9 @@ BodyMass body_mass(const Scene& scene, std::size_t i) {
                    " that encloses no volume cannot be dynamic unless mass and inertia are given");
     result.mass = spec.mass.value_or(scene.materials[spec.material].density * m.volume);
     result.body_in_geometry.position = m.centre;
-    if (spec.inertia) {
+    if (spec.mass_frame) {
+        result.moments = *spec.inertia, result.body_in_geometry = mass_frame(scene, i);
+    } else if (spec.inertia) {
         result.moments = *spec.inertia;
     } else {
         const Principal p = principal_axes(m.inertia * (result.mass / m.volume));
@@ -87,15 +84,6 @@ void check_spec(const Scene& scene, std::size_t i) {
     if (!s.velocity.allFinite() || !s.angular_velocity.allFinite())
         refuse(i, "velocity", "must be finite numbers");
     if (!s.force.allFinite() || !s.torque.allFinite()) refuse(i, "force", "must be finite numbers");
-}
-
-Placement inverse(const Placement& p) {
-    const Quaterniond r = p.rotation.conjugate();
-    return {-(r * p.position), r};
-}
-Placement operator*(const Placement& outer, const Placement& inner) {
-    return {outer.position + outer.rotation * inner.position,
-            (outer.rotation * inner.rotation).normalized()};
 }
 
 void add_body(World& world, const Scene& scene, std::size_t i) {
@@ -175,6 +163,15 @@ void add_surface_pairs(World& world, const Scene& scene) {
         }
 }
 
+void keep_apart(World& world, const Scene& scene) {
+    for (std::size_t i = 0; i < scene.apart.size(); ++i) {
+        const auto [low, high] = std::minmax(scene.apart[i][0], scene.apart[i][1]);
+        if (high >= world.bodies.size() || low == high)
+            throw SceneError("", "/apart/" + std::to_string(i), "must be two different bodies");
+        world.excluded.push_back(pair_key(low, high));
+    }
+}
+
 }  // namespace
 
 World build_world(const Scene& scene) {
@@ -188,6 +185,7 @@ World build_world(const Scene& scene) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) add_body(world, scene, i);
     assign_rows(world);
     add_surface_pairs(world, scene);
+    keep_apart(world, scene);
     build_joints(world, scene);
     return world;
 }

@@ -29,7 +29,7 @@ struct World {
     JointTable joints;
     std::vector<SurfacePair> surface_pairs;  ///< [material_a × material_count + material_b]
     std::uint32_t material_count = 1;
-    std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that a joint keeps apart, sorted
+    std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that never collide, sorted
     ContactTable contacts;
     ShapeStore shapes;
     std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: MIT
+#include "reader/urdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "reader/bad_shape.h"
+#include "reader/urdf_joints.h"
+#include "reader/urdf_shapes.h"
+#include "reader/urdf_tree.h"
+
+namespace plumb {
+
+namespace reader {
+namespace {
+
+/// A URDF's z axis, which points up, to the scene's y axis.
+Eigen::Quaterniond z_to_y() {
+    return Eigen::Quaterniond(Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
+}
+
+class RobotBuilder {
+public:
+    RobotBuilder(Scene& scene, const std::filesystem::path& file, const UrdfOptions& options)
+        : scene_(scene),
+          options_(options),
+          file_name_(file.filename().string()),
+          model_(load_urdf(file)),
+          groups_(link_groups(*model_)) {
+        collision_ = {file.parent_path(), options.meshes_required, options.decompose};
+        robot_.name = !options.name.empty()        ? options.name
+                      : !model_->getName().empty() ? model_->getName()
+                                                   : file.stem().string();
+    }
+
+    Robot build() {
+        check_motors(*model_, options_);
+        starts_ = start_positions(*model_, options_.positions, remarks_);
+        place(groups_, options_.placement * Placement{Eigen::Vector3d::Zero(), z_to_y()}, starts_);
+        const auto first_body = static_cast<std::uint32_t>(scene_.bodies.size());
+        for (std::size_t i = 0; i < groups_.size(); ++i) add_body(groups_[i], i == 0);
+        for (std::size_t i = 1; i < groups_.size(); ++i) add_joint(i);
+        add_couplings();
+        if (!options_.self_collision) keep_apart(first_body);
+        for (const std::string& remark : remarks_)
+            scene_.remarks.push_back(file_name_ + ": " + remark);
+        return std::move(robot_);
+    }
+
+private:
+    std::string full(const std::string& name) const { return robot_.name + "/" + name; }
+
+    /// The root moves where it has a mass, unless it shall not.
+    bool root_moves() const {
+        const bool has_mass = mass_of(groups_[0]) > 0;
+        if (options_.base == RobotBase::free && !has_mass)
+            throw BadRobot(link_named(groups_[0].name()) +
+                           ", the root, has no mass, so it cannot be free");
+        return has_mass && options_.base != RobotBase::fixed;
+    }
+
+    void add_body(const LinkGroup& group, bool is_root) {
+        const bool moves = !is_root || root_moves();
+        BodySpec body;
+        body.name = full(group.name());
+        body.motion = moves ? Motion::dynamic : Motion::fixed;
+        body.material = options_.material;
+        body.placement = group.world;
+        set_shape(body, collision_parts(group, moves, collision_, remarks_), group.world);
+        if (moves) set_mass(body, group);
+        if (!moves && body.geometry == kNoIndex) {
+            bodies_.push_back(kNoIndex);
+            return;
+        }
+        bodies_.push_back(static_cast<std::uint32_t>(scene_.bodies.size()));
+        for (const GroupedLink& part : group.links)
+            robot_.links.emplace_back(full(part.link->name), bodies_.back());
+        scene_.bodies.push_back(std::move(body));
+    }
+
+    /// One shape is the body's, and the body's frame is the shape's; several are a compound.
+    void set_shape(BodySpec& body, std::vector<GeometryPart> parts, const Placement& world) {
+        if (parts.empty()) return;
+        Geometry geometry;
+        if (parts.size() == 1) {
+            geometry = std::move(parts[0].geometry);
+            body.placement = world * parts[0].local;
+        } else {
+            geometry.kind = ShapeKind::compound;
+            geometry.parts = std::move(parts);
+        }
+        geometry.name = body.name;
+        body.geometry = static_cast<std::uint32_t>(scene_.geometries.size());
+        scene_.geometries.push_back(std::move(geometry));
+    }
+
+    static void set_mass(BodySpec& body, const LinkGroup& group) {
+        const MovingMass mass = moving_mass_of(group);
+        body.mass = mass.mass, body.inertia = mass.moments;
+        body.mass_frame = inverse(body.placement) * group.world * mass.frame;
+    }
+
+    void add_joint(std::size_t i) {
+        const LinkGroup& group = groups_[i];
+        if (group.joint->type == urdf::Joint::FLOATING) return;
+        const auto start = starts_.find(group.joint->name);
+        JointSpec joint =
+            joint_of(group, start == starts_.end() ? 0 : start->second, options_, remarks_);
+        joint.name = full(group.joint->name);
+        joint.body_a = bodies_[i], joint.body_b = bodies_[group.parent];
+        joints_[group.joint->name] = static_cast<std::uint32_t>(scene_.joints.size());
+        robot_.joints.emplace_back(joint.name, joints_[group.joint->name]);
+        scene_.joints.push_back(std::move(joint));
+    }
+
+    void add_couplings() {
+        for (const auto& [name, joint] : model_->joints_) {
+            if (!joint->mimic || !has_coordinate(*joint)) continue;
+            const urdf::Joint& other = *model_->joints_.at(joint->mimic->joint_name);
+            CouplingSpec coupling = coupling_of(*joint, other, starts_);
+            coupling.name = full(name);
+            coupling.joint_a = joints_.at(other.name), coupling.joint_b = joints_.at(name);
+            scene_.couplings.push_back(std::move(coupling));
+        }
+    }
+
+    void keep_apart(std::uint32_t first) {
+        const auto end = static_cast<std::uint32_t>(scene_.bodies.size());
+        for (std::uint32_t a = first; a < end; ++a) {
+            for (std::uint32_t b = a + 1; b < end; ++b) scene_.apart.push_back({a, b});
+        }
+    }
+
+    Scene& scene_;
+    const UrdfOptions& options_;
+    std::string file_name_;
+    urdf::ModelInterfaceSharedPtr model_;
+    std::vector<LinkGroup> groups_;
+    CollisionOptions collision_;
+    std::vector<std::string> remarks_;
+    std::map<std::string, double> starts_;         // coordinates at the start, by joint [rad], [m]
+    std::vector<std::uint32_t> bodies_;            // [group], kNoIndex: the world
+    std::map<std::string, std::uint32_t> joints_;  // indices by the URDF's names
+    Robot robot_;
+};
+
+/// Lifts or lowers a scene's bodies and joints by `y` [m].
+void lift(Scene& scene, double y) {
+    for (BodySpec& body : scene.bodies) body.placement.position.y() += y;
+    for (JointSpec& joint : scene.joints) joint.anchor.y() += y;
+}
+
+double lowest_of_all(const Scene& scene) {
+    double y = std::numeric_limits<double>::infinity();
+    for (const BodySpec& body : scene.bodies) {
+        if (body.geometry != kNoIndex)
+            y = std::min(y, lowest_point(scene.geometries[body.geometry], body.placement));
+    }
+    return y;
+}
+
+void add_ground(Scene& scene) {
+    BodySpec ground;
+    ground.name = "ground";
+    ground.motion = Motion::fixed;
+    ground.geometry = static_cast<std::uint32_t>(scene.geometries.size());
+    Geometry plane;
+    plane.kind = ShapeKind::plane;
+    plane.name = ground.name;
+    scene.geometries.push_back(std::move(plane));
+    scene.bodies.push_back(std::move(ground));
+}
+
+}  // namespace
+}  // namespace reader
+
+Robot add_robot(Scene& scene, const std::filesystem::path& file, const UrdfOptions& options) {
+    try {
+        return reader::RobotBuilder(scene, file, options).build();
+    } catch (const reader::BadRobot& error) {
+        throw SceneError(file.string(), "", error.what());
+    }
+}
+
+Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options) {
+    Scene scene;
+    scene.name = add_robot(scene, file, options).name;
+    const double lowest = reader::lowest_of_all(scene);
+    if (std::isfinite(lowest)) reader::lift(scene, options.placement.position.y() - lowest);
+    reader::add_ground(scene);
+    return scene;
+}
+
+}  // namespace plumb

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+/// Robots from URDF files (by urdfdom).
+///
+/// Links become bodies and joints joints; links that a fixed joint ties are one body. Masses are
+/// those of the "inertial" elements, shapes those of the "collision" elements; what looks alone
+/// serves is not read. A URDF's z axis points up; in the scene it points along y. What was left out
+/// or changed is told in Scene::remarks.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "scene/error.h"
+#include "scene/scene.h"
+
+namespace plumb {
+
+enum class RobotBase : std::uint32_t {
+    by_mass,  ///< free where the root link has a mass, else fixed
+    fixed,
+    free
+};
+
+/// What drives one of a robot's joints; targets are counted as the URDF counts.
+struct RobotMotor {
+    MotorMode mode = MotorMode::position;
+    double target = 0;               ///< [rad], [m]; [rad/s], [m/s]
+    std::optional<double> greatest;  ///< [N m], [N]; else the URDF's limit of effort
+    double frequency = 5;            ///< of a position motor's response [Hz]
+    double damping_ratio = 1;
+};
+
+struct UrdfOptions {
+    std::string name;     ///< "NAME/LINK" is a body, "NAME/JOINT" a joint; empty: the robot's own
+    Placement placement;  ///< of the root link; turned by nothing, its z axis points along y
+    RobotBase base = RobotBase::by_mass;
+    std::uint32_t material = 0;   ///< index into Scene::materials
+    bool meshes_required = true;  ///< else collision meshes that cannot be had are left out
+    bool decompose = false;       ///< meshes become several hulls instead of one
+    bool self_collision = true;   ///< links that no joint ties collide with each other
+    bool hold = false;            ///< every joint without a motor is held where it starts
+    std::map<std::string, double> positions;   ///< at the start, by joint [rad], [m]; else 0, or
+                                               ///< the limit that is nearest to it
+    std::map<std::string, RobotMotor> motors;  ///< by joint
+};
+
+/// Where a robot's links and joints went.
+struct Robot {
+    std::string name;
+    std::vector<std::pair<std::string, std::uint32_t>>
+        links;  ///< "NAME/LINK" and its body, which links tied by fixed joints share; those that
+                ///< are fixed and have no shape are part of the world, and not among them
+    std::vector<std::pair<std::string, std::uint32_t>> joints;  ///< "NAME/JOINT"
+};
+
+/// Adds a robot to a scene. Throws SceneError, with the file and the name of the link or joint.
+///
+/// A joint's coordinate is counted from where it starts, for a joint's frames coincide then: the
+/// URDF's limits and the motors' targets are shifted accordingly.
+Robot add_robot(Scene& scene, const std::filesystem::path& file, const UrdfOptions& options);
+
+/// A scene of one robot, whose lowest point stands on the ground, a plane at y = 0. The position of
+/// the options is added to that.
+Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options = {});
+
+}  // namespace plumb
