@@ -33,7 +33,8 @@ const Table<RobotMotor>& motor_table() {
         field<M>("max", Number{kForce}, &M::greatest,
                  "greatest torque or force [N m], [N]; left out: the URDF's limit of effort"),
         field<M>("frequency", Number{kFrequency}, &M::frequency,
-                 "of the response to a position; 5 is the default [Hz]"),
+                 "with which the heavier side of the joint answers to a position, all other joints "
+                 "stiff; 5 is the default [Hz]"),
         field<M>("damping_ratio", Number{kNotNegative}, &M::damping_ratio,
                  "of the same; 1, the default, does not overshoot"),
     };

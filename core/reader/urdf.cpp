@@ -7,6 +7,7 @@
 
 #include "reader/bad_shape.h"
 #include "reader/urdf_joints.h"
+#include "reader/urdf_loads.h"
 #include "reader/urdf_shapes.h"
 #include "reader/urdf_tree.h"
 
@@ -40,7 +41,8 @@ public:
         place(groups_, options_.placement * Placement{Eigen::Vector3d::Zero(), z_to_y()}, starts_);
         const auto first_body = static_cast<std::uint32_t>(scene_.bodies.size());
         for (std::size_t i = 0; i < groups_.size(); ++i) add_body(groups_[i], i == 0);
-        for (std::size_t i = 1; i < groups_.size(); ++i) add_joint(i);
+        const std::vector<double> factors = frequency_factors(groups_, masses_);
+        for (std::size_t i = 1; i < groups_.size(); ++i) add_joint(i, factors[i]);
         add_couplings();
         if (!options_.self_collision) keep_apart(first_body);
         for (const std::string& remark : remarks_)
@@ -68,6 +70,7 @@ private:
         body.material = options_.material;
         body.placement = group.world;
         set_shape(body, collision_parts(group, moves, collision_, remarks_), group.world);
+        masses_.emplace_back();
         if (moves) set_mass(body, group);
         if (!moves && body.geometry == kNoIndex) {
             bodies_.push_back(kNoIndex);
@@ -95,18 +98,20 @@ private:
         scene_.geometries.push_back(std::move(geometry));
     }
 
-    static void set_mass(BodySpec& body, const LinkGroup& group) {
+    void set_mass(BodySpec& body, const LinkGroup& group) {
         const MovingMass mass = moving_mass_of(group);
+        masses_.back() = mass;
         body.mass = mass.mass, body.inertia = mass.moments;
         body.mass_frame = inverse(body.placement) * group.world * mass.frame;
     }
 
-    void add_joint(std::size_t i) {
+    void add_joint(std::size_t i, double frequency_factor) {
         const LinkGroup& group = groups_[i];
         if (group.joint->type == urdf::Joint::FLOATING) return;
         const auto start = starts_.find(group.joint->name);
         JointSpec joint =
             joint_of(group, start == starts_.end() ? 0 : start->second, options_, remarks_);
+        for (JointAxisSpec& axis : joint.axes) axis.motor.frequency *= frequency_factor;
         joint.name = full(group.joint->name);
         joint.body_a = bodies_[i], joint.body_b = bodies_[group.parent];
         joints_[group.joint->name] = static_cast<std::uint32_t>(scene_.joints.size());
@@ -139,9 +144,10 @@ private:
     std::vector<LinkGroup> groups_;
     CollisionOptions collision_;
     std::vector<std::string> remarks_;
-    std::map<std::string, double> starts_;         // coordinates at the start, by joint [rad], [m]
-    std::vector<std::uint32_t> bodies_;            // [group], kNoIndex: the world
-    std::map<std::string, std::uint32_t> joints_;  // indices by the URDF's names
+    std::map<std::string, double> starts_;  // coordinates at the start, by joint [rad], [m]
+    std::vector<std::optional<MovingMass>> masses_;  // [group], none where it is fixed
+    std::vector<std::uint32_t> bodies_;              // [group], kNoIndex: the world
+    std::map<std::string, std::uint32_t> joints_;    // indices by the URDF's names
     Robot robot_;
 };
 

@@ -31,7 +31,8 @@ struct RobotMotor {
     MotorMode mode = MotorMode::position;
     double target = 0;               ///< [rad], [m]; [rad/s], [m/s]
     std::optional<double> greatest;  ///< [N m], [N]; else the URDF's limit of effort
-    double frequency = 5;            ///< of a position motor's response [Hz]
+    double frequency = 5;            ///< of a position motor: of the heavier side of the joint,
+                                     ///< all other joints stiff [Hz]
     double damping_ratio = 1;
 };
 

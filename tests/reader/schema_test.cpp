@@ -71,6 +71,8 @@ TEST(Schema, NamesKeysThatTheReaderKnows) {
         {"motor", {joint + R"("motor": {)", "}}]}"}},
         {"spring", {joint + R"("spring": {)", "}}]}"}},
         {"coupling", {R"({"couplings": [{)", "}]}"}},
+        {"robot", {R"({"robots": [{)", "}]}"}},
+        {"robot_motor", {R"({"robots": [{"urdf": "x", "motors": {"m": {)", "}}}]}"}},
         {"view", {R"({"view": {)", "}}"}}};
 
     const Json definitions = schema()["$defs"];
