@@ -204,17 +204,39 @@ TEST_F(Robots, MotorsAimAtWhatTheUrdfCounts) {
     EXPECT_EQ(ab.mode, MotorMode::position);
     EXPECT_DOUBLE_EQ(ab.target, 0.75);
     EXPECT_EQ(ab.greatest, 7);
-    EXPECT_EQ(ab.frequency, 3);
     EXPECT_EQ(ab.damping_ratio, 0.5);
     const JointMotor& held = scene.joints[1].axes[kAlongX].motor;
     EXPECT_EQ(held.mode, MotorMode::position);
     EXPECT_EQ(held.target, 0);
     EXPECT_EQ(held.greatest, 30);
-    EXPECT_EQ(held.frequency, 5);
     const JointMotor& wheel = scene.joints[2].axes[kTurnX].motor;
     EXPECT_EQ(wheel.mode, MotorMode::velocity);
     EXPECT_EQ(wheel.target, 2);
     EXPECT_TRUE(std::isinf(wheel.greatest));
+}
+
+TEST_F(Robots, MotorsAnswerAsTheHeavierSideOfTheirJointFeels) {
+    UrdfOptions options;
+    options.hold = true;
+    const auto frequency = [&](const std::string& elements, JointAxis axis) {
+        return scene_of(elements, options).joints[0].axes[axis].motor.frequency;
+    };
+    // A pendulum: 1 + 2 · 2² about the joint, 1 about its own centre.
+    const std::string pendulum =
+        "<link name='w'/><link name='b'>" + inertial("1 2 2.5", "2", "0 0 -2") + "</link>";
+    EXPECT_NEAR(frequency(pendulum + joint("continuous", "w", "b"), kTurnX), 5 * 3, 1e-12);
+
+    // A free trunk that weighs more on the joint, 1 + 2 · 1², than what hangs there.
+    const std::string two = link("a") + link("b"), below = R"(<origin xyz="0 0 -1"/>)";
+    EXPECT_NEAR(frequency(two + joint("continuous", "a", "b", below), kTurnX),
+                5 * std::sqrt(3 * (1 + 1)), 1e-12);
+    // With something more on the trunk: 1 + 2 · 1² + 1 + 2 · 2².
+    const std::string head = link("c") + joint("continuous", "a", "c", R"(<origin xyz="0 0 1"/>)");
+    EXPECT_NEAR(frequency(two + joint("continuous", "a", "b", below) + head, kTurnX),
+                5 * std::sqrt(12 * (1 + 1)), 1e-12);
+
+    EXPECT_NEAR(frequency(two + joint("prismatic", "a", "b", kLimit), kAlongX),
+                5 * std::sqrt(2 * (0.5 + 0.5)), 1e-12);
 }
 
 TEST_F(Robots, MimicsAreCoupled) {
