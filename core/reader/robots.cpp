@@ -95,7 +95,8 @@ const Table<RobotDraft>& robot_table() {
             "turn each mesh, which must be closed, into several convex hulls instead of one"),
         field<R>(
             "self_collision", Flag{}, [](R & r) -> auto& { return r.options.self_collision; },
-            "whether links collide that no joint ties; true is the default"),
+            "whether its links collide with each other, but for those that a joint ties or that "
+            "overlap at the start; true is the default"),
         special<R>("joints",
                    {{"type", "object"}, {"additionalProperties", Number{kCoordinate}.schema()}},
                    read_positions,

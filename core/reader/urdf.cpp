@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
-#include "reader/bad_shape.h"
+#include "reader/overlap.h"
 #include "reader/urdf_joints.h"
 #include "reader/urdf_loads.h"
 #include "reader/urdf_shapes.h"
@@ -44,7 +45,7 @@ public:
         const std::vector<double> factors = frequency_factors(groups_, masses_);
         for (std::size_t i = 1; i < groups_.size(); ++i) add_joint(i, factors[i]);
         add_couplings();
-        if (!options_.self_collision) keep_apart(first_body);
+        keep_apart(first_body);
         for (const std::string& remark : remarks_)
             scene_.remarks.push_back(file_name_ + ": " + remark);
         return std::move(robot_);
@@ -130,11 +131,35 @@ private:
         }
     }
 
+    /// Links that overlap where they start are not meant to collide, nor is any where the options
+    /// say so.
     void keep_apart(std::uint32_t first) {
-        const auto end = static_cast<std::uint32_t>(scene_.bodies.size());
-        for (std::uint32_t a = first; a < end; ++a) {
-            for (std::uint32_t b = a + 1; b < end; ++b) scene_.apart.push_back({a, b});
+        std::set<std::pair<std::uint32_t, std::uint32_t>> joined;
+        for (const auto& entry : joints_) {
+            const JointSpec& joint = scene_.joints[entry.second];
+            joined.insert(std::minmax(joint.body_a, joint.body_b));
         }
+        const auto end = static_cast<std::uint32_t>(scene_.bodies.size());
+        std::string overlapping;
+        for (std::uint32_t a = first; a < end; ++a) {
+            for (std::uint32_t b = a + 1; b < end; ++b) {
+                if (joined.contains({a, b})) continue;
+                const BodySpec &x = scene_.bodies[a], &y = scene_.bodies[b];
+                if (options_.self_collision) {
+                    if (!are_overlapping(x, y)) continue;
+                    overlapping += (overlapping.empty() ? "" : "; ") + x.name + " and " + y.name;
+                }
+                scene_.apart.push_back({a, b});
+            }
+        }
+        if (!overlapping.empty())
+            remarks_.push_back("links that overlap at the start do not collide: " + overlapping);
+    }
+
+    bool are_overlapping(const BodySpec& a, const BodySpec& b) const {
+        if (a.geometry == kNoIndex || b.geometry == kNoIndex) return false;
+        return overlap(scene_.geometries[a.geometry], a.placement, scene_.geometries[b.geometry],
+                       b.placement);
     }
 
     Scene& scene_;
@@ -195,6 +220,7 @@ Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options) {
     const double lowest = reader::lowest_of_all(scene);
     if (std::isfinite(lowest)) reader::lift(scene, options.placement.position.y() - lowest);
     reader::add_ground(scene);
+    scene.settings.dt = 0.005, scene.settings.substeps = 10;
     return scene;
 }
 

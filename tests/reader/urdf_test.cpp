@@ -284,8 +284,28 @@ TEST_F(Robots, SelfCollisionCanBeOff) {
     EXPECT_TRUE(scene_of(arm).apart.empty());
     UrdfOptions options;
     options.self_collision = false;
-    const std::vector<std::array<std::uint32_t, 2>> wanted = {{0, 1}, {0, 2}, {1, 2}};
+    const std::vector<std::array<std::uint32_t, 2>> wanted = {{0, 2}};  // no joint ties
     EXPECT_EQ(scene_of(arm, options).apart, wanted);
+}
+
+TEST_F(Robots, LinksThatOverlapAtTheStartDoNotCollide) {
+    const std::string ball = collision(R"(<sphere radius="0.3"/>)");
+    const std::string along = R"(<origin xyz="0.5 0 0"/><axis xyz="0 0 1"/>)";
+    const std::string arm = link("a", ball) + link("b", ball) + link("c", ball) +
+                            joint("continuous", "a", "b", along) +
+                            joint("continuous", "b", "c", along);
+    const Scene straight = scene_of(arm);
+    EXPECT_TRUE(straight.apart.empty());
+    EXPECT_TRUE(straight.remarks.empty());
+
+    // Bent by 2 rad, a and c are 2 · 0.5 · cos(1) = 0.54 apart.
+    UrdfOptions options;
+    options.positions["ab"] = 2;
+    const std::vector<std::array<std::uint32_t, 2>> wanted = {{0, 2}};
+    const Scene bent = scene_of(arm, options);
+    EXPECT_EQ(bent.apart, wanted);
+    ASSERT_EQ(bent.remarks.size(), 1u);
+    expect_words(bent.remarks[0], "do not collide: r/a and r/c");
 }
 
 TEST_F(Robots, VisualElementsAreNotRead) {
