@@ -7,6 +7,7 @@
 #include <set>
 
 #include "reader/overlap.h"
+#include "reader/types.h"
 #include "reader/urdf_joints.h"
 #include "reader/urdf_loads.h"
 #include "reader/urdf_shapes.h"
@@ -70,6 +71,7 @@ private:
         body.motion = moves ? Motion::dynamic : Motion::fixed;
         body.material = options_.material;
         body.placement = group.world;
+        check_place(group.world.position, group.name());
         set_shape(body, collision_parts(group, moves, collision_, remarks_), group.world);
         masses_.emplace_back();
         if (moves) set_mass(body, group);
@@ -83,9 +85,17 @@ private:
         scene_.bodies.push_back(std::move(body));
     }
 
+    /// Numbers that the reader of scenes would refuse are refused here too.
+    static void check_place(const Eigen::Vector3d& position, const std::string& link) {
+        if (!(position.cwiseAbs().maxCoeff() <= kCoordinate.high))
+            throw BadRobot(link_named(link) + " is too far away");
+    }
+
     /// One shape is the body's, and the body's frame is the shape's; several are a compound.
     void set_shape(BodySpec& body, std::vector<GeometryPart> parts, const Placement& world) {
         if (parts.empty()) return;
+        for (const GeometryPart& part : parts)
+            check_place(part.local.position, body.name.substr(robot_.name.size() + 1));
         Geometry geometry;
         if (parts.size() == 1) {
             geometry = std::move(parts[0].geometry);

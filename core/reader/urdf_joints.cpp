@@ -91,6 +91,8 @@ CouplingSpec coupling_of(const urdf::Joint& joint, const urdf::Joint& mimicked,
     coupling.ratio = joint.mimic->multiplier;
     coupling.offset =
         coupling.ratio * starts.at(mimicked.name) + joint.mimic->offset - starts.at(joint.name);
+    if (!std::isfinite(*coupling.offset))
+        throw BadRobot(joint_named(joint.name) + ": its mimic's numbers are too large");
     return coupling;
 }
 

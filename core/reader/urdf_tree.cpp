@@ -7,6 +7,7 @@
 
 #include "math/principal.h"
 #include "reader/nearest.h"
+#include "reader/types.h"
 
 namespace plumb::reader {
 
@@ -15,8 +16,11 @@ namespace {
 /// Throws unless a link's inertial element is possible; a mass of 0 is, with no inertia.
 void check_inertial(const urdf::Link& link) {
     const urdf::Inertial& i = *link.inertial;
-    if (!(i.mass >= 0) || !std::isfinite(i.mass))
-        throw BadRobot(link_named(link.name) + ": its mass must be 0 or above");
+    if (!(i.mass == 0 || (i.mass >= kMass.low && i.mass <= kMass.high)))
+        throw BadRobot(link_named(link.name) + ": its mass must be 0, or " +
+                       in_words(kMass, "a number"));
+    if (!(to_eigen(i.origin.position).cwiseAbs().maxCoeff() <= kLength.high))
+        throw BadRobot(link_named(link.name) + ": its centre of mass is too far away");
 }
 
 Eigen::Matrix3d tensor_of(const urdf::Inertial& i) {
@@ -28,7 +32,7 @@ Eigen::Matrix3d tensor_of(const urdf::Inertial& i) {
 /// Throws unless `moments` are those of a body.
 void check_moments(const LinkGroup& group, const Eigen::Vector3d& moments) {
     const std::string about = link_named(group.name()) + ": its inertia ";
-    if (!moments.allFinite() || !(moments.minCoeff() > 1e-12 * moments.maxCoeff()))
+    if (!(moments.maxCoeff() <= kMass.high) || !(moments.minCoeff() > 1e-12 * moments.maxCoeff()))
         throw BadRobot(about + "is missing or not positive, so it cannot move");
     if (2 * moments.maxCoeff() > moments.sum() * (1 + 1e-6)) {
         throw BadRobot(about +

@@ -70,7 +70,7 @@ TEST_F(Robots, RefuseToMoveWhatHasNoMass) {
     expect_words(error_of(moving("<link name='b'>" + inertial("1 1 3", "1", "0 0 0") + "</link>")),
                  "link \"b\": its inertia is of no body");
     expect_words(error_of(moving("<link name='b'>" + inertial("1 1 1", "-1", "0 0 0") + "</link>")),
-                 "link \"b\": its mass must be 0 or above");
+                 "link \"b\": its mass must be 0, or a number");
     UrdfOptions options;
     options.base = RobotBase::free;
     expect_words(error_of("<link name='w'/>" + link("a") + joint("continuous", "w", "a"), options),
