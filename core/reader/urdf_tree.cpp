@@ -147,6 +147,7 @@ Eigen::Vector3d axis_of(const urdf::Joint& joint) {
     const Eigen::Vector3d axis = to_eigen(joint.axis);
     if (!(axis.norm() > 1e-9))
         throw BadRobot(joint_named(joint.name) + ": its axis is zero, so it has no direction");
+    if (!(axis.norm() < 1e9)) throw BadRobot(joint_named(joint.name) + ": its axis is too long");
     return axis.normalized();
 }
 
