@@ -38,6 +38,15 @@ scene mesh.json '{"bodies": [{"shape": {"mesh": {"obj": "absent.obj"}}, "motion"
 scene cone.json '{"bodies": [{"shape": {"cone": {"radius": 1, "half_height": 1}}}, {"shape": {"cone": {"radius": 1, "half_height": 1}}}]}'
 scene inertia.json "{\"bodies\": [$body, \"mass\": 1, \"inertia\": [1, 1, 5]}]}"
 
+scene torn.urdf '<robot name="r"><link name="a">'
+scene massless.urdf '<robot name="r"><link name="a"/><link name="b"/><joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint></robot>'
+scene mesh.urdf '<robot name="r"><link name="a"><collision><geometry><mesh filename="package://p/absent.stl"/></geometry></collision></link></robot>'
+scene robot.json '{"robots": [{"urdf": "mesh.urdf"}]}'
+
+expect 3 "torn.urdf: line 1: not good XML" "$plumb" check "$work/torn.urdf"
+expect 3 'massless.urdf: link "b" has no mass, so it cannot move' "$plumb" run "$work/massless.urdf"
+expect 3 'link "a": there is no mesh file "package://p/absent.stl"' "$plumb" run "$work/mesh.urdf"
+expect 3 "/robots/0/urdf" "$plumb" run "$work/robot.json"
 expect 3 "absent.json" "$plumb" run "$work/absent.json"
 expect 3 "line 1" "$plumb" check "$work/broken.json"
 expect 3 "did you mean \"bodies\"" "$plumb" check "$work/key.json"

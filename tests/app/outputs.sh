@@ -7,7 +7,9 @@ plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has scenes=$2/samples/scenes small
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-for scene in "$scenes"/*.json; do "$plumb" check "$scene"; done
+for scene in "$scenes"/*.json "$scenes"/robots/*.urdf; do "$plumb" check "$scene"; done
+"$plumb" run "$scenes/robots/quadruped.urdf" --quiet --duration 0.1 --summary - >"$work/robot.json"
+[ "$("$json_has" "$work/robot.json" --print /joints)" = 12 ]
 
 "$plumb" run "$small" --quiet --out "$work/x.html" --out "$work/x.png" --out "$work/x.csv" --out "$work/x.plumb" --summary - >"$work/summary.json"
 for file in html png csv plumb; do [ -s "$work/x.$file" ]; done
