@@ -85,8 +85,12 @@ std::string essence(const std::string& text) {
     TiXmlDocument document;
     document.Parse(text.c_str(), nullptr, TIXML_ENCODING_UTF8);
     if (document.Error()) {
-        throw BadRobot("line " + std::to_string(document.ErrorRow()) +
-                       ": not good XML: " + document.ErrorDesc());
+        std::string reason = document.ErrorDesc();
+        while (reason.ends_with('.')) reason.pop_back();
+        // There is no line where the text ends too early.
+        const int row = document.ErrorRow();
+        throw BadRobot((row > 0 ? "line " + std::to_string(row) + ": " : "") +
+                       "not good XML: " + reason);
     }
     TiXmlElement* robot = document.FirstChildElement("robot");
     if (!robot) throw BadRobot("there is no \"robot\" element in it");

@@ -183,8 +183,9 @@ std::vector<GeometryPart> collision_parts(const LinkGroup& group, bool moves,
                 }
             } catch (const NoMesh& missing) {
                 if (options.meshes_required)
-                    throw BadRobot(about + missing.what() +
-                                   "; where meshes are optional, it is left out");
+                    throw BadRobot(
+                        about + missing.what() +
+                        "; \"meshes\": \"optional\" in a scene's \"robots\" leaves it out");
                 remarks.push_back(about + missing.what() + ", so it is left out");
             } catch (const BadRobot& error) {
                 throw BadRobot(about + error.what());

@@ -43,7 +43,7 @@ scene massless.urdf '<robot name="r"><link name="a"/><link name="b"/><joint name
 scene mesh.urdf '<robot name="r"><link name="a"><collision><geometry><mesh filename="package://p/absent.stl"/></geometry></collision></link></robot>'
 scene robot.json '{"robots": [{"urdf": "mesh.urdf"}]}'
 
-expect 3 "torn.urdf: line 1: not good XML" "$plumb" check "$work/torn.urdf"
+expect 3 "torn.urdf: not good XML" "$plumb" check "$work/torn.urdf"
 expect 3 'massless.urdf: link "b" has no mass, so it cannot move' "$plumb" run "$work/massless.urdf"
 expect 3 'link "a": there is no mesh file "package://p/absent.stl"' "$plumb" run "$work/mesh.urdf"
 expect 3 "/robots/0/urdf" "$plumb" run "$work/robot.json"
