@@ -62,7 +62,9 @@ void add_scene_options(CLI::App& command, RunOptions& o) {
 }
 
 void add_scene_options_but_collider(CLI::App& command, RunOptions& o) {
-    command.add_option("scene", o.scene, "the scene's file, or a robot's .urdf")->required()->type_name("FILE");
+    command.add_option("scene", o.scene, "the scene's file, or a robot's .urdf")
+        ->required()
+        ->type_name("FILE");
     command
         .add_option("--plugin-path", o.plugin_path,
                     "directories to look for plugins in first, separated by ':'")
