@@ -2,9 +2,9 @@
 find_package(CLI11 REQUIRED)
 add_executable(plumb_app app/main.cpp app/check.cpp app/check_collider.cpp app/colliders.cpp
   app/compare.cpp app/comparison.cpp app/comparison_json.cpp app/comparison_rows.cpp app/comparison_text.cpp
-  app/contact_sources.cpp app/free_run.cpp
+  app/contact_sources.cpp app/distinct_files.cpp app/free_run.cpp
   app/effects.cpp app/energy_watch.cpp app/export.cpp
-  app/interrupt.cpp app/progress.cpp app/recorder.cpp app/run.cpp app/run_options.cpp app/statistics.cpp app/summary.cpp
+  app/interrupt.cpp app/plugin_path.cpp app/progress.cpp app/recorder.cpp app/run.cpp app/run_options.cpp app/statistics.cpp app/summary.cpp
   app/usage.cpp)
 set_target_properties(plumb_app PROPERTIES OUTPUT_NAME plumb)
 target_compile_definitions(plumb_app PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")

@@ -1,6 +1,6 @@
 # plumb::host: plugins by name, and the Simulation facade.
 add_library(plumb_host STATIC host/add_bodies.cpp host/choose_collider.cpp host/collider_call.cpp host/collider_library.cpp host/conflicts.cpp
-  host/contact_source.cpp host/load_plugin.cpp host/remote_source.cpp host/shape_pairs.cpp
+  host/contact_source.cpp host/cut_short.cpp host/load_plugin.cpp host/remote_source.cpp host/shape_pairs.cpp
   host/simulation.cpp host/source_proximity.cpp host/watched_collider.cpp)
 add_library(plumb::host ALIAS plumb_host)
 set_target_properties(plumb_host PROPERTIES EXPORT_NAME host)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// plumb colliders: what is installed, its version, and what it can do.
 #include "app/check_collider.h"
+#include "app/plugin_path.h"
 #include "app/verbs.h"
 #include "host/collider_library.h"
 
@@ -113,14 +114,13 @@ Verb add_colliders(CLI::App& command) {
         bool short_list = false, json = false;
     };
     auto options = std::make_shared<Options>();
-    command.add_option("--plugin-path", options->path,
-                       "directories to look for plugins in first, separated by ':'");
+    add_plugin_path_option(command, options->path);
     command.add_flag("--short", options->short_list, "without the tables of pairs");
     command.add_flag("--json", options->json, "as JSON");
-    command.add_option("--check", options->checked,
-                       "run the conformance suite on one plugin, by name or by file");
-    return [options] {
-        if (!options->checked.empty()) return check_collider(options->checked, options->path);
+    const CLI::Option* check = command.add_option(
+        "--check", options->checked, "run the conformance suite on one plugin, by name or by file");
+    return [options, check] {
+        if (check->count() > 0) return check_collider(options->checked, options->path);
         if (options->json) return list_json(options->path);
         return list(options->path, !options->short_list);
     };

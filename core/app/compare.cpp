@@ -6,6 +6,7 @@
 #include "app/comparison_rows.h"
 #include "app/comparison_text.h"
 #include "app/contact_sources.h"
+#include "app/distinct_files.h"
 #include "app/free_run.h"
 #include "app/interrupt.h"
 #include "app/usage.h"
@@ -45,8 +46,7 @@ void check(const Options& o) {
     const std::string ending = std::filesystem::path(o.page).extension().string();
     if (!o.page.empty() && ending != ".html")
         throw UsageError("--out " + o.page + ": a comparison is written to a .html file");
-    if (!o.page.empty() && o.page == o.json)
-        throw UsageError("\"" + o.page + "\" is named twice among the outputs");
+    check_distinct({o.page, o.json});
     const std::set<std::string> distinct(o.colliders.begin(), o.colliders.end());
     if (o.colliders.empty())
         throw UsageError("--colliders is required; write --colliders ode,bullet");

@@ -87,7 +87,7 @@ private:
     std::vector<ContactAnswer> answers_;
 };
 
-/// "all agree so far", or how many pairs of bodies were found by one collider alone.
+/// What the progress bar says of the answers so far.
 std::string so_far(const ComparisonResult& result) {
     return result.agrees() ? "all agree so far" : "they differ";
 }

@@ -1,27 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "app/contact_sources.h"
 
+#include "host/conflicts.h"
 #include "host/remote_source.h"
 
 #include <algorithm>
 #include <csignal>
-#include <sstream>
 
 namespace plumb::app {
 namespace {
 
-/// Whether a plugin names another in a list separated by commas.
-bool names(const PluginTable* table, const std::string& other) {
-    std::stringstream list(table && table->conflicts ? table->conflicts : "");
-    for (std::string name; std::getline(list, name, ',');) {
-        name.erase(0, name.find_first_not_of(' '));
-        if (name == other) return true;
-    }
-    return false;
-}
-
 bool conflict(const ColliderLibrary& colliders, const std::string& x, const std::string& y) {
-    return x != y && (names(colliders.find(x).table, y) || names(colliders.find(y).table, x));
+    return x != y && conflicting(*colliders.find(x).table, *colliders.find(y).table);
 }
 
 std::vector<std::string> answering_command(const std::string& name, const RunOptions& options) {

@@ -44,10 +44,10 @@ int complain(int code, const std::string& sentence) {
     return code;
 }
 
-/// Results that did not get through are no results.
+/// Results that did not get through are no results, also where they tell that colliders differ.
 int finished(int code) {
     const bool written = std::fflush(stdout) == 0 && !std::ferror(stdout);
-    if (written || code != kDone) return code;
+    if (written || (code != kDone && code != kDiffer)) return code;
     return complain(kCannotWrite, "stdout: cannot be written: the disk may be full");
 }
 

@@ -1,36 +1,20 @@
 // SPDX-License-Identifier: MIT
 #include "app/recorder.h"
 
-#include "app/usage.h"
+#include "app/distinct_files.h"
 #include "output/error.h"
 
 #include <cerrno>
 #include <cstring>
-#include <filesystem>
 #include <iostream>
-#include <set>
 
 namespace plumb::app {
-namespace {
-
-/// Two outputs of one name would write over each other.
-void check_distinct(std::vector<std::string> files, const std::string& summary) {
-    if (!summary.empty() && summary != "-") files.push_back(summary);
-    std::set<std::filesystem::path> seen;
-    for (const std::string& file : files) {
-        std::error_code ignored;
-        const auto path = std::filesystem::absolute(file, ignored).lexically_normal();
-        if (!seen.insert(std::filesystem::weakly_canonical(path, ignored)).second)
-            throw UsageError("\"" + file + "\" is named twice among the outputs");
-    }
-}
-
-}  // namespace
-
 Recorder::Recorder(const std::vector<std::string>& files, const std::string& summary,
                    const Scene& scene, const Simulation& simulation)
     : summary_(summary) {
-    check_distinct(files, summary);
+    std::vector<std::string> all = files;
+    all.push_back(summary);
+    check_distinct(all);
     const Metadata metadata{simulation.collider_name(),
                             {{"collider_version", simulation.collider_version()}}};
     for (const std::string& file : files)

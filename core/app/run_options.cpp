@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/run_options.h"
 
+#include "app/plugin_path.h"
 #include "app/usage.h"
 #include "reader/reader.h"
 #include "scene/error.h"
@@ -65,10 +66,7 @@ void add_scene_options_but_collider(CLI::App& command, RunOptions& o) {
     command.add_option("scene", o.scene, "the scene's file, or a robot's .urdf")
         ->required()
         ->type_name("FILE");
-    command
-        .add_option("--plugin-path", o.plugin_path,
-                    "directories to look for plugins in first, separated by ':'")
-        ->type_name("DIRS");
+    add_plugin_path_option(command, o.plugin_path);
     for (const SettingOption& s : kSettingOptions)
         command
             .add_option_function<std::string>(

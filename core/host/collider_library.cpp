@@ -54,6 +54,20 @@ std::string names_of(const std::vector<ColliderInfo>& colliders) {
     return names.empty() ? "none" : names;
 }
 
+/// The plugins that can do a pair; "" where none can.
+std::string names_of_able(const std::vector<ColliderInfo>& colliders, const ShapePairNeed& need) {
+    std::string able;
+    for (const ColliderInfo& c : colliders)
+        if (c.table && supports(*c.table, need)) able += (able.empty() ? "" : ", ") + c.name;
+    return able;
+}
+
+/// "moving mesh against cone, which the scene needs (body "a" and body "b")".
+std::string text_of(const ShapePairNeed& need) {
+    return std::string(need.moving_mesh ? "moving " : "") + name_of(need.a) + " against " +
+           name_of(need.b) + ", which the scene needs (" + need.example + ")";
+}
+
 }  // namespace
 
 ColliderLibrary::ColliderLibrary(const std::string& extra_path, const std::string& only) {
@@ -105,6 +119,10 @@ const ColliderInfo& ColliderLibrary::find(const std::string& name) const {
 ColliderChoice ColliderLibrary::choose(const Scene& scene) const {
     ColliderChoice choice = choose_collider(colliders_, scene);
     if (choice.collider) return choice;
+    for (const ShapePairNeed& need : shape_pair_needs(scene))
+        if (names_of_able(colliders_, need).empty())
+            throw ColliderError("no installed collider can detect " + text_of(need) +
+                                "; installed are: " + names_of(colliders_));
     throw ColliderError(
         "no installed collider supports every pair of shapes of the scene; installed are: " +
         names_of(colliders_));
@@ -113,12 +131,9 @@ ColliderChoice ColliderLibrary::choose(const Scene& scene) const {
 void ColliderLibrary::check_abilities(const ColliderInfo& collider, const Scene& scene) const {
     for (const ShapePairNeed& need : shape_pair_needs(scene)) {
         if (supports(*collider.table, need)) continue;
-        std::string able;
-        for (const ColliderInfo& c : colliders_)
-            if (c.table && supports(*c.table, need)) able += (able.empty() ? "" : ", ") + c.name;
-        throw ColliderError("collider \"" + collider.name + "\" cannot detect " +
-                            (need.moving_mesh ? "moving " : "") + name_of(need.a) + " against " +
-                            name_of(need.b) + ", which the scene needs (" + need.example + "); " +
+        const std::string able = names_of_able(colliders_, need);
+        throw ColliderError("collider \"" + collider.name + "\" cannot detect " + text_of(need) +
+                            "; " +
                             (able.empty() ? "no installed collider can" : "able are: " + able));
     }
 }

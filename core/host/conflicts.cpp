@@ -31,11 +31,14 @@ bool names(const char* list, std::string_view wanted) {
 
 }  // namespace
 
+bool conflicting(const PluginTable& x, const PluginTable& y) {
+    return names(x.conflicts, y.name) || names(y.conflicts, x.name);
+}
+
 std::string conflict_of(const PluginTable& table) {
     const std::lock_guard lock(used().mutex);
     for (const PluginTable* other : used().tables)
-        if (names(table.conflicts, other->name) || names(other->conflicts, table.name))
-            return other->name;
+        if (conflicting(table, *other)) return other->name;
     return {};
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Which plugins have been used in this process, and which may therefore not be used any more.
+/// Which plugins must not share a process, and which have been used in this one.
 #pragma once
 
 #include <plumb/plugin.h>
@@ -7,6 +7,9 @@
 #include <string>
 
 namespace plumb {
+
+/// Whether one of two plugins names the other in its `conflicts`.
+bool conflicting(const PluginTable& x, const PluginTable& y);
 
 /// Name of a plugin used before with which this one must not share a process, by the table of
 /// either; "" where there is none.

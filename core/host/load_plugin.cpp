@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/load_plugin.h"
 
+#include "host/cut_short.h"
 #include "host/exception_text.h"
 
 #include <dlfcn.h>
@@ -12,6 +13,16 @@ namespace plumb {
 namespace {
 
 constexpr const char* kFilePrefix = "plumb_collider_";
+
+/// Why a file must not be handed to the loader, or nothing. A pipe would keep it waiting.
+std::string refusal_of_file(const std::filesystem::path& file) {
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(file, error);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+        return "it is not a regular file";
+    const std::string lacking = cut_short(file);
+    return lacking.empty() ? "" : "it cannot be loaded: " + lacking;
+}
 
 /// Why the first words of a table cannot be trusted, or nothing. The rest of it may not even be
 /// there.
@@ -74,6 +85,8 @@ bool is_plugin_file(const std::filesystem::path& file) {
 
 ColliderInfo load_plugin(const std::filesystem::path& file) {
     ColliderInfo info{file, nullptr, plugin_name_of(file), {}};
+    info.refusal = refusal_of_file(file);
+    if (!info.refusal.empty()) return info;
     void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
     if (!library) {
         const char* why = dlerror();

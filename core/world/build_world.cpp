@@ -48,7 +48,8 @@ BodyMass body_mass(const Scene& scene, std::size_t i) {
     if (!(m.volume > 0) && !(spec.mass && spec.inertia))
         refuse(i, "shape",
                std::string("a ") + name_of(scene.geometries[spec.geometry].kind) +
-                   " that encloses no volume cannot be dynamic unless mass and inertia are given");
+                   " that encloses no volume, or whose triangles are clockwise as seen from "
+                   "outside, cannot be dynamic unless mass and inertia are given");
     result.mass = spec.mass.value_or(scene.materials[spec.material].density * m.volume);
     result.body_in_geometry.position = m.centre;
     if (spec.mass_frame) {

@@ -36,6 +36,9 @@ scene material.json "{\"materials\": {\"wood\": {}}, \"bodies\": [$body, \"mater
 scene effect.json '{"settings": {"require": ["shok_propagation"]}}'
 scene mesh.json '{"bodies": [{"shape": {"mesh": {"obj": "absent.obj"}}, "motion": "fixed"}]}'
 scene cone.json '{"bodies": [{"shape": {"cone": {"radius": 1, "half_height": 1}}}, {"shape": {"cone": {"radius": 1, "half_height": 1}}}]}'
+scene pair.json '{"bodies": [{"shape": {"plane": {}}, "motion": "fixed"},
+  {"shape": {"height_field": {"rows": 2, "columns": 2, "spacing": [1, 1], "heights": [0, 0, 0, 0]}}, "motion": "fixed"},
+  {"shape": {"mesh": {"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "triangles": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}}}]}'
 scene inertia.json "{\"bodies\": [$body, \"mass\": 1, \"inertia\": [1, 1, 5]}]}"
 
 scene torn.urdf '<robot name="r"><link name="a">'
@@ -59,6 +62,7 @@ expect 3 "shock_propagation" "$plumb" check "$work/effect.json"
 expect 3 "absent.obj" "$plumb" check "$work/mesh.json"
 expect 3 "/bodies/0/inertia" "$plumb" check "$work/inertia.json"
 expect 4 "installed are" "$plumb" check "$scenes/stack.json" --collider physx
+expect 4 "no installed collider can detect moving mesh against height_field" "$plumb" run "$work/pair.json"
 expect 4 "able are: bullet" "$plumb" check "$work/cone.json" --collider ode
 expect 4 "version" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider oldabi
 expect 4 "cannot be loaded" "$plumb" check "$scenes/stack.json" --plugin-path "$bad_plugins" --collider junk
@@ -75,6 +79,19 @@ refused short "smaller than this version's"
 refused resized "structs have other sizes"
 refused unmade 'collider "unmade" could not be made: it gave no reason'
 refused throws_made 'collider "throws_made" could not be made: it threw: no licence was found'
+refused folder "it is not a regular file"
+# a copy that was broken off, wherever, is refused and does not stand in the way of others
+mkdir "$work/cut"
+reference=$1/lib/plumb/plugins/plumb_collider_reference.so
+for bytes in 0 40 100 5000 $(($(stat -c %s "$reference") / 2)); do
+  head -c "$bytes" "$reference" >"$work/cut/plumb_collider_cut.so"
+  expect 4 "cannot be loaded" "$plumb" check "$scenes/stack.json" --plugin-path "$work/cut" --collider cut
+  "$plumb" check "$scenes/stack.json" --plugin-path "$work/cut" --collider ode >"$work/out" 2>&1 || failures=$((failures + 1))
+done
+expect 2 "is not a directory; name the one" "$plumb" check "$scenes/stack.json" --plugin-path "$reference"
+expect 2 "there is no such directory" "$plumb" check "$scenes/stack.json" --plugin-path "$work:$work/absent"
+expect 2 "there is no such directory" "$plumb" colliders --plugin-path "$work/absent"
+expect 4 'there is no collider ""' "$plumb" colliders --check ""
 # of two plugins of one name the first is taken; the other is refused with who was first
 good_plugins=$1/lib/plumb/plugins
 expect 4 "$good_plugins/plumb_collider_reference.so has already taken" \

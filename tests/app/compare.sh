@@ -51,6 +51,8 @@ done
 
 # Deep boxes: two colliders take the exact axes for others than the third. Both answers are kept whole.
 ends 1 "The colliders differ." "$scenes/deep_boxes.json" --colliders ode,reference --duration 0.5 --json "$work/deep.json"
+"$plumb" compare "$scenes/deep_boxes.json" --colliders ode,reference --duration 0.1 --quiet >/dev/full 2>"$work/err"
+[ $? = 6 ] && grep -q "stdout: cannot be written" "$work/err" || fail "a difference that could not be told: $(cat "$work/err")"
 grep -q "THEY DIFFER" "$work/out" || fail "no verdict for the pair of colliders"
 "$json_has" "$work/deep.json" /disagreements/0/answers/0/contacts/0/normal /disagreements/0/answers/1/contacts/0/point \
   /disagreements/0/bodies/1/rotation /disagreements/0/words || fail "JSON lacks the answers"
@@ -86,6 +88,7 @@ ends 2 "twice" "$small" --colliders ode,ode
 ends 2 'did you mean "bullet"' "$small" --colliders ode,bullet --drive bulet
 ends 2 ".html" "$small" --colliders ode,bullet --out "$work/x.png"
 ends 2 "named twice" "$small" --colliders ode,bullet --out "$work/x.html" --json "$work/x.html"
+ends 2 "named twice" "$small" --colliders ode,bullet --out "$work/x.html" --json "$work/./x.html"
 ends 2 "--every" "$small" --colliders ode,bullet --every 0
 ends 3 "absent.json" "$work/absent.json" --colliders ode,bullet
 ends 4 "installed are" "$small" --colliders ode,bulet
