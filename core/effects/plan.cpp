@@ -2,6 +2,7 @@
 #include "effects/plan.h"
 
 #include "scene/error.h"
+#include "schedule/joint_trees.h"
 
 #include <algorithm>
 
@@ -72,6 +73,15 @@ Wish gyroscopic(const World& w) {
                    "all moments of inertia are equal");
 }
 Wish joints(const World& w) { return counted(w.joints.size(), "joints", "no joints"); }
+Wish joint_trees(const World& w) {
+    if (w.joints.size() == 0) return {false, "no joints"};
+    if (w.settings.joints == JointMethod::iterate) return {false, "joints are iterated"};
+    const JointForest forest = find_forest(w);
+    const std::string loops = std::to_string(forest.loops) + " close loops";
+    if (w.settings.joints == JointMethod::auto_ && 10 * forest.loops > forest.edges + forest.loops)
+        return {false, "more than one joint in ten closes a loop: " + loops};
+    return counted(forest.edges, "joints form trees, " + loops, "no joint takes away a row");
+}
 Wish kinematics(const World& w) {
     return counted(static_cast<std::size_t>(w.kinematic_count),
                    "bodies are moved by a script or a given velocity", "no kinematic bodies");
@@ -95,6 +105,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"sticking_anchors", sticking_anchors},
     {"gyroscopic", gyroscopic},
     {"joints", joints},
+    {"joint_trees", joint_trees},
     {"kinematics", kinematics},
     {"shock_propagation", shock_propagation},
 }};

@@ -25,10 +25,11 @@ enum class Effect : std::uint32_t {
     sticking_anchors,
     gyroscopic,
     joints,
+    joint_trees,
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 10;
+inline constexpr std::size_t kEffectCount = 11;
 
 struct Decision {
     std::string_view name;

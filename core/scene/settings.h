@@ -10,6 +10,9 @@
 namespace plumb {
 
 enum class Precision : std::uint32_t { single, double_ };
+/// How joints are solved: those that form trees exactly, or all by iterations; auto: exactly unless
+/// more than one in ten closes a loop.
+enum class JointMethod : std::uint32_t { auto_, tree, iterate };
 enum class Gyroscopic : std::uint32_t { conserving, implicit, explicit_ };
 
 struct Settings {
@@ -39,6 +42,9 @@ struct Settings {
         0.02;  ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
     Gyroscopic gyroscopic = Gyroscopic::conserving;
 
+    JointMethod joints = JointMethod::auto_;
+    double joint_tolerance = 1e-8;  ///< up to which trees of joints are closed [m], [rad]
+
     bool warm_start = true;        ///< begin from the impulses of the step before
     bool alternate_sweeps = true;  ///< forwards and backwards in turn
     bool shared_push =
@@ -51,11 +57,12 @@ struct Settings {
 
 /// The paper's step to the letter: no warm start, no alternating sweeps, friction bounds of each
 /// pass apart, no anchors, sums of each pass apart, explicit gyroscopic term, contacts detected
-/// anew in every step.
+/// anew in every step, joints by iterations.
 inline void apply_paper_preset(Settings& s) {
     s.warm_start = s.alternate_sweeps = s.shared_cone = s.shared_push = false;
     s.anchor_stiffness = s.reuse_distance = 0;
     s.gyroscopic = Gyroscopic::explicit_;
+    s.joints = JointMethod::iterate;
 }
 
 }  // namespace plumb

@@ -60,4 +60,47 @@ void find_joint_levels(std::vector<BodyPair>& joints, std::int32_t dynamic_count
     for (BodyPair& j : joints) j.level = std::min(depth_of(j.row_a), depth_of(j.row_b));
 }
 
+JointForest grow_joint_forest(const std::vector<BodyPair>& joints, std::int32_t dynamic_count) {
+    const auto bodies = static_cast<std::size_t>(dynamic_count);
+    std::vector<std::vector<std::uint32_t>> joints_of(bodies);
+    std::vector<std::uint32_t> held;
+    for (std::uint32_t j = 0; j < joints.size(); ++j) {
+        const BodyPair& pair = joints[j];
+        if (pair.count == 0) continue;
+        if (pair.row_a >= dynamic_count || pair.row_b >= dynamic_count) held.push_back(j);
+        for (const std::int32_t row : {pair.row_a, pair.row_b})
+            if (row < dynamic_count) joints_of[row].push_back(j);
+    }
+    JointForest forest;
+    forest.in_tree.assign(joints.size(), 0);
+    std::vector<std::uint8_t> reached(bodies, 0);
+    const auto reach = [&](std::int32_t row, std::int32_t parent, std::uint32_t joint) {
+        if (reached[row]) return;
+        reached[row] = 1;
+        forest.nodes.push_back({row, parent, joint});
+        if (parent != kFree) forest.in_tree[joint] = 1, ++forest.edges;
+    };
+    std::size_t at = 0;
+    const auto spread = [&] {
+        for (; at < forest.nodes.size(); ++at) {
+            const std::int32_t row = forest.nodes[at].row;
+            for (const std::uint32_t j : joints_of[row]) {
+                const std::int32_t other =
+                    joints[j].row_a == row ? joints[j].row_b : joints[j].row_a;
+                if (other < dynamic_count) reach(other, static_cast<std::int32_t>(at), j);
+            }
+        }
+    };
+    for (const std::uint32_t j : held) reach(std::min(joints[j].row_a, joints[j].row_b), kHeld, j);
+    spread();
+    for (std::int32_t row = 0; row < dynamic_count; ++row) {
+        if (joints_of[row].empty()) continue;
+        reach(row, kFree, 0);
+        spread();
+    }
+    for (std::uint32_t j = 0; j < joints.size(); ++j)
+        forest.loops += joints[j].count > 0 && !forest.in_tree[j];
+    return forest;
+}
+
 }  // namespace plumb

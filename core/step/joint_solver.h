@@ -3,9 +3,9 @@
 #pragma once
 
 #include "constraints/drive_rows.h"
-#include "constraints/joint_follow.h"
 #include "schedule/joint_forest.h"
 #include "step/coupling_solver.h"
+#include "step/follow_share.h"
 #include "step/joint_state.h"
 #include "step/lane_blocks.h"
 #include "step/velocity_table.h"
@@ -17,9 +17,14 @@ namespace plumb {
 template <class Real, int W>
 class JointSolver {
 public:
-    JointSolver(const World& world, Workers& workers)
+    /// `elsewhere` [joint]: 1 where a joint's rows are solved by another solver.
+    JointSolver(const World& world, const std::vector<std::uint8_t>& elsewhere, Workers& workers)
         : kernels_(joint_kernels<Real, W>()), workers_(workers) {
-        lay_out(world);
+        lay_out(world, elsewhere);
+    }
+
+    bool empty() const {
+        return balls_.empty() && blocks_.empty() && drives_.empty() && couplings_.empty();
     }
 
     /// Arms, errors and masses at the start of a substep. Impulses start from nothing: those of the
@@ -70,13 +75,14 @@ private:
         return {row_of(world, joint.a), row_of(world, joint.b), item, 1, 0};
     }
 
-    void lay_out(const World& world) {
+    void lay_out(const World& world, const std::vector<std::uint8_t>& elsewhere) {
         std::vector<BodyPair> all, balls, blocks, drives;
         for (std::uint32_t i = 0; i < world.joints.size(); ++i)
             all.push_back(pair_of(world, world.joints.joints[i], i));
         find_joint_levels(all, world.dynamic_count);
         for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
             const Joint& joint = world.joints.joints[i];
+            if (elsewhere[i]) continue;
             if (joint.is_plain_ball()) {
                 ball_joints_.push_back(i);
                 balls.push_back(all[i]);
@@ -99,16 +105,10 @@ private:
     template <class Block>
     static void fill_follow(const World& world, const Joint& joint, Block& block,
                             std::uint32_t lane, double h) {
-        const auto of = [&](std::uint32_t body, const Vector3d& arm) {
-            if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic) return 0.0;
-            const auto& r = joint.rows;
-            return joint_follow(Vector3d(r[0], r[1], r[2]).norm(),
-                                Vector3d(r[3], r[4], r[5]).norm(), arm.norm(),
-                                world.bodies.world_inverse_inertia[body],
-                                h * world.bodies.angular_velocity[body].norm(), h);
-        };
-        block.follow_a[lane] = static_cast<Real>(of(joint.a, joint.frame_a.position));
-        block.follow_b[lane] = static_cast<Real>(of(joint.b, joint.frame_b.position));
+        block.follow_a[lane] =
+            static_cast<Real>(follow_share(world, joint, joint.a, joint.frame_a.position, h));
+        block.follow_b[lane] =
+            static_cast<Real>(follow_share(world, joint, joint.b, joint.frame_b.position, h));
     }
 
     void fill_ball(const World& world, const Joint& joint, std::size_t item, double h) {

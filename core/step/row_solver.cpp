@@ -3,8 +3,10 @@
 
 #include "math/root.h"
 #include "scene/error.h"
+#include "schedule/joint_trees.h"
 #include "step/contact_solver.h"
 #include "step/joint_solver.h"
+#include "step/tree_solver.h"
 
 #include <optional>
 #include <string>
@@ -42,7 +44,7 @@ public:
           shocks_(plan.runs(Effect::shock_propagation)),
           warm_start_(settings_.warm_start && !shocks_),
           contacts_(plan, workers) {
-        if (plan.runs(Effect::joints)) joints_.emplace(world, workers);
+        if (plan.runs(Effect::joints)) take_joints(world, plan.runs(Effect::joint_trees));
         if (shocks_) shock_.emplace(plan, workers);
     }
 
@@ -71,6 +73,7 @@ public:
         if (!contacts_.empty()) clamped = contacts_.begin(world, table_.rows(), pass_);
         if (shocks_) shock_->begin(world, table_.rows(), pass_);
         if (joints_) joints_->begin(world, h);
+        if (trees_) trees_->begin(world, h);
         return clamped;
     }
 
@@ -89,12 +92,19 @@ public:
 
     void solve_positions() override {
         if (contacts_.empty() && !joints_) return;
+        if (trees_ && joints_->empty() && contacts_.empty()) {
+            if (settings_.position_iterations > 0) trees_->solve(table_.rows());
+            return;
+        }
         workers_.run([this](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.position_iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
                 if (joints_) joints_->position_iteration(table_.rows(), pass.h, worker);
                 if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
+                if (!trees_) continue;
+                if (worker == 0) trees_->solve(table_.rows());
+                workers_.barrier();
             }
         });
         sweeps_ += settings_.position_iterations;
@@ -124,9 +134,21 @@ public:
     void store_impulses(World& world) override {
         contacts_.store_impulses(world.contacts);
         if (joints_) joints_->store_impulses(world);
+        if (trees_) trees_->store_impulses(world.joints);
     }
 
 private:
+    /// Joints that form trees are solved exactly where the plan says so, the others by iterations.
+    void take_joints(const World& world, bool trees) {
+        std::vector<std::uint8_t> in_tree(world.joints.size(), 0);
+        if (trees) {
+            const JointForest forest = find_forest(world);
+            trees_.emplace(world, forest);
+            in_tree = forest.in_tree;
+        }
+        joints_.emplace(world, in_tree, workers_);
+    }
+
     bool forwards(std::uint32_t sweep) const {
         return !settings_.alternate_sweeps || sweep % 2 == 0;
     }
@@ -142,6 +164,7 @@ private:
     ContactSolver<Real, W> contacts_;
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<JointSolver<Real, W>> joints_;
+    std::optional<TreeSolver> trees_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_ = 0;  // since the start: each begins in the other direction
     std::uint32_t sweeps_ = 0;

@@ -151,6 +151,7 @@ double widest_gap(Precision precision, std::uint32_t iterations) {
     Scene s;
     use_fine_steps(s.settings);
     s.settings.precision = precision;
+    s.settings.joints = JointMethod::iterate;
     s.settings.position_iterations = iterations;
     for (std::uint32_t i = 0; i < 10; ++i) {
         add_body(s, box(0.25, 0.05, 0.05), {0.25 + 0.5 * i, 0, 0});

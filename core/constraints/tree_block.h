@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: MIT
+/// What a body of a joint tree weighs with all that hangs on it, and how a joint passes that on to
+/// its parent: block LDLᵀ of [M −Jᵀ; J s], leaves first.
+///
+///   M̂ b   mass of a body and its share of the right-hand side, M̂ Δv = b + Jᵀ λ
+///   c p   child and parent of a joint
+///   d     what the joint's rows ask for: J_c Δv_c + J_p Δv_p + s λ = d
+///
+/// Eliminating the child leaves S λ = d − J_p Δv_p − J_c M̂_c⁻¹ b_c with S = J_c M̂_c⁻¹ J_cᵀ + s, and
+/// the parent gains J_pᵀ S⁻¹ J_p. A ball joint is eliminated in coordinates of its own, the
+/// velocity u of its point and ω, where J_c = [E 0]: what is left of the child is the mass S⁻¹ that
+/// is felt at the point.
+#pragma once
+
+#include "constraints/joint_rows.h"
+#include "math/dense.h"
+#include "math/symmetric.h"
+
+namespace plumb {
+
+/// M̂ = [a b; bᵀ d] over (v, ω), and the right-hand side (f, t).
+template <class T>
+struct BodyBlock {
+    Symmetric3<T> a, d;
+    Vector3<T> b[3];  ///< columns
+    Vector3<T> f, t;
+};
+
+/// [r]ₓ e_j.
+template <class T>
+inline Vector3<T> cross_axis(const Vector3<T>& r, int j) {
+    if (j == 0) return Vector3<T>(T(0), r[2], -r[1]);
+    if (j == 1) return Vector3<T>(-r[2], T(0), r[0]);
+    return Vector3<T>(r[1], -r[0], T(0));
+}
+
+/// A mass felt at the point of arm r, and an impulse there, become part of a body.
+template <class T>
+inline void add_at_point(BodyBlock<T>& body, const Symmetric3<T>& mass, const Vector3<T>& r,
+                         const Vector3<T>& impulse) {
+    Vector3<T> turned[3];
+    body.a = body.a + mass;
+    for (int j = 0; j < 3; ++j) {
+        turned[j] = mass * cross_axis(r, j);
+        body.b[j] -= turned[j];
+    }
+    const Vector3<T> x = cross_axis(r, 0), y = cross_axis(r, 1), z = cross_axis(r, 2);
+    body.d = body.d + Symmetric3<T>{dot(x, turned[0]), dot(y, turned[1]), dot(z, turned[2]),
+                                    dot(x, turned[1]), dot(x, turned[2]), dot(y, turned[2])};
+    body.f += impulse;
+    body.t += cross(r, impulse);
+}
+
+/// A symmetric 3 × 3 matrix as L D Lᵀ.
+template <class T>
+struct Factors3 {
+    T l10, l20, l21, i0, i1, i2;  ///< i: 1/D
+
+    explicit Factors3(const Symmetric3<T>& k) {
+        i0 = T(1) / k.xx;
+        l10 = k.xy * i0, l20 = k.xz * i0;
+        i1 = T(1) / (k.yy - l10 * k.xy);
+        const T off = k.yz - l20 * k.xy;
+        l21 = off * i1;
+        i2 = T(1) / ((k.zz - l20 * k.xz) - l21 * off);
+    }
+    Factors3() = default;
+
+    /// L⁻¹ x.
+    Vector3<T> lower(const Vector3<T>& x) const {
+        const T y = x[1] - l10 * x[0];
+        return Vector3<T>(x[0], y, (x[2] - l20 * x[0]) - l21 * y);
+    }
+    /// (L D Lᵀ)⁻¹ x.
+    Vector3<T> solve(const Vector3<T>& x) const {
+        const Vector3<T> y = lower(x);
+        const T x2 = y[2] * i2;
+        const T x1 = y[1] * i1 - l21 * x2;
+        return Vector3<T>((y[0] * i0 - l10 * x1) - l20 * x2, x1, x2);
+    }
+};
+
+/// A body on a ball joint, eliminated: S⁻¹ u = λ + free.
+template <class T>
+struct BallElimination {
+    Symmetric3<T> mass;    ///< S⁻¹: felt at the point [kg]
+    Vector3<T> free;       ///< and the impulse felt there without the joint's own [N s]
+    Vector3<T> across[3];  /// columns: what ω has to do with u
+    Factors3<T> turn;      ///< of ω alone
+    Vector3<T> torque;     ///< right-hand side of ω about the point [N m s]
+};
+
+template <class T>
+inline BallElimination<T> eliminate_ball(const BodyBlock<T>& body, const Vector3<T>& r) {
+    BallElimination<T> e;
+    Vector3<T> axis[3];
+    for (int j = 0; j < 3; ++j) {
+        axis[j] = cross_axis(r, j);
+        e.across[j] = body.a * axis[j] + body.b[j];
+    }
+    // D + [r]ᵀB + (B + A[r])ᵀ[r]
+    const auto entry = [&](int i, int j) {
+        return dot(axis[i], body.b[j]) + dot(e.across[i], axis[j]);
+    };
+    e.turn = Factors3<T>(body.d + Symmetric3<T>{entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1),
+                                                entry(0, 2), entry(1, 2)});
+    e.torque = body.t - cross(r, body.f);
+    Vector3<T> z[3], scaled[3];
+    for (int i = 0; i < 3; ++i) {
+        z[i] = e.turn.lower(Vector3<T>(e.across[0][i], e.across[1][i], e.across[2][i]));
+        scaled[i] = Vector3<T>(z[i][0] * e.turn.i0, z[i][1] * e.turn.i1, z[i][2] * e.turn.i2);
+    }
+    e.mass =
+        body.a + Symmetric3<T>{-dot(z[0], scaled[0]), -dot(z[1], scaled[1]), -dot(z[2], scaled[2]),
+                               -dot(z[0], scaled[1]), -dot(z[0], scaled[2]), -dot(z[1], scaled[2])};
+    const Vector3<T> y = e.turn.lower(e.torque);
+    e.free = body.f - Vector3<T>(dot(scaled[0], y), dot(scaled[1], y), dot(scaled[2], y));
+    return e;
+}
+
+/// The child's velocity from that of the joint's point.
+template <class T>
+inline Velocity<T> substitute_ball(const BallElimination<T>& e, const Vector3<T>& r,
+                                   const Vector3<T>& u) {
+    const Vector3<T> w = e.turn.solve(
+        e.torque - Vector3<T>(dot(e.across[0], u), dot(e.across[1], u), dot(e.across[2], u)));
+    return {u - cross(w, r), w};
+}
+
+/// A body on a joint of any kind, eliminated. Only rows that are taken away are here.
+template <class T>
+struct RowsElimination {
+    int n = 0;
+    T child[6][6], parent[6][6];  ///< J_c, J_p [row][v ω]
+    T softness[6], wish[6];       ///< s, d
+    T own[6][6], free[6];         ///< factors of M̂_c, and M̂_c⁻¹ b_c
+    T moved[6][6];                ///< M̂_c⁻¹ J_cᵀ [row]
+    T response[6][6];             ///< factors of S
+    T lambda[6];
+};
+
+template <class T>
+inline void as_matrix(T (&m)[6][6], T (&rhs)[6], const BodyBlock<T>& body) {
+    const Symmetric3<T>&a = body.a, &d = body.d;
+    const T upper[3][3] = {{a.xx, a.xy, a.xz}, {a.xy, a.yy, a.yz}, {a.xz, a.yz, a.zz}};
+    const T lower[3][3] = {{d.xx, d.xy, d.xz}, {d.xy, d.yy, d.yz}, {d.xz, d.yz, d.zz}};
+    for (int i = 0; i < 3; ++i) {
+        rhs[i] = body.f[i], rhs[3 + i] = body.t[i];
+        for (int j = 0; j < 3; ++j) {
+            m[i][j] = upper[i][j], m[3 + i][3 + j] = lower[i][j];
+            m[3 + i][j] = m[j][3 + i] = body.b[i][j];
+        }
+    }
+}
+
+/// Fills J_c, J_p, s and d; `sign` is 1 where the child is body a, else −1.
+template <class T>
+inline void take_rows(RowsElimination<T>& e, const JointRows<T>& rows,
+                      const JointGeometry<T>& joint, T sign, T inverse_h) {
+    e.n = 0;
+    for (int k = 0; k < 6; ++k) {
+        if (!(joint.lock[k] > T(0))) continue;
+        const Vector3<T> along = k < 3 ? rows.e[k] : Vector3<T>(Vector3<T>::Zero());
+        const Vector3<T>&on_child = sign > T(0) ? rows.g_a[k] : rows.g_b[k],
+              &on_parent = sign > T(0) ? rows.g_b[k] : rows.g_a[k];
+        for (int i = 0; i < 3; ++i) {
+            e.child[e.n][i] = sign * along[i], e.child[e.n][3 + i] = sign * on_child[i];
+            e.parent[e.n][i] = -sign * along[i], e.parent[e.n][3 + i] = -sign * on_parent[i];
+        }
+        e.softness[e.n] = joint.softness[k];
+        e.wish[e.n] = -rows.c[k] * inverse_h;
+        ++e.n;
+    }
+}
+
+template <class T>
+inline void eliminate_rows(RowsElimination<T>& e, const BodyBlock<T>& body) {
+    as_matrix(e.own, e.free, body);
+    factor_ldlt(e.own, 6);
+    solve_factored(e.own, 6, e.free);
+    for (int k = 0; k < e.n; ++k) {
+        for (int i = 0; i < 6; ++i) e.moved[k][i] = e.child[k][i];
+        solve_factored(e.own, 6, e.moved[k]);
+    }
+    for (int k = 0; k < e.n; ++k) {
+        for (int l = 0; l <= k; ++l) {
+            e.response[k][l] = k == l ? e.softness[k] : T(0);
+            for (int i = 0; i < 6; ++i) e.response[k][l] += e.child[k][i] * e.moved[l][i];
+        }
+        for (int i = 0; i < 6; ++i) e.wish[k] -= e.child[k][i] * e.free[i];
+    }
+    factor_ldlt(e.response, e.n);
+}
+
+/// J_pᵀ S⁻¹ J_p and J_pᵀ S⁻¹ d become part of the parent.
+template <class T>
+inline void add_rows(BodyBlock<T>& parent, const RowsElimination<T>& e) {
+    T m[6][6] = {}, rhs[6] = {}, column[6], wish[6];
+    for (int k = 0; k < e.n; ++k) wish[k] = e.wish[k];
+    solve_factored(e.response, e.n, wish);
+    for (int j = 0; j < 6; ++j) {
+        for (int k = 0; k < e.n; ++k) column[k] = e.parent[k][j];
+        solve_factored(e.response, e.n, column);
+        for (int k = 0; k < e.n; ++k) {
+            for (int i = 0; i < 6; ++i) m[i][j] += e.parent[k][i] * column[k];
+            rhs[j] += e.parent[k][j] * wish[k];
+        }
+    }
+    parent.a = parent.a + Symmetric3<T>{m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]};
+    parent.d = parent.d + Symmetric3<T>{m[3][3], m[4][4], m[5][5], m[3][4], m[3][5], m[4][5]};
+    for (int j = 0; j < 3; ++j)
+        for (int i = 0; i < 3; ++i) parent.b[j][i] += m[i][3 + j];
+    for (int i = 0; i < 3; ++i) parent.f[i] += rhs[i], parent.t[i] += rhs[3 + i];
+}
+
+/// The child's velocity from its parent's; leaves λ in `e`.
+template <class T>
+inline Velocity<T> substitute_rows(RowsElimination<T>& e, const Velocity<T>& parent) {
+    for (int k = 0; k < e.n; ++k) {
+        e.lambda[k] = e.wish[k];
+        for (int i = 0; i < 3; ++i)
+            e.lambda[k] -= e.parent[k][i] * parent.v[i] + e.parent[k][3 + i] * parent.w[i];
+    }
+    solve_factored(e.response, e.n, e.lambda);
+    T x[6];
+    for (int i = 0; i < 6; ++i) {
+        x[i] = e.free[i];
+        for (int k = 0; k < e.n; ++k) x[i] += e.moved[k][i] * e.lambda[k];
+    }
+    return {Vector3<T>(x[0], x[1], x[2]), Vector3<T>(x[3], x[4], x[5])};
+}
+
+/// A root that hangs by nothing: M̂ Δv = b.
+template <class T>
+inline Velocity<T> solve_block(const BodyBlock<T>& body) {
+    T m[6][6], x[6];
+    as_matrix(m, x, body);
+    factor_ldlt(m, 6);
+    solve_factored(m, 6, x);
+    return {Vector3<T>(x[0], x[1], x[2]), Vector3<T>(x[3], x[4], x[5])};
+}
+
+/// Stiffness of a turn against an impulse P at arm r, whose torque r × P turns with the arm:
+/// −∂(r × P)/∂ω = h ((P·r) E − r Pᵀ), the symmetric part.
+template <class T>
+inline Symmetric3<T> turning_stiffness(const Vector3<T>& r, const Vector3<T>& p, T h) {
+    const Vector3<T> x = r * h;
+    const T along = dot(x, p), half = T(0.5);
+    return {along - x[0] * p[0],
+            along - x[1] * p[1],
+            along - x[2] * p[2],
+            -half * (x[0] * p[1] + x[1] * p[0]),
+            -half * (x[0] * p[2] + x[2] * p[0]),
+            -half * (x[1] * p[2] + x[2] * p[1])};
+}
+
+}  // namespace plumb

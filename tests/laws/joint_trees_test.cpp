@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+/// Joints that form trees are closed to 1e-6 m whatever hangs on them, at 1/100 s and without
+/// substeps, and what is lost on the way is energy alone.
+#include "math/rotation.h"
+#include "support/random.h"
+#include "support/scenes.h"
+
+#include <algorithm>
+
+namespace plumb::test {
+namespace {
+
+class JointTrees : public testing::TestWithParam<Precision> {};
+INSTANTIATE_TEST_SUITE_P(, JointTrees, testing::Values(Precision::single, Precision::double_),
+                         [](const auto& which) {
+                             return which.param == Precision::single ? "single" : "double";
+                         });
+
+/// §8: a full binary tree of rods, each on a ball joint above its middle, hung up and turning.
+Scene mobile(int levels, Precision precision) {
+    Scene s;
+    s.settings.precision = precision;
+    s.settings.forbid = {"contacts"};
+    Random random(7);
+    std::vector<double> half;
+    std::vector<Rotation> turn;
+    for (int i = 0; i < (1 << levels) - 1; ++i) {
+        int level = 0;
+        while ((2 << level) <= i + 1) ++level;
+        half.push_back(0.3 * std::pow(1.25, levels - 1 - level));
+        turn.push_back(exponential_map({0, level % 2 ? std::numbers::pi / 2 : 0, 0}));
+        JointSpec joint;
+        joint.body_a = static_cast<std::uint32_t>(i);
+        joint.anchor = Vector::Zero();
+        if (i > 0) {
+            const auto parent = static_cast<std::size_t>((i - 1) / 2);
+            joint.body_b = static_cast<std::uint32_t>(parent);
+            joint.anchor = s.bodies[parent].placement.position +
+                           turn[parent] * Vector(i % 2 ? -half[parent] : half[parent], -0.25, 0);
+        }
+        BodySpec& body =
+            add_body(s, box(half.back(), 0.05, 0.05), joint.anchor - Vector(0, 0.25, 0));
+        body.placement.rotation = turn.back();
+        body.angular_velocity = {0, random.number(-0.5, 0.5), 0};
+        s.joints.push_back(joint);
+    }
+    return s;
+}
+
+double widest_gap(Simulation& simulation, double seconds) {
+    double widest = 0;
+    const auto steps = std::llround(seconds / simulation.world().settings.dt);
+    for (long long i = 0; i < steps; ++i) {
+        EXPECT_TRUE(simulation.step().finite);
+        for (double e : joint_errors(simulation.world())) widest = std::max(widest, e);
+        for (double e : joint_turn_errors(simulation.world())) widest = std::max(widest, e);
+    }
+    return widest;
+}
+
+TEST_P(JointTrees, AMobileOf127HoldsForTenSeconds) {
+    Simulation simulation(mobile(7, GetParam()), colliders(), "reference");
+    const double e0 = total_energy(simulation);
+    EXPECT_LT(widest_gap(simulation, 10), 1e-6);
+    EXPECT_LT(total_energy(simulation), e0);
+    EXPECT_GT(total_energy(simulation), e0 - 0.001 * std::abs(e0));
+}
+
+TEST_P(JointTrees, AMobileOf4095HoldsAsWell) {
+    Simulation simulation(mobile(12, GetParam()), colliders(), "reference");
+    EXPECT_LT(widest_gap(simulation, 1), 1e-6);
+}
+
+/// Ten rods that fall from the horizontal: a whip.
+TEST_P(JointTrees, AChainGainsNoEnergy) {
+    Scene s;
+    s.settings.precision = GetParam();
+    for (std::uint32_t i = 0; i < 10; ++i) {
+        add_body(s, box(0.25, 0.05, 0.05), {0.25 + 0.5 * i, 0, 0});
+        JointSpec joint;
+        joint.body_a = i;
+        joint.body_b = i == 0 ? kNoIndex : i - 1;
+        joint.anchor = {0.5 * i, 0, 0};
+        s.joints.push_back(joint);
+    }
+    Simulation simulation(s, colliders(), "reference");
+    const double e0 = total_energy(simulation),
+                 weight = 10 * simulation.world().bodies.mass[0] * 9.81;
+    for (int i = 0; i < 1000; ++i) {
+        ASSERT_TRUE(simulation.step().finite);
+        ASSERT_LT(total_energy(simulation), e0 + 0.01 * weight) << i;
+        for (double e : joint_errors(simulation.world())) ASSERT_LT(e, 1e-6);
+    }
+}
+
+/// Bodies in free flight, linked by joints of all kinds.
+TEST_P(JointTrees, KeepTheMomentumOfAFreeTree) {
+    constexpr JointKind kKinds[] = {JointKind::ball,   JointKind::hinge,     JointKind::fixed,
+                                    JointKind::slider, JointKind::universal, JointKind::planar};
+    Scene s;
+    s.settings.precision = GetParam();
+    s.settings.gravity.setZero();
+    s.settings.forbid = {"contacts"};
+    Random random(3);
+    for (std::uint32_t i = 0; i < 12; ++i) {
+        BodySpec& body = add_body(s, box(0.3, 0.4, 0.5), random.vector(2));
+        body.velocity = random.vector(0.2), body.angular_velocity = random.vector(0.5);
+        if (i == 0) continue;
+        JointSpec joint;
+        joint.kind = kKinds[i % std::size(kKinds)];
+        joint.body_a = i % 2 ? i : (i - 1) / 2, joint.body_b = i % 2 ? (i - 1) / 2 : i;
+        joint.frame = random.rotation();
+        joint.anchor = 0.5 * (s.bodies[joint.body_a].placement.position +
+                              s.bodies[joint.body_b].placement.position);
+        s.joints.push_back(joint);
+    }
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 0.05);  // velocities that the joints bear
+    const Vector p0 = linear_momentum(simulation.world()),
+                 l0 = angular_momentum(simulation.world());
+    EXPECT_LT(widest_gap(simulation, 5), 1e-6);
+    const double rounding = GetParam() == Precision::single ? 1e-5 : 1e-9;
+    EXPECT_LT((linear_momentum(simulation.world()) - p0).norm(), rounding * l0.norm());
+    EXPECT_LT((angular_momentum(simulation.world()) - l0).norm(), rounding * l0.norm());
+}
+
+/// A square of four bars on hinges, one to the world on either side: three joints hang on a tree,
+/// the last closes the loop.
+TEST_P(JointTrees, ALoopIsClosedByIterationsAroundThem) {
+    Scene s;
+    s.settings.precision = GetParam();
+    s.settings.joints = JointMethod::tree;
+    s.settings.forbid = {"contacts"};
+    add_body(s, box(0.05, 0.5, 0.05), {0, 0.5, 0});
+    add_body(s, box(0.5, 0.05, 0.05), {0.5, 1, 0});
+    add_body(s, box(0.05, 0.5, 0.05), {1, 0.5, 0});
+    const Vector anchors[] = {{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}};
+    const std::uint32_t bodies[][2] = {{0, kNoIndex}, {1, 0}, {2, 1}, {2, kNoIndex}};
+    for (int i = 0; i < 4; ++i) {
+        JointSpec joint;
+        joint.kind = JointKind::hinge;
+        joint.body_a = bodies[i][0], joint.body_b = bodies[i][1];
+        joint.anchor = anchors[i];
+        joint.frame = exponential_map({0, -std::numbers::pi / 2, 0});
+        s.joints.push_back(joint);
+    }
+    s.bodies[1].velocity = {1, 0, 0};
+    Simulation simulation(s, colliders(), "reference");
+    double lowest = 1;
+    double widest = 0;
+    for (int i = 0; i < 500; ++i) {
+        ASSERT_TRUE(simulation.step().finite);
+        const World& world = simulation.world();
+        for (double e : joint_errors(world)) widest = std::max(widest, e);
+        lowest = std::min(lowest, world.bodies.position[1].y());
+    }
+    EXPECT_LT(widest, 2e-3);
+    EXPECT_LT(lowest, -0.9) << "it swings through";
+}
+
+TEST(JointTreesPlan, AutoTakesTreesAndLeavesLoops) {
+    Scene s = mobile(3, Precision::single);
+    const auto runs = [&](JointMethod method) {
+        s.settings.joints = method;
+        return make_plan(build_world(s)).runs(Effect::joint_trees);
+    };
+    EXPECT_TRUE(runs(JointMethod::auto_));
+    EXPECT_FALSE(runs(JointMethod::iterate));
+    s.joints.push_back(s.joints[0]);
+    s.joints.back().body_a = 6;
+    EXPECT_FALSE(runs(JointMethod::auto_)) << "one of eight closes a loop";
+    EXPECT_TRUE(runs(JointMethod::tree));
+    s.joints.clear();
+    EXPECT_FALSE(runs(JointMethod::tree));
+}
+
+}  // namespace
+}  // namespace plumb::test
