@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/tree_solver.h"
 
+#include "constraints/tension_rows.h"
 #include "math/rotation.h"
 #include "step/follow_share.h"
 #include "step/joint_state.h"
@@ -144,10 +145,21 @@ void TreeSolver::solve() {
         if (converged && !fresh_) return;
         fresh_ = false;
         const bool follow = step < kBalancedSteps;
+        if (step == kBalancedSteps) forget();
         eliminate(follow);
         substitute(follow);
         ++newton_steps_;
     }
+}
+
+/// Back to v*, where a search that led nowhere began.
+void TreeSolver::forget() {
+    for (Node& node : nodes_) {
+        node.own = {{Vector3d::Zero(), Vector3d::Zero()}};
+        node.impulse.setZero();
+    }
+    for (Rows& rows : rows_) std::fill(std::begin(rows.lambda), std::end(rows.lambda), 0.0);
+    evaluate();
 }
 
 /// Poses at the preview, how far they are off, and how stiff the joints' impulses make the turns.
@@ -204,7 +216,12 @@ double TreeSolver::evaluate_rows(Node& node) {
     const Vector3d parent_change = node.parent >= 0
                                        ? Vector3d(nodes_[node.parent].turn * node.parent_arm)
                                        : Vector3d(Vector3d::Zero());
-    place_impulse(node, node.turn * node.arm, parent_change, node.apart);
+    const Vector3d change = node.turn * node.arm;
+    place_impulse(node, change, parent_change, node.apart);
+    if (rows.geometry.length > 0 && rows.lambda[0] < 0)
+        add_tension_rows<double>(rows.elimination, rows.now.e[0], node.arm + change,
+                                 node.parent_arm + parent_change, -rows.lambda[0],
+                                 rows.geometry.length, h_);
     Vector3d impulse = Vector3d::Zero();
     double worst = 0;
     for (int k = 0; k < 6; ++k) {

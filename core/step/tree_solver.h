@@ -94,6 +94,7 @@ private:
     }
 
     void solve();
+    void forget();
     void begin_node(const World& world, Node& node);
     void begin_rows(const World& world, const Joint& joint, const Node& node);
 

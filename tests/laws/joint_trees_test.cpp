@@ -93,6 +93,27 @@ TEST_P(JointTrees, AChainGainsNoEnergy) {
     }
 }
 
+/// Fifty links of 1 kg and a last one of 1 t, on balls or on short rods.
+TEST_P(JointTrees, ALightChainCarriesAHeavyEnd) {
+    for (const double rod : {0.0, 0.1}) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.forbid = {"contacts"};
+        for (std::uint32_t i = 0; i < 50; ++i) {
+            add_body(s, box(0.25, 0.05, 0.05), {0.25 + 0.5 * i, 0, 0}).mass = i < 49 ? 1 : 1000;
+            JointSpec joint;
+            joint.kind = rod > 0 ? JointKind::distance : JointKind::ball;
+            joint.body_a = i;
+            joint.body_b = i == 0 ? kNoIndex : i - 1;
+            joint.anchor = {0.5 * i + rod, 0, 0};
+            if (rod > 0) joint.anchor_b = Vector(0.5 * i - rod, 0, 0);
+            s.joints.push_back(joint);
+        }
+        Simulation simulation(s, colliders(), "reference");
+        EXPECT_LT(widest_gap(simulation, 5), 1e-6) << "rods of " << 2 * rod << " m";
+    }
+}
+
 /// Bodies in free flight, linked by joints of all kinds.
 TEST_P(JointTrees, KeepTheMomentumOfAFreeTree) {
     constexpr JointKind kKinds[] = {JointKind::ball,   JointKind::hinge,     JointKind::fixed,

@@ -101,9 +101,10 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
     [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
                                   position_iterations, method, precision, threads, lanes, margin,
                                   reuse_distance, stiffness, recovery_speed, collision_depth,
-                                  anchor_stiffness, gyroscopic, warm_start, alternate_sweeps,
-                                  shared_push, shared_cone, require, forbid] = settings;
-    constexpr std::size_t kMembers = 23, kPreset = 1;
+                                  anchor_stiffness, gyroscopic, joints, joint_tolerance, warm_start,
+                                  alternate_sweeps, shared_push, shared_cone, require, forbid] =
+        settings;
+    constexpr std::size_t kMembers = 25, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "dt",
@@ -121,6 +122,8 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "collision_depth",
                              "anchor_stiffness",
                              "gyroscopic",
+                             "joints",
+                             "joint_tolerance",
                              "warm_start",
                              "alternate_sweeps",
                              "shared_push",
