@@ -77,6 +77,9 @@ Wish joint_trees(const World& w) {
     if (w.joints.size() == 0) return {false, "no joints"};
     if (w.settings.joints == JointMethod::iterate) return {false, "joints are iterated"};
     const JointForest forest = find_forest(w);
+    const bool driven = !w.joints.drives.empty() || !w.joints.couplings.empty();
+    if (w.settings.joints == JointMethod::auto_ && driven)
+        return {false, "limits, motors, springs and couplings share their joints' iterations"};
     const std::string loops = std::to_string(forest.loops) + " close loops";
     if (w.settings.joints == JointMethod::auto_ && 10 * forest.loops > forest.edges + forest.loops)
         return {false, "more than one joint in ten closes a loop: " + loops};

@@ -86,7 +86,7 @@ const Table<Settings>& settings_table() {
                                       {"iterate", JointMethod::iterate}}},
                  &S::joints,
                  "joints that form trees are solved exactly, or all by iterations; auto: exactly "
-                 "unless more than one in ten closes a loop"),
+                 "unless more than one in ten closes a loop, or some are driven or limited"),
         field<S>("joint_tolerance", Number{{1e-12, 1}}, &S::joint_tolerance,
                  "up to which trees of joints are closed [m], [rad]"),
         field<S>("warm_start", Flag{}, &S::warm_start,

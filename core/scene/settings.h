@@ -11,7 +11,7 @@ namespace plumb {
 
 enum class Precision : std::uint32_t { single, double_ };
 /// How joints are solved: those that form trees exactly, or all by iterations; auto: exactly unless
-/// more than one in ten closes a loop.
+/// more than one in ten closes a loop, or some are driven or limited.
 enum class JointMethod : std::uint32_t { auto_, tree, iterate };
 enum class Gyroscopic : std::uint32_t { conserving, implicit, explicit_ };
 
