@@ -85,7 +85,8 @@ public:
     };
     JointMotion joint_motion(std::uint32_t joint, std::uint32_t axis) const;
 
-    /// Force at the joint's point of body a and torque on a, from b, over the last substep.
+    /// Force at the joint's point of body a and torque on a, from b: the mean of the last two
+    /// substeps.
     JointLoad joint_load(std::uint32_t joint) const;
 
     /// Whether a joint gave way to more than its breaking force or torque.

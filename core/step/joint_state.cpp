@@ -52,7 +52,7 @@ JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::u
 JointLoad joint_load(const World& world, std::uint32_t index) {
     const Joint& joint = world.joints.joints[index];
     const JointPose pose = joint_pose(world.bodies, joint);
-    const double per_second = world.settings.substeps / world.settings.dt;
+    const double per_second = 0.5 * world.settings.substeps / world.settings.dt;
     JointLoad load;
     const auto turned = [&](std::uint32_t body, const Vector3d& v) -> Vector3d {
         return body == kNoIndex ? v : Vector3d(world.bodies.orientation[body] * v);
@@ -62,15 +62,16 @@ JointLoad joint_load(const World& world, std::uint32_t index) {
         Vector3d along =
             joint.is_plain_ball() ? Vector3d(Vector3d::Unit(k)) : Vector3d(pose.axes_b.col(k));
         if (joint.length > 0 && apart.norm() > 0) along = apart.normalized();
-        load.force += joint.rows[k] * along;
-        load.torque += joint.rows[3 + k] *
+        load.force += (joint.rows[k] + joint.rows_before[k]) * along;
+        load.torque += (joint.rows[3 + k] + joint.rows_before[3 + k]) *
                        turned(joint.a, joint.turns[k].u).cross(turned(joint.b, joint.turns[k].w));
     }
     for (const JointDrive& drive : world.joints.drives) {
         if (drive.joint != index) continue;
         const JointCoordinate q = joint_coordinate(world, index, drive.axis);
-        load.force += drive.impulse * q.along;
-        if (q.along.isZero()) load.torque += drive.impulse * q.turn_a;
+        const double impulse = drive.impulse + drive.impulse_before;
+        load.force += impulse * q.along;
+        if (q.along.isZero()) load.torque += impulse * q.turn_a;
     }
     return {per_second * load.force, per_second * load.torque};
 }

@@ -16,8 +16,9 @@ int free_turns(const Joint& joint);
 /// free axis is counted through whole turns.
 JointCoordinate joint_coordinate(const World& world, std::uint32_t joint, std::uint32_t axis);
 
-/// Force at the joint's point of a and torque on a, from b, over the last substep; world frame [N],
-/// [N m]. Motors, springs, limits and friction of the joint are part of it.
+/// Force at the joint's point of a and torque on a, from b; world frame [N], [N m]. Motors,
+/// springs, limits and friction of the joint are part of it. The mean of the last two substeps:
+/// iterations sweep forwards and backwards in turn, and so does what they have not settled.
 struct JointLoad {
     Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
 };

@@ -34,6 +34,9 @@ public:
 
     /// Once a step: impulses, into ContactTable::memory.
     virtual void store_impulses(World& world) = 0;
+
+    /// At the end of a step's last two substeps: impulses of joints and drives, into JointTable.
+    virtual void store_joint_impulses(World& world) = 0;
 };
 
 /// Throws SceneError when this processor cannot run Settings::lanes.

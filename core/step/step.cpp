@@ -54,6 +54,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::shock_propagation))
             timed(Stage::shock, [&] { solver.propagate_shock(); });
         timed(Stage::move, [&] { move(world, solver, h); });
+        if (plan.runs(Effect::joints) && i + 2 >= world.settings.substeps)
+            timed(Stage::remember, [&] { solver.store_joint_impulses(world); });
         world.time += h;
     }
     timed(Stage::remember, [&] {

@@ -34,6 +34,7 @@ struct Joint {
     bool broken = false;                             ///< a broken joint acts no more
     std::array<double, kJointAxes> rows{};  ///< impulses of the last substep [N s], [N m s]; of a
                                             ///< plain ball along the world's axes
+    std::array<double, kJointAxes> rows_before{};  ///< and of the one before it
 
     /// Solved by the kernel for one common point, which is quicker.
     bool is_plain_ball() const {
@@ -49,7 +50,8 @@ struct JointDrive {
     std::uint32_t joint = 0, axis = 0;  ///< index into JointTable::joints; JointAxis
     DriveKind kind = DriveKind::limit;
     JointAxisSpec spec;
-    double impulse = 0;  ///< of the last substep [N s], [N m s]
+    double impulse = 0;         ///< of the last substep [N s], [N m s]
+    double impulse_before = 0;  ///< and of the one before it
 };
 
 /// q_b = ratio q_a + offset.
