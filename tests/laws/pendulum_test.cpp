@@ -142,7 +142,7 @@ TEST_P(Pendulum, TwoRodsSwingAsTheirEquationsSay) {
     }
     std::cout << "the tip is off by " << errors[0] << ", " << errors[1] << ", " << errors[2]
               << " m at 20, 40, 80 substeps\n";
-    EXPECT_LT(errors[0], 0.05 * 2);
+    EXPECT_LT(errors[0], 0.005 * 2);
     EXPECT_GT(std::log2(errors[0] / errors[2]) / 2, 0.9);
 }
 
