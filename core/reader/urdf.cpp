@@ -47,6 +47,8 @@ public:
         for (std::size_t i = 1; i < groups_.size(); ++i) add_joint(i, factors[i]);
         add_couplings();
         keep_apart(first_body);
+        if (!root_moves()) keep_from_fixed(first_body);
+        note_missing_shapes(first_body);
         for (const std::string& remark : remarks_)
             scene_.remarks.push_back(file_name_ + ": " + remark);
         return std::move(robot_);
@@ -164,6 +166,40 @@ private:
         }
         if (!overlapping.empty())
             remarks_.push_back("links that overlap at the start do not collide: " + overlapping);
+    }
+
+    /// What is held in the world and begins inside something fixed cannot be pushed out of it.
+    void keep_from_fixed(std::uint32_t first) {
+        std::string sunk;
+        const auto end = static_cast<std::uint32_t>(scene_.bodies.size());
+        for (std::uint32_t a = 0; a < first; ++a) {
+            for (std::uint32_t b = first; b < end; ++b) {
+                const BodySpec &x = scene_.bodies[a], &y = scene_.bodies[b];
+                if (x.motion != Motion::fixed || y.motion == Motion::fixed || !begins_in(y, x))
+                    continue;
+                sunk += (sunk.empty() ? "" : "; ") + y.name + " and " + x.name;
+                scene_.apart.push_back({a, b});
+            }
+        }
+        if (!sunk.empty())
+            remarks_.push_back("links that begin in a fixed body do not collide with it: " + sunk);
+    }
+
+    /// Whether a link begins in a fixed body that is a plane or convex.
+    bool begins_in(const BodySpec& link, const BodySpec& fixed) const {
+        if (link.geometry == kNoIndex || fixed.geometry == kNoIndex) return false;
+        const Geometry& other = scene_.geometries[fixed.geometry];
+        if (other.kind == ShapeKind::plane)
+            return lowest_point(scene_.geometries[link.geometry],
+                                inverse(fixed.placement) * link.placement) < -kTouching;
+        return other.kind != ShapeKind::mesh && are_overlapping(link, fixed);
+    }
+
+    void note_missing_shapes(std::uint32_t first) {
+        for (std::size_t i = first; i < scene_.bodies.size(); ++i)
+            if (scene_.bodies[i].geometry != kNoIndex) return;
+        remarks_.push_back(
+            "none of its links has a \"collision\" element, so it collides with nothing");
     }
 
     bool are_overlapping(const BodySpec& a, const BodySpec& b) const {

@@ -181,7 +181,7 @@ TEST_F(Robots, StartWhereTheirJointsAreSaidToBe) {
 
 TEST_F(Robots, StartAtTheLimitNearestTo0) {
     const Scene scene = scene_of(
-        link("a") + link("b") +
+        link("a", collision(R"(<sphere radius="0.3"/>)")) + link("b") +
         joint("revolute", "a", "b", R"(<limit lower="0.5" upper="2" effort="1" velocity="1"/>)"));
     EXPECT_EQ(scene.joints[0].axes[kTurnX].lower, 0);
     EXPECT_EQ(scene.joints[0].axes[kTurnX].upper, 1.5);
@@ -308,13 +308,54 @@ TEST_F(Robots, LinksThatOverlapAtTheStartDoNotCollide) {
     expect_words(bent.remarks[0], "do not collide: r/a and r/c");
 }
 
+TEST_F(Robots, LinksThatBeginInTheGroundDoNotCollideWithItWhereTheBaseIsFixed) {
+    const std::string ball = collision(R"(<sphere radius="0.3"/>)");
+    const std::string along = R"(<origin xyz="0 0 1"/><axis xyz="1 0 0"/>)";
+    const std::filesystem::path file =
+        write("robot.urdf",
+              robot(link("a", ball) + link("b", ball) + link("c", ball) +
+                    joint("continuous", "a", "b", along) + joint("continuous", "b", "c", along)));
+    Scene ground;
+    for (const ShapeKind kind : {ShapeKind::plane, ShapeKind::box}) {
+        BodySpec body;
+        body.name = kind == ShapeKind::plane ? "floor" : "block";
+        body.motion = Motion::fixed;
+        body.geometry = static_cast<std::uint32_t>(ground.geometries.size());
+        body.placement.position = {0, kind == ShapeKind::plane ? 0.8 : 0.4, 0};
+        Geometry shape;
+        shape.kind = kind, shape.half_extents = {1, 0.4, 1};
+        ground.geometries.push_back(shape);
+        ground.bodies.push_back(body);
+    }
+    UrdfOptions options;
+    options.base = RobotBase::fixed;
+    Scene held = ground;
+    add_robot(held, file, options);
+    const std::vector<std::array<std::uint32_t, 2>> wanted = {{0, 3}, {1, 3}};  // b alone
+    EXPECT_EQ(held.apart, wanted);
+    ASSERT_EQ(held.remarks.size(), 1u);
+    expect_words(held.remarks[0], "do not collide with it: r/b and floor; r/b and block");
+
+    options.base = RobotBase::free;
+    Scene free = ground;
+    add_robot(free, file, options);
+    EXPECT_TRUE(free.apart.empty());
+}
+
+TEST_F(Robots, WithoutShapesAreToldOf) {
+    const Scene bare = scene_of(link("a") + link("b") + joint("continuous", "a", "b"));
+    ASSERT_EQ(bare.remarks.size(), 1u);
+    expect_words(bare.remarks[0], "it collides with nothing");
+}
+
 TEST_F(Robots, VisualElementsAreNotRead) {
     const Scene scene = scene_of(
         R"(<material name="m"/>)" +
         link("a",
              R"(<visual><geometry><mesh filename="gone.dae"/></geometry><material/></visual>)"));
     EXPECT_TRUE(scene.geometries.empty());
-    EXPECT_TRUE(scene.remarks.empty());
+    ASSERT_EQ(scene.remarks.size(), 1u);
+    expect_words(scene.remarks[0], "none of its links has a \"collision\" element");
 }
 
 TEST_F(Robots, StandOnTheGroundWhenReadAlone) {
