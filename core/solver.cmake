@@ -1,6 +1,7 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
-  world/build_joints.cpp world/build_world.cpp world/mass_properties.cpp world/shape_store.cpp
+  world/body_row.cpp world/build_joints.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
+  world/mass_properties.cpp world/shape_store.cpp
   schedule/colouring.cpp schedule/joint_forest.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/plan.cpp

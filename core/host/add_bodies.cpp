@@ -14,37 +14,58 @@ void check(const Status& status, const std::string& collider, const std::string&
                         (status.message ? status.message : "it gave no reason"));
 }
 
-void add_shapes(Proximity& proximity, const World& world, const Scene& scene,
-                const std::string& collider) {
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        const BodySpec& spec = scene.bodies[i];
-        if (spec.geometry == kNoIndex) continue;
-        ShapePlacement placement{};
-        placement.shape = world.shapes[spec.geometry];
-        const Placement& local = world.bodies.geometry_in_body[i];
-        placement.local = {to_plain(local.position), to_plain(local.rotation)};
-        placement.mobility = static_cast<Mobility>(spec.motion);
-        placement.group = spec.group;
-        placement.mask = spec.mask;
-        check(proximity.add(i, placement), collider, "shape of body " + std::to_string(i));
-    }
-}
-
-void exclude_pairs(Proximity& proximity, const World& world, const Scene& scene,
-                   const std::string& collider) {
-    for (const std::uint64_t key : world.excluded) {
-        const auto a = static_cast<std::uint32_t>(key >> 32), b = static_cast<std::uint32_t>(key);
-        if (scene.bodies[a].geometry == kNoIndex || scene.bodies[b].geometry == kNoIndex) continue;
-        check(proximity.exclude(a, b, true), collider, "pair of bodies kept apart");
-    }
-}
+std::string name_of(std::uint32_t id) { return "body " + std::to_string(id); }
 
 }  // namespace
 
-void add_bodies(Proximity& proximity, const World& world, const Scene& scene,
-                const std::string& collider) {
-    add_shapes(proximity, world, scene, collider);
-    exclude_pairs(proximity, world, scene, collider);
+BodyRow shape_row(const Bodies& b, std::uint32_t place) {
+    BodyRow row;
+    row.id = b.id[place], row.motion = b.motion[place];
+    row.geometry = b.geometry[place], row.geometry_in_body = b.geometry_in_body[place];
+    row.group = b.group[place], row.mask = b.mask[place];
+    return row;
+}
+
+void add_bodies(Proximity& proximity, const World& world, const std::string& collider) {
+    std::uint32_t added = 0;
+    try {
+        for (; added < world.bodies.size(); ++added)
+            add_body(proximity, world, added, shape_row(world.bodies, added), collider);
+        for (const std::uint64_t key : world.excluded)
+            exclude_pair(proximity, world, key, true, collider);
+    } catch (...) {
+        while (added-- > 0)
+            if (world.bodies.geometry[added] != kNoIndex) proximity.remove(added);
+        throw;
+    }
+}
+
+void add_body(Proximity& proximity, const World& world, std::uint32_t place, const BodyRow& row,
+              const std::string& collider) {
+    if (row.geometry == kNoIndex) return;
+    ShapePlacement placement{};
+    placement.shape = world.shapes[row.geometry];
+    const Placement& local = row.geometry_in_body;
+    placement.local = {to_plain(local.position), to_plain(local.rotation)};
+    placement.mobility = static_cast<Mobility>(row.motion);
+    placement.group = row.group;
+    placement.mask = row.mask;
+    check(proximity.add(place, placement), collider, "shape of " + name_of(row.id));
+}
+
+void remove_body(Proximity& proximity, const World& world, std::uint32_t place,
+                 const std::string& collider) {
+    if (world.bodies.geometry[place] == kNoIndex) return;
+    check(proximity.remove(place), collider, "removal of " + name_of(world.bodies.id[place]));
+}
+
+void exclude_pair(Proximity& proximity, const World& world, std::uint64_t key, bool excluded,
+                  const std::string& collider) {
+    const auto a = static_cast<std::uint32_t>(key >> 32), b = static_cast<std::uint32_t>(key);
+    const Bodies& bodies = world.bodies;
+    if (bodies.geometry[a] == kNoIndex || bodies.geometry[b] == kNoIndex) return;
+    check(proximity.exclude(a, b, excluded), collider,
+          excluded ? "pair of bodies kept apart" : "pair of bodies that may touch again");
 }
 
 }  // namespace plumb

@@ -1,20 +1,35 @@
 // SPDX-License-Identifier: MIT
-/// A scene's shapes, handed to a collider.
+/// A world's shapes, handed to a collider. What the collider, called `collider`, refuses is thrown
+/// as ColliderError.
 #pragma once
 
 #include <plumb/proximity.h>
 
-#include "scene/scene.h"
+#include "world/body_row.h"
 #include "world/world.h"
 
 #include <string>
 
 namespace plumb {
 
-/// Adds every body that has a shape, under its index, and excludes the pairs that joints link.
-/// The world's shapes must outlive the collider's use of them. Throws ColliderError with what the
-/// collider, called `collider`, refused.
-void add_bodies(Proximity& proximity, const World& world, const Scene& scene,
-                const std::string& collider);
+/// What a row of the table says of its body's shape.
+BodyRow shape_row(const Bodies& bodies, std::uint32_t place);
+
+/// Adds every body that has a shape, under its place, and excludes the pairs that are kept apart.
+/// The world's shapes must outlive the collider's use of them. Where the collider refuses one, it
+/// is left without any.
+void add_bodies(Proximity& proximity, const World& world, const std::string& collider);
+
+/// Adds one body, if it has a shape, under its coming place.
+void add_body(Proximity& proximity, const World& world, std::uint32_t place, const BodyRow& row,
+              const std::string& collider);
+
+/// Removes one body, if it has a shape.
+void remove_body(Proximity& proximity, const World& world, std::uint32_t place,
+                 const std::string& collider);
+
+/// Excludes a pair of bodies, given as pair_key, if both have shapes, or lets it in again.
+void exclude_pair(Proximity& proximity, const World& world, std::uint64_t key, bool excluded,
+                  const std::string& collider);
 
 }  // namespace plumb

@@ -44,7 +44,7 @@ LocalSource::LocalSource(const Scene& scene, const ColliderLibrary& colliders,
     const ColliderInfo& info = checked(scene, colliders, name);
     collider_ = colliders.create(info, 1);
     info_ = {info.name, text_of(info.table->backend_version), text_of(info.table->precision)};
-    add_bodies(*collider_, world_, scene, name);
+    add_bodies(*collider_, world_, name);
 }
 
 ContactAnswer LocalSource::ask(const ContactQuestion& question) {

@@ -1,61 +1,97 @@
 // SPDX-License-Identifier: MIT
 #include "host/simulation.h"
 
-#include "host/add_bodies.h"
+#include "host/simulation_parts.h"
 #include "measure/measure.h"
 #include "scene/error.h"
-#include "step/step.h"
+#include "world/derived.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 namespace plumb {
 
-struct Simulation::Parts {
-    World world;
-    Stepper stepper;
-    ProximityPtr owned;
-    Proximity& proximity;
-    std::string collider_name, collider_version, collider_reason;
+namespace {
 
-    Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
-          std::string version)
-        : world(build_world(scene)),
-          stepper(world),
-          owned(std::move(plugin)),
-          proximity(p),
-          collider_name(std::move(name)),
-          collider_version(std::move(version)) {
-        auto& warnings = stepper.plan.warnings;
-        warnings.insert(warnings.begin(), scene.remarks.begin(), scene.remarks.end());
-        if (!stepper.plan.runs(Effect::contacts)) return;
-        add_bodies(proximity, world, scene, collider_name);
-    }
+/// What edits need of a scene.
+Scene stock_of(const Scene& scene) {
+    Scene stock;
+    stock.materials = scene.materials, stock.material_pairs = scene.material_pairs;
+    stock.geometries = scene.geometries;
+    stock.remarks = scene.remarks;
+    return stock;
+}
 
-    std::size_t checked(std::uint32_t body) const {
-        if (body >= world.bodies.size())
-            throw std::out_of_range("there is no body " + std::to_string(body));
-        return body;
-    }
+/// The index of the entry of an identifier in a table that is sorted by them.
+template <class Entry>
+std::uint32_t index_of(const std::vector<Entry>& table, std::uint32_t id, std::uint32_t next_id,
+                       const char* kind) {
+    const auto at = std::lower_bound(table.begin(), table.end(), id,
+                                     [](const Entry& e, std::uint32_t x) { return e.id < x; });
+    if (at != table.end() && at->id == id) return static_cast<std::uint32_t>(at - table.begin());
+    const std::string name = kind + (" " + std::to_string(id));
+    throw std::out_of_range(id < next_id ? name + " was removed" : "there is no " + name);
+}
 
-    /// The collider, for questions at the poses of its last detection.
-    Proximity& placed() const {
-        if (!stepper.plan.runs(Effect::contacts))
-            throw std::logic_error("the scene has no contacts, so the collider has no bodies");
-        if (world.steps == 0)
-            throw std::logic_error("the collider has no poses before the first step");
-        return proximity;
-    }
+}  // namespace
 
-    /// Throws unless the collider answered a question.
-    void expect_answer(const Status& status, const std::string& question) const {
-        if (status.code == Status::ok) return;
-        const std::string sentence = "collider \"" + collider_name + "\" gave no " + question +
-                                     ": " + (status.message ? status.message : "it gave no reason");
-        if (status.code == Status::bad_argument) throw std::invalid_argument(sentence);
-        throw ColliderError(sentence);
-    }
-};
+Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
+                         std::string version)
+    : stock(stock_of(scene)),
+      world(build_world(scene)),
+      stepper(world),
+      owned(std::move(plugin)),
+      proximity(p),
+      collider_name(std::move(name)),
+      collider_version(std::move(version)) {
+    auto& warnings = stepper.plan.warnings;
+    warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    if (!stepper.plan.runs(Effect::contacts)) return;
+    add_bodies(proximity, world, collider_name);
+    filled = true;
+}
+
+void Simulation::Parts::renew() {
+    if (!outdated) return;
+    assign_rows(world);
+    stepper.renew(world);
+    auto& warnings = stepper.plan.warnings;
+    warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    outdated = false;
+}
+
+std::uint32_t Simulation::Parts::place(std::uint32_t body) const {
+    if (const auto found = world.places.find(body)) return *found;
+    const std::string name = "body " + std::to_string(body);
+    throw std::out_of_range(world.places.knew(body) ? name + " was removed"
+                                                    : "there is no " + name);
+}
+
+std::uint32_t Simulation::Parts::joint_index(std::uint32_t joint) const {
+    return index_of(world.joints.joints, joint, world.joints.next_id, "joint");
+}
+
+std::uint32_t Simulation::Parts::coupling_index(std::uint32_t coupling) const {
+    return index_of(world.joints.couplings, coupling, world.joints.next_coupling_id, "coupling");
+}
+
+Proximity& Simulation::Parts::placed() {
+    renew();
+    if (!stepper.plan.runs(Effect::contacts))
+        throw std::logic_error("the scene has no contacts, so the collider has no bodies");
+    if (!looked) throw std::logic_error("the collider has no poses before the first step");
+    return proximity;
+}
+
+void Simulation::Parts::expect_answer(const Status& status, const std::string& question) const {
+    if (status.code == Status::ok) return;
+    const std::string sentence = "collider \"" + collider_name + "\" gave no " + question + ": " +
+                                 (status.message ? status.message : "it gave no reason");
+    if (status.code == Status::bad_argument) throw std::invalid_argument(sentence);
+    throw ColliderError(sentence);
+}
 
 namespace {
 
@@ -83,17 +119,23 @@ Simulation::Simulation(const Scene& scene, const ColliderLibrary& colliders,
     parts_ = std::make_unique<Parts>(scene, std::move(plugin), proximity, info.name,
                                      version ? version : "");
     parts_->collider_reason = choice.reason;
+    parts_->library = colliders;
 }
 
 Simulation::~Simulation() = default;
 
 StepReport Simulation::step() {
+    parts_->renew();
+    parts_->looked = parts_->looked || parts_->stepper.plan.runs(Effect::contacts);
     return plumb::step(parts_->world, parts_->stepper, parts_->proximity);
 }
 double Simulation::time() const { return parts_->world.time; }
 std::uint64_t Simulation::steps() const { return parts_->world.steps; }
 const World& Simulation::world() const { return parts_->world; }
-const Plan& Simulation::plan() const { return parts_->stepper.plan; }
+const Plan& Simulation::plan() const {
+    parts_->renew();
+    return parts_->stepper.plan;
+}
 const Ledger& Simulation::ledger() const { return parts_->stepper.ledger; }
 DetectStats Simulation::detect_stats() const { return parts_->proximity.stats(); }
 const std::string& Simulation::collider_name() const { return parts_->collider_name; }
@@ -108,46 +150,43 @@ std::optional<RayHit> Simulation::cast_ray(const Eigen::Vector3d& origin,
     RayHit hit{kNoBody, 0, 0, {0, 0, 0}};
     parts_->expect_answer(parts_->placed().cast_rays(&ray, &hit, 1), "hit of a ray");
     if (hit.body == kNoBody) return std::nullopt;
+    const std::vector<std::uint32_t>& ids = parts_->world.bodies.id;
+    if (hit.body >= ids.size())
+        throw ColliderError("collider \"" + parts_->collider_name +
+                            "\" says that a ray hits a body that there is not");
+    hit.body = ids[hit.body];
     return hit;
-}
-
-Contact Simulation::closest(std::uint32_t body_a, std::uint32_t body_b) {
-    parts_->checked(body_a), parts_->checked(body_b);
-    Contact contact{};
-    parts_->expect_answer(parts_->placed().closest(body_a, body_b, &contact), "closest points");
-    return contact;
-}
-
-void Simulation::set_velocity(std::uint32_t body, const Eigen::Vector3d& v,
-                              const Eigen::Vector3d& w) {
-    Bodies& b = parts_->world.bodies;
-    const std::size_t i = parts_->checked(body);
-    if (b.motion[i] == Motion::fixed) throw std::invalid_argument("a fixed body has no velocity");
-    b.velocity[i] = v, b.angular_velocity[i] = w;
-}
-
-void Simulation::set_force(std::uint32_t body, const Eigen::Vector3d& force,
-                           const Eigen::Vector3d& torque) {
-    const std::size_t i = parts_->checked(body);
-    parts_->world.bodies.force[i] = force, parts_->world.bodies.torque[i] = torque;
 }
 
 namespace {
 
-const Joint& checked_joint(const World& world, std::uint32_t joint) {
-    if (joint >= world.joints.size())
-        throw std::out_of_range("there is no joint " + std::to_string(joint));
-    return world.joints.joints[joint];
+/// The same contact with its bodies in the other order.
+Contact swapped(Contact c) {
+    std::swap(c.a, c.b);
+    std::swap(c.point_a, c.point_b);
+    std::swap(c.radius_a, c.radius_b);
+    std::swap(c.part_a, c.part_b);
+    c.normal = {-c.normal.x, -c.normal.y, -c.normal.z};
+    return c;
 }
 
 }  // namespace
 
+Contact Simulation::closest(std::uint32_t body_a, std::uint32_t body_b) {
+    const std::uint32_t a = parts_->place(body_a), b = parts_->place(body_b);
+    Contact contact{};
+    parts_->expect_answer(parts_->placed().closest(a, b, &contact), "closest points");
+    contact.a = a < b ? body_a : body_b, contact.b = a < b ? body_b : body_a;
+    return contact.a < contact.b ? contact : swapped(contact);
+}
+
 Simulation::JointMotion Simulation::joint_motion(std::uint32_t joint, std::uint32_t axis) const {
     const World& world = parts_->world;
-    const Joint& j = checked_joint(world, joint);
+    const std::uint32_t index = parts_->joint_index(joint);
+    const Joint& j = world.joints.joints[index];
     if (axis >= kJointAxes || j.locked[axis])
         throw std::invalid_argument("the joint has no free axis " + std::to_string(axis));
-    const JointCoordinate q = joint_coordinate(world, joint, axis);
+    const JointCoordinate q = joint_coordinate(world, index, axis);
     const auto part = [&](std::uint32_t body, const Vector3d& turn) {
         if (body == kNoIndex) return 0.0;
         return q.along.dot(world.bodies.velocity[body]) +
@@ -157,24 +196,9 @@ Simulation::JointMotion Simulation::joint_motion(std::uint32_t joint, std::uint3
 }
 
 JointLoad Simulation::joint_load(std::uint32_t joint) const {
-    checked_joint(parts_->world, joint);
-    return plumb::joint_load(parts_->world, joint);
+    return plumb::joint_load(parts_->world, parts_->joint_index(joint));
 }
 
-bool Simulation::is_broken(std::uint32_t joint) const {
-    return checked_joint(parts_->world, joint).broken;
-}
-
-void Simulation::set_motor_target(std::uint32_t joint, std::uint32_t axis, double target) {
-    checked_joint(parts_->world, joint);
-    if (!std::isfinite(target)) throw std::invalid_argument("a motor's target must be finite");
-    for (JointDrive& drive : parts_->world.joints.drives)
-        if (drive.joint == joint && drive.axis == axis && drive.kind == DriveKind::motor) {
-            drive.spec.motor.keys.clear();
-            drive.spec.motor.target = target;
-            return;
-        }
-    throw std::invalid_argument("the joint has no motor on axis " + std::to_string(axis));
-}
+bool Simulation::is_broken(std::uint32_t joint) const { return parts_->joint(joint).broken; }
 
 }  // namespace plumb

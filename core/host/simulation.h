@@ -7,6 +7,9 @@
 ///     while (simulation.time() < 10) simulation.step();
 ///
 /// To bring a collider of your own, derive from plumb::Proximity and use the other constructor.
+///
+/// Bodies, joints and couplings are named by identifiers: those of the scene by their index in it,
+/// those added later by what `add_…` returns. An identifier is never used twice.
 #pragma once
 
 #include "effects/ledger.h"
@@ -66,15 +69,23 @@ public:
                                    std::uint32_t mask = ~0u);
 
     /// The deepest or nearest contact of two bodies at any distance, whatever their filters; the
-    /// body of the lower index is a, and the normal points from b to a. Throws std::out_of_range
-    /// where there is no such body.
+    /// body of the lower identifier is a, and the normal points from b to a. Throws
+    /// std::out_of_range where there is no such body.
     Contact closest(std::uint32_t body_a, std::uint32_t body_b);
 
-    /// Sets the velocity of the centre of mass [m/s] and the angular velocity [rad/s] of a body.
+    /// Where a body's geometry is, and how fast its centre of mass moves and it turns.
+    BodyState body_state(std::uint32_t body) const;
+
+    /// Puts a body's geometry somewhere else, of whatever motion the body is unless it follows
+    /// keyframes: a jump, over which it keeps its velocity and forgets what it touched.
+    void set_placement(std::uint32_t body, const Placement& placement);
+
+    /// Sets the velocity of the centre of mass [m/s] and the angular velocity [rad/s] of a body
+    /// that is not fixed and follows no keyframes.
     void set_velocity(std::uint32_t body, const Eigen::Vector3d& velocity,
                       const Eigen::Vector3d& angular_velocity);
 
-    /// Replaces the constant force [N] and torque [N m] on a body.
+    /// Replaces the constant force [N] and torque [N m] on a dynamic body.
     void set_force(std::uint32_t body, const Eigen::Vector3d& force, const Eigen::Vector3d& torque);
 
     /// Where a joint stands along or about one of its free axes (JointAxis) [m], [rad], and how
@@ -94,6 +105,48 @@ public:
 
     /// Replaces the target of a motor [m/s], [rad/s], or [m], [rad].
     void set_motor_target(std::uint32_t joint, std::uint32_t axis, double target);
+
+    /// Edits, between two steps. All that they do not name goes on as it was: velocities, forces
+    /// remembered by contacts and joints, broken joints, turns counted. An edited world steps
+    /// exactly as one that was made so from the start would at the same state. Each throws what is
+    /// said below and then leaves the world as it was; an identifier that was removed throws
+    /// std::out_of_range. Many edits before a step cost one renewal of the plan and the solver.
+    ///
+    /// Recordings and other outputs take the bodies of a scene and refuse frames of others.
+
+    /// For BodySpec::geometry. It stays as long as the simulation; bodies should share it. Throws
+    /// SceneError for faces of corners that there are not.
+    std::uint32_t add_geometry(const Geometry& geometry);
+
+    /// For BodySpec::material; meets others by the rules of combination. Throws
+    /// std::invalid_argument for negative or infinite numbers.
+    std::uint32_t add_material(const Material& material);
+
+    /// Adds a body at its placement. Throws SceneError for what cannot be simulated and
+    /// ColliderError for a pair of shapes that the collider cannot do, with those that can.
+    std::uint32_t add_body(const BodySpec& body);
+
+    /// Takes a body away, with its joints and their couplings. Throws ColliderError where the
+    /// collider refuses.
+    void remove_body(std::uint32_t body);
+
+    /// Adds a joint between bodies, given by their identifiers, as they stand: its coordinates are
+    /// 0 there. Throws SceneError for what cannot be simulated.
+    std::uint32_t add_joint(const JointSpec& joint);
+
+    /// Takes a joint away, with its couplings; what it linked may collide again.
+    void remove_joint(std::uint32_t joint);
+
+    /// Ties two joints, given by their identifiers; without an offset, as they stand. Throws
+    /// SceneError for what cannot be simulated.
+    std::uint32_t add_coupling(const CouplingSpec& coupling);
+    void remove_coupling(std::uint32_t coupling);
+
+    bool has_body(std::uint32_t body) const;
+
+    /// The body's index in the tables of `world()` and in Frame::bodies, as long as it lives;
+    /// Bodies::id and Frame::ids tell the way back.
+    std::uint32_t place_of(std::uint32_t body) const;
 
 private:
     struct Parts;

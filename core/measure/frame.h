@@ -22,6 +22,8 @@ struct Frame {
     std::uint64_t step = 0;
     double time = 0;                 ///< [s]
     std::vector<BodyState> bodies;   ///< [body], in the order of Scene::bodies
+    std::vector<std::uint32_t> ids;  ///< [body] World::bodies.id, or none where all live since the
+                                     ///< start: a body's identifier, kNoIndex of a vacant place
     std::uint32_t contacts = 0;      ///< contact points
     double kinetic_energy = 0;       ///< [J]
     double potential_energy = 0;     ///< of gravity, against the origin [J]

@@ -113,6 +113,7 @@ std::uint64_t state_hash(const World& world) {
     };
     const Bodies& b = world.bodies;
     for (std::size_t i = 0; i < b.size(); ++i) {
+        if (b.id[i] == kNoIndex) continue;
         add(b.position[i].data(), 3);
         add(b.orientation[i].coeffs().data(), 4);
         add(b.velocity[i].data(), 3);
@@ -128,6 +129,7 @@ void capture(const World& world, Frame& frame) {
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
         frame.bodies[i] = {geometry_placement(world.bodies, i), world.bodies.velocity[i],
                            world.bodies.angular_velocity[i]};
+    frame.ids = world.bodies.id;
     frame.contacts = static_cast<std::uint32_t>(last_contacts(world).size());
     frame.kinetic_energy = kinetic_energy(world);
     frame.potential_energy = potential_energy(world);

@@ -36,12 +36,14 @@ void put_vector(std::string& row, const Vector& v) {
 
 }  // namespace
 
-CsvExporter::CsvExporter(const std::string& path, const RecordingHeader& header) : file_(path) {
+CsvExporter::CsvExporter(const std::string& path, const RecordingHeader& header)
+    : header_(header), file_(path) {
     for (const RecordedBody& body : header.bodies) names_.push_back(quoted(body.name));
     file_.append(kColumns);
 }
 
 void CsvExporter::append(const Frame& frame) {
+    expect_bodies_of(header_, frame, file_.path());
     std::string rows;
     for (std::size_t i = 0; i < frame.bodies.size(); ++i) {
         const BodyState& body = frame.bodies[i];

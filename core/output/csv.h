@@ -18,6 +18,7 @@ public:
     void finish() override { file_.close(); }
 
 private:
+    RecordingHeader header_;
     AppendFile file_;
     std::vector<std::string> names_;  ///< [body], quoted where need be
 };

@@ -17,7 +17,8 @@ class Exporter {
 public:
     virtual ~Exporter() = default;
 
-    /// Frames come in the order of time, each with as many bodies as the header.
+    /// Frames come in the order of time, each with the bodies of the header; one of others throws
+    /// OutputError.
     virtual void append(const Frame& frame) = 0;
 
     /// Completes the file; nothing is appended afterwards. Without it, .csv and .plumb files hold

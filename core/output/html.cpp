@@ -7,12 +7,13 @@
 
 namespace plumb {
 void HtmlExporter::append(const Frame& frame) {
+    expect_bodies_of(header_, frame, file_.path());
     for (std::size_t i = 0; i < motions_.size() && i < frame.bodies.size(); ++i) {
         const Placement& placement = frame.bodies[i].placement;
         motions_[i].push_back(pose_sample(placement.position - header_.origin, placement.rotation));
     }
     Frame note = frame;
-    note.bodies.clear();
+    note.bodies.clear(), note.ids.clear();
     notes_.push_back(std::move(note));
     if (notes_.size() == 1) balls_ = balls_of_interest(header_, frame);
     last_ = frame;

@@ -14,7 +14,10 @@ class PngExporter : public Exporter {
 public:
     PngExporter(const std::string& path, const RecordingHeader& header)
         : header_(header), file_(path) {}
-    void append(const Frame& frame) override { last_ = frame; }
+    void append(const Frame& frame) override {
+        expect_bodies_of(header_, frame, file_.path());
+        last_ = frame;
+    }
     void finish() override;
 
 private:

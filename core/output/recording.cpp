@@ -164,6 +164,15 @@ RecordingHeader recording_header(const Scene& scene, const Metadata& metadata) {
     return header;
 }
 
+void expect_bodies_of(const RecordingHeader& header, const Frame& frame, const std::string& path) {
+    bool same = frame.bodies.size() == header.bodies.size();
+    for (std::size_t i = 0; i < frame.ids.size(); ++i) same = same && frame.ids[i] == i;
+    if (!same)
+        throw OutputError(path,
+                          "takes the bodies of one scene, and since its start some were added or "
+                          "removed");
+}
+
 RecordingWriter::RecordingWriter(std::string path, RecordingHeader header)
     : header_(std::move(header)), file_(std::move(path)) {
     std::string bytes(kMagic);
@@ -172,6 +181,7 @@ RecordingWriter::RecordingWriter(std::string path, RecordingHeader header)
 }
 
 void RecordingWriter::append(const Frame& frame) {
+    expect_bodies_of(header_, frame, file_.path());
     file_.append(framed(frame_payload(frame, header_.origin)));
 }
 

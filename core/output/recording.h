@@ -69,6 +69,10 @@ struct Recording {
 
 RecordingHeader recording_header(const Scene& scene, const Metadata& metadata);
 
+/// Throws OutputError where a frame is not of the bodies of the header: bodies came or went since
+/// the start, which no output has a form for.
+void expect_bodies_of(const RecordingHeader& header, const Frame& frame, const std::string& path);
+
 /// Writes a `.plumb` file, frame by frame. Throws OutputError when the file cannot be written; the
 /// frames before stay readable.
 class RecordingWriter {

@@ -43,7 +43,8 @@ public:
           workers_(workers),
           shocks_(plan.runs(Effect::shock_propagation)),
           warm_start_(settings_.warm_start && !shocks_),
-          contacts_(plan, workers) {
+          contacts_(plan, workers),
+          substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         if (plan.runs(Effect::joints)) take_joints(world, plan.runs(Effect::joint_trees));
         if (shocks_) shock_.emplace(plan, workers);
     }
@@ -169,7 +170,7 @@ private:
     std::optional<JointSolver<Real, W>> joints_;
     std::optional<TreeSolver> trees_;
     std::vector<std::uint32_t> levels_;
-    std::uint32_t substeps_ = 0;  // since the start: each begins in the other direction
+    std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t sweeps_ = 0;
 };
 

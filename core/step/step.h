@@ -23,6 +23,13 @@ struct Stepper {
           workers(world.settings.threads),
           solver(make_row_solver(world, plan, workers)) {}
 
+    /// After a change of the world that calls for other effects, or of its joints or rows. What a
+    /// step leaves for the next is in the world's tables, so that nothing is lost.
+    void renew(const World& world) {
+        plan = make_plan(world);
+        solver = make_row_solver(world, plan, workers);
+    }
+
     Plan plan;
     Workers workers;
     std::unique_ptr<RowSolver> solver;

@@ -33,16 +33,14 @@ constexpr Axes kLocked[] = {
 
 class Builder {
 public:
-    Builder(World& world, const Scene& scene, std::size_t index)
-        : world_(world),
-          spec_(scene.joints[index]),
-          pointer_("/joints/" + std::to_string(index)),
-          index_(static_cast<std::uint32_t>(index)) {}
+    Builder(const World& world, const JointSpec& spec, const std::string& pointer)
+        : world_(world), spec_(spec), pointer_(pointer) {}
 
-    void add() {
+    JointDraft make() {
         check_bodies();
         check_numbers();
-        Joint joint;
+        JointDraft draft;
+        Joint& joint = draft.joint;
         joint.kind = spec_.kind;
         joint.a = spec_.body_a, joint.b = spec_.body_b;
         joint.locked = spec_.kind == JointKind::six_axis
@@ -54,12 +52,9 @@ public:
         joint.breaking_force = spec_.breaking_force, joint.breaking_torque = spec_.breaking_torque;
         set_length(joint);
         set_turns(joint);
-        world_.joints.joints.push_back(joint);
-        world_.joints.turn.push_back(0);
-        add_drives(joint);
-        if (spec_.body_b != kNoIndex && !spec_.collide)
-            world_.excluded.push_back(
-                pair_key(std::min(joint.a, joint.b), std::max(joint.a, joint.b)));
+        joint.keeps_apart = spec_.body_b != kNoIndex && !spec_.collide;
+        add_drives(draft);
+        return draft;
     }
 
 private:
@@ -132,16 +127,16 @@ private:
         }
     }
 
-    void add_drives(const Joint& joint) {
+    void add_drives(JointDraft& draft) const {
         for (std::uint32_t axis = 0; axis < kJointAxes; ++axis) {
             const JointAxisSpec& spec = spec_.axes[axis];
             auto add = [&](DriveKind kind) {
-                if (joint.locked[axis])
+                if (draft.joint.locked[axis])
                     refuse("",
                            "this kind of joint is locked along an axis that has a limit, a "
                            "motor, a spring or friction");
                 check_axis(spec);
-                world_.joints.drives.push_back({index_, axis, kind, spec, 0});
+                draft.drives.push_back({0, axis, kind, spec, 0});
             };
             if (std::isfinite(spec.lower) || std::isfinite(spec.upper)) add(DriveKind::limit);
             if (spec.motor.mode != MotorMode::none) add(DriveKind::motor);
@@ -161,15 +156,33 @@ private:
             refuse("", "springs, dampers and friction must be finite and 0 or above");
     }
 
-    World& world_;
+    const World& world_;
     const JointSpec& spec_;
-    std::string pointer_;
-    std::uint32_t index_;
+    const std::string& pointer_;
 };
 
-void add_coupling(World& world, const CouplingSpec& spec, std::size_t index) {
-    const std::string pointer = "/couplings/" + std::to_string(index);
+}  // namespace
+
+JointDraft make_joint(const World& world, const JointSpec& spec, const std::string& pointer) {
+    return Builder(world, spec, pointer).make();
+}
+
+void append_joint(World& world, JointDraft draft) {
     JointTable& table = world.joints;
+    const auto index = static_cast<std::uint32_t>(table.size());
+    draft.joint.id = table.next_id++;
+    table.joints.push_back(draft.joint);
+    table.turn.push_back(0);
+    for (JointDrive& drive : draft.drives) {
+        drive.joint = index;
+        table.drives.push_back(drive);
+    }
+    if (draft.joint.keeps_apart) world.excluded.push_back(kept_apart(draft.joint));
+}
+
+JointCoupling make_coupling(const World& world, const CouplingSpec& spec,
+                            const std::string& pointer) {
+    const JointTable& table = world.joints;
     for (const auto& [joint, axis] :
          {std::pair{spec.joint_a, spec.axis_a}, {spec.joint_b, spec.axis_b}}) {
         if (joint >= table.size() || axis >= kJointAxes)
@@ -180,22 +193,29 @@ void add_coupling(World& world, const CouplingSpec& spec, std::size_t index) {
     }
     if (!std::isfinite(spec.ratio) || spec.ratio == 0)
         throw SceneError("", pointer + "/ratio", "must be a finite number other than 0");
-    // at the start all coordinates are 0, for the frames coincide, but of a distance
-    const auto start = [&](std::uint32_t joint) {
-        const Joint& j = table.joints[joint];
-        return j.kind == JointKind::distance ? j.length : 0.0;
-    };
-    const double offset = start(spec.joint_b) - spec.ratio * start(spec.joint_a);
-    table.couplings.push_back({spec.joint_a, spec.joint_b, spec.axis_a, spec.axis_b, spec.ratio,
-                               spec.offset.value_or(offset), 0});
+    const double offset =
+        start_coordinate(world, spec.joint_b) - spec.ratio * start_coordinate(world, spec.joint_a);
+    return {0,
+            spec.joint_a,
+            spec.joint_b,
+            spec.axis_a,
+            spec.axis_b,
+            spec.ratio,
+            spec.offset.value_or(offset),
+            0};
 }
 
-}  // namespace
+void append_coupling(World& world, JointCoupling coupling) {
+    coupling.id = world.joints.next_coupling_id++;
+    world.joints.couplings.push_back(coupling);
+}
 
 void build_joints(World& world, const Scene& scene) {
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) Builder(world, scene, i).add();
+    for (std::size_t i = 0; i < scene.joints.size(); ++i)
+        append_joint(world, make_joint(world, scene.joints[i], "/joints/" + std::to_string(i)));
     for (std::size_t i = 0; i < scene.couplings.size(); ++i)
-        add_coupling(world, scene.couplings[i], i);
+        append_coupling(
+            world, make_coupling(world, scene.couplings[i], "/couplings/" + std::to_string(i)));
     std::sort(world.excluded.begin(), world.excluded.end());
 }
 

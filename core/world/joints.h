@@ -23,6 +23,7 @@ struct PerpendicularPair {
 };
 
 struct Joint {
+    std::uint32_t id = 0;  ///< what the joint is called as long as it lives; grows along the table
     JointKind kind = JointKind::ball;
     std::uint32_t a = kNoIndex, b = kNoIndex;  ///< bodies; b may be kNoIndex: the world
     Placement frame_a, frame_b;  ///< joint frame → body; → world where b is kNoIndex
@@ -32,6 +33,7 @@ struct Joint {
     double compliance = 0, angular_compliance = 0;   ///< [m/N], [rad/(N m)]
     double breaking_force = 0, breaking_torque = 0;  ///< [N], [N m]
     bool broken = false;                             ///< a broken joint acts no more
+    bool keeps_apart = false;                        ///< its bodies do not collide with each other
     std::array<double, kJointAxes> rows{};  ///< impulses of the last substep [N s], [N m s]; of a
                                             ///< plain ball along the world's axes
     std::array<double, kJointAxes> rows_before{};  ///< and of the one before it
@@ -56,6 +58,7 @@ struct JointDrive {
 
 /// q_b = ratio q_a + offset.
 struct JointCoupling {
+    std::uint32_t id = 0;  ///< as Joint::id
     std::uint32_t joint_a = 0, joint_b = 0, axis_a = 0, axis_b = 0;
     double ratio = 1, offset = 0;
     double impulse = 0;  ///< of the last substep, along q_b [N s], [N m s]
@@ -67,6 +70,7 @@ struct JointTable {
                                ///< turns [rad]; 0 where there is none
     std::vector<JointDrive> drives;  ///< by joint, then axis
     std::vector<JointCoupling> couplings;
+    std::uint32_t next_id = 0, next_coupling_id = 0;  ///< of those that come
     std::size_t size() const { return joints.size(); }
 };
 

@@ -2,6 +2,10 @@
 #include "world/shape_store.h"
 
 #include "math/types.h"
+#include "scene/error.h"
+
+#include <algorithm>
+#include <string>
 
 namespace plumb {
 namespace {
@@ -16,9 +20,27 @@ Vector3d polygon_normal(const Geometry& g, const std::uint32_t* corners, std::si
     return sum.norm() > 0 ? Vector3d(sum.normalized()) : Vector3d(Vector3d::UnitY());
 }
 
+bool has_corners(const Geometry& g, const std::uint32_t* corners, std::size_t count) {
+    return count >= 3 && std::all_of(corners, corners + count,
+                                     [&](std::uint32_t c) { return c < g.vertices.size(); });
+}
+
+/// Throws where indices lead out of the arrays that they are of.
+void check_arrays(const Geometry& g) {
+    bool whole = true;
+    for (const auto& face : g.faces) whole = whole && has_corners(g, face.data(), face.size());
+    for (const auto& t : g.triangles) whole = whole && has_corners(g, t.data(), 3);
+    const std::string shape = "the " + std::string(name_of(g.kind)) + " \"" + g.name + "\" has ";
+    if (!whole) throw SceneError("", "/shapes", shape + "a face of corners that there are not");
+    if (g.heights.size() != std::size_t(g.rows) * g.columns)
+        throw SceneError("", "/shapes", shape + "not as many heights as rows times columns");
+    for (const GeometryPart& part : g.parts) check_arrays(part.geometry);
+}
+
 }  // namespace
 
 const Shape& ShapeStore::add(const Geometry& geometry) {
+    check_arrays(geometry);
     shapes_.push_back(make(geometry));
     return shapes_.back();
 }

@@ -15,7 +15,8 @@ namespace plumb {
 /// Shapes keep their addresses until the store is destroyed.
 class ShapeStore {
 public:
-    /// Adds a geometry and returns its shape.
+    /// Adds a geometry and returns its shape. Throws SceneError for faces of corners that there are
+    /// not, and for height fields that lack heights.
     const Shape& add(const Geometry& geometry);
 
     const Shape& operator[](std::size_t geometry) const { return shapes_[geometry]; }

@@ -6,6 +6,7 @@
 #include "world/bodies.h"
 #include "world/contacts.h"
 #include "world/joints.h"
+#include "world/places.h"
 #include "world/shape_store.h"
 
 #include <cstdint>
@@ -26,10 +27,12 @@ constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
 struct World {
     Settings settings;
     Bodies bodies;
+    Places places;  ///< of the bodies in their table, by Bodies::id
     JointTable joints;
     std::vector<SurfacePair> surface_pairs;  ///< [material_a × material_count + material_b]
     std::uint32_t material_count = 1;
-    std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that never collide, sorted
+    std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that never collide, sorted; as
+                                          ///< often as there are reasons
     ContactTable contacts;
     ShapeStore shapes;
     std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table

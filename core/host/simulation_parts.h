@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/// What a Simulation is made of. Private to it.
+#pragma once
+
+#include "host/add_bodies.h"
+#include "host/simulation.h"
+#include "step/step.h"
+
+#include <optional>
+#include <string>
+
+namespace plumb {
+
+struct Simulation::Parts {
+    Scene stock;  ///< the scene's geometries, materials and remarks, without its bodies and joints
+    World world;
+    Stepper stepper;
+    ProximityPtr owned;
+    Proximity& proximity;
+    std::optional<ColliderLibrary> library;  ///< where the collider is one of its plugins
+    std::string collider_name, collider_version, collider_reason;
+    bool filled = false;    ///< the collider has the bodies
+    bool looked = false;    ///< and has been asked for contacts
+    bool outdated = false;  ///< the stepper is of the world before an edit
+
+    Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
+          std::string version);
+
+    /// Brings the stepper up to date with the edits made.
+    void renew();
+
+    /// The place of a body in its table; the index of a joint or a coupling in its. Throw
+    /// std::out_of_range where there is none.
+    std::uint32_t place(std::uint32_t body) const;
+    std::uint32_t joint_index(std::uint32_t joint) const;
+    std::uint32_t coupling_index(std::uint32_t coupling) const;
+    const Joint& joint(std::uint32_t id) const { return world.joints.joints[joint_index(id)]; }
+
+    /// The collider, for questions at the poses of its last detection.
+    Proximity& placed();
+
+    /// Throws unless the collider answered a question.
+    void expect_answer(const Status& status, const std::string& question) const;
+
+    /// Throws ColliderError where the plugin lacks a pair of shapes that the new body brings.
+    void check_pairs(const BodyRow& row, const std::string& name);
+
+    /// Hands a body that was just inserted to the collider, with all others where it has none yet
+    /// and now needs them.
+    void hand_over(std::uint32_t place, const BodyRow& row);
+};
+
+}  // namespace plumb

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+/// What a user may set of bodies and joints between two steps.
+#include "host/simulation_parts.h"
+#include "world/edit_world.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace plumb {
+namespace {
+
+void expect_finite(const Eigen::Vector3d& v, const char* what) {
+    if (!v.allFinite()) throw std::invalid_argument(std::string(what) + " must be finite numbers");
+}
+
+bool follows_keyframes(const Bodies& b, std::uint32_t place) {
+    return b.motion[place] == Motion::kinematic && !b.script[place].keyframes.empty();
+}
+
+}  // namespace
+
+bool Simulation::has_body(std::uint32_t body) const {
+    return parts_->world.places.find(body).has_value();
+}
+
+std::uint32_t Simulation::place_of(std::uint32_t body) const { return parts_->place(body); }
+
+BodyState Simulation::body_state(std::uint32_t body) const {
+    const Bodies& b = parts_->world.bodies;
+    const std::uint32_t place = parts_->place(body);
+    return {geometry_placement(b, place), b.velocity[place], b.angular_velocity[place]};
+}
+
+void Simulation::set_placement(std::uint32_t body, const Placement& placement) {
+    World& world = parts_->world;
+    Bodies& b = world.bodies;
+    const std::uint32_t place = parts_->place(body);
+    expect_finite(placement.position, "a position");
+    if (!placement.rotation.coeffs().allFinite() || placement.rotation.norm() < 1e-9)
+        throw std::invalid_argument("a rotation must be a quaternion other than 0");
+    if (follows_keyframes(b, place))
+        throw std::invalid_argument("a body that follows keyframes cannot be placed");
+    const Placement outer{placement.position, placement.rotation.normalized()};
+    const Placement now = outer * inverse(b.geometry_in_body[place]);
+    b.position[place] = now.position, b.orientation[place] = now.rotation;
+    forget_contacts(world, place);
+}
+
+void Simulation::set_velocity(std::uint32_t body, const Eigen::Vector3d& v,
+                              const Eigen::Vector3d& w) {
+    Bodies& b = parts_->world.bodies;
+    const std::uint32_t place = parts_->place(body);
+    expect_finite(v, "a velocity"), expect_finite(w, "an angular velocity");
+    if (b.motion[place] == Motion::fixed)
+        throw std::invalid_argument("a fixed body has no velocity");
+    if (follows_keyframes(b, place))
+        throw std::invalid_argument("a body that follows keyframes has their velocity");
+    b.velocity[place] = v, b.angular_velocity[place] = w;
+}
+
+void Simulation::set_force(std::uint32_t body, const Eigen::Vector3d& force,
+                           const Eigen::Vector3d& torque) {
+    Bodies& b = parts_->world.bodies;
+    const std::uint32_t place = parts_->place(body);
+    expect_finite(force, "a force"), expect_finite(torque, "a torque");
+    if (b.motion[place] != Motion::dynamic)
+        throw std::invalid_argument("only a dynamic body yields to a force");
+    b.force[place] = force, b.torque[place] = torque;
+}
+
+void Simulation::set_motor_target(std::uint32_t joint, std::uint32_t axis, double target) {
+    const std::uint32_t index = parts_->joint_index(joint);
+    if (!std::isfinite(target)) throw std::invalid_argument("a motor's target must be finite");
+    for (JointDrive& drive : parts_->world.joints.drives)
+        if (drive.joint == index && drive.axis == axis && drive.kind == DriveKind::motor) {
+            drive.spec.motor.keys.clear();
+            drive.spec.motor.target = target;
+            return;
+        }
+    throw std::invalid_argument("the joint has no motor on axis " + std::to_string(axis));
+}
+
+}  // namespace plumb

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "world/edit_world.h"
+
+#include <algorithm>
+
+namespace plumb {
+namespace {
+
+void count(World& world, Motion motion, std::int32_t change) {
+    if (motion == Motion::dynamic) world.dynamic_count += change;
+    if (motion == Motion::kinematic) world.kinematic_count += change;
+}
+
+}  // namespace
+
+std::uint32_t insert_body(World& world, BodyRow row) {
+    const std::uint32_t place = world.places.next().place;
+    if (place == world.bodies.size()) resize_bodies(world.bodies, place + 1);
+    row.id = world.places.add().id;
+    put_body(world.bodies, place, row);
+    count(world, row.motion, 1);
+    return row.id;
+}
+
+void erase_body(World& world, std::uint32_t place) {
+    forget_contacts(world, place);
+    std::erase_if(world.excluded, [place](std::uint64_t key) {
+        return key >> 32 == place || std::uint32_t(key) == place;
+    });
+    count(world, world.bodies.motion[place], -1);
+    world.places.remove(world.bodies.id[place]);
+    put_body(world.bodies, place, BodyRow{});
+    resize_bodies(world.bodies, world.places.size());
+}
+
+void forget_contacts(World& world, std::uint32_t place) {
+    ContactTable& c = world.contacts;
+    const auto is_of_body = [place](const auto& x) { return x.a == place || x.b == place; };
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
+        if (is_of_body(c.found_before[i])) continue;
+        c.found_before[kept] = c.found_before[i];
+        c.memory_before[kept++] = c.memory_before[i];
+    }
+    c.found_before.resize(kept);
+    c.memory_before.resize(kept);
+    c.found.clear(), c.memory.clear();
+    std::erase_if(c.kept.pairs, is_of_body);
+}
+
+std::uint32_t insert_joint(World& world, JointDraft draft) {
+    append_joint(world, std::move(draft));
+    const Joint& joint = world.joints.joints.back();
+    if (joint.keeps_apart)
+        std::inplace_merge(world.excluded.begin(), world.excluded.end() - 1, world.excluded.end());
+    return joint.id;
+}
+
+void erase_joint(World& world, std::uint32_t index) {
+    JointTable& table = world.joints;
+    const Joint& joint = table.joints[index];
+    if (joint.keeps_apart)
+        world.excluded.erase(
+            std::lower_bound(world.excluded.begin(), world.excluded.end(), kept_apart(joint)));
+    std::erase_if(table.couplings, [index](const JointCoupling& c) {
+        return c.joint_a == index || c.joint_b == index;
+    });
+    std::erase_if(table.drives, [index](const JointDrive& d) { return d.joint == index; });
+    table.joints.erase(table.joints.begin() + index);
+    table.turn.erase(table.turn.begin() + index);
+    for (JointDrive& d : table.drives) d.joint -= d.joint > index;
+    for (JointCoupling& c : table.couplings)
+        c.joint_a -= c.joint_a > index, c.joint_b -= c.joint_b > index;
+}
+
+void erase_coupling(World& world, std::uint32_t index) {
+    world.joints.couplings.erase(world.joints.couplings.begin() + index);
+}
+
+}  // namespace plumb
