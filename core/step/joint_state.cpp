@@ -76,21 +76,6 @@ JointLoad joint_load(const World& world, std::uint32_t index) {
     return {per_second * load.force, per_second * load.torque};
 }
 
-std::uint32_t break_joints(World& world) {
-    std::uint32_t broken = 0;
-    for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
-        Joint& joint = world.joints.joints[i];
-        if (joint.broken ||
-            !(std::isfinite(joint.breaking_force) || std::isfinite(joint.breaking_torque)))
-            continue;
-        const JointLoad load = joint_load(world, i);
-        joint.broken =
-            load.force.norm() > joint.breaking_force || load.torque.norm() > joint.breaking_torque;
-        broken += joint.broken;
-    }
-    return broken;
-}
-
 void count_turns(World& world) {
     for (std::uint32_t i = 0; i < world.joints.size(); ++i)
         if (const std::uint32_t axis = single_turn(world.joints.joints[i]); axis < kJointAxes)

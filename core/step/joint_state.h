@@ -24,9 +24,6 @@ struct JointLoad {
 };
 JointLoad joint_load(const World& world, std::uint32_t joint);
 
-/// Breaks the joints whose load was more than they bear. Returns how many.
-std::uint32_t break_joints(World& world);
-
 /// Follows the angles about single free axes through whole turns; called once a substep.
 void count_turns(World& world);
 

@@ -52,6 +52,10 @@ void integrate_velocities(World& world, const Plan& plan, double h);
 /// momentum is carried, it decides the velocity that is left.
 void move(World& world, const RowSolver& solver, double h);
 
+/// Breaks the joints whose load was more than they bear; bodies that nothing keeps apart any more
+/// may touch from the next step on.
+void break_joints(World& world, const Plan& plan, Proximity& proximity, StepReport& report);
+
 /// Keeps contacts and impulses for the next step.
 void remember_contacts(World& world);
 

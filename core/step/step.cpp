@@ -61,7 +61,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     timed(Stage::remember, [&] {
         solver.store_impulses(world);
         remember_contacts(world);
-        if (plan.runs(Effect::joints)) report.broken_joints = break_joints(world);
+        if (plan.runs(Effect::joints)) break_joints(world, plan, proximity, report);
     });
 
     world.time = static_cast<double>(++world.steps) * dt;

@@ -56,12 +56,16 @@ std::uint32_t insert_joint(World& world, JointDraft draft) {
     return joint.id;
 }
 
-void erase_joint(World& world, std::uint32_t index) {
-    JointTable& table = world.joints;
-    const Joint& joint = table.joints[index];
+void stop_keeping_apart(World& world, Joint& joint) {
     if (joint.keeps_apart)
         world.excluded.erase(
             std::lower_bound(world.excluded.begin(), world.excluded.end(), kept_apart(joint)));
+    joint.keeps_apart = false;
+}
+
+void erase_joint(World& world, std::uint32_t index) {
+    JointTable& table = world.joints;
+    stop_keeping_apart(world, table.joints[index]);
     std::erase_if(table.couplings, [index](const JointCoupling& c) {
         return c.joint_a == index || c.joint_b == index;
     });

@@ -22,6 +22,9 @@ void forget_contacts(World& world, std::uint32_t place);
 /// Its identifier comes back.
 std::uint32_t insert_joint(World& world, JointDraft draft);
 
+/// A joint keeps its bodies apart no more; others may.
+void stop_keeping_apart(World& world, Joint& joint);
+
 /// Takes away a joint, with its drives and the couplings that tie it.
 void erase_joint(World& world, std::uint32_t index);
 
