@@ -6,7 +6,7 @@ find_package(urdfdom REQUIRED CONFIG)
 
 add_library(plumb_reader STATIC
   reader/bodies.cpp reader/chain.cpp reader/couplings.cpp reader/decompose.cpp reader/height_fields.cpp reader/hull.cpp
-  reader/joint_drives.cpp reader/joint_kinds.cpp reader/joints.cpp reader/materials.cpp reader/mobile.cpp reader/names.cpp reader/nearest.cpp
+  reader/joint_drives.cpp reader/joint_kinds.cpp reader/joints.cpp reader/materials.cpp reader/mobile.cpp reader/names.cpp
   reader/node.cpp reader/obj.cpp reader/parse.cpp reader/polyhedra.cpp reader/reader.cpp reader/repeat.cpp
   reader/file_text.cpp reader/overlap.cpp reader/robots.cpp reader/stl.cpp reader/urdf.cpp reader/urdf_file.cpp reader/urdf_joints.cpp reader/urdf_loads.cpp
   reader/urdf_shapes.cpp reader/urdf_tree.cpp

@@ -13,8 +13,8 @@
 #include "app/verbs.h"
 #include "output/comparison_page.h"
 #include "output/file.h"
-#include "reader/nearest.h"
 #include "scene/error.h"
+#include "scene/nearest.h"
 
 #include <algorithm>
 #include <cmath>
@@ -55,7 +55,7 @@ void check(const Options& o) {
         throw UsageError("--colliders " + listed(o.colliders) + ": names a collider twice");
     if (!o.drive.empty() && !distinct.contains(o.drive))
         throw UsageError("--drive " + o.drive + ": is none of the colliders that are compared (" +
-                         listed(o.colliders) + ")" + reader::advice(o.drive, o.colliders));
+                         listed(o.colliders) + ")" + advice(o.drive, o.colliders));
 }
 
 /// The shapes that the findings need drawn; nullptr for all others.
@@ -119,6 +119,30 @@ std::optional<FreeRuns> run_freely(const Options& o, Prepared& p, std::uint64_t 
     return free_runs(p.scene, p.colliders, p.sources.all, p.sources.own_process, progress);
 }
 
+/// Which runs diverged, as one sentence; "" where none did.
+std::string divergence(const ComparisonResult& result, const FreeRuns* runs) {
+    std::string text;
+    const auto add = [&](const std::string& run, std::uint64_t step) {
+        if (step == 0) return;
+        text += (text.empty() ? "diverged: " : "; ") + run + " is no longer finite after step " +
+                std::to_string(step);
+    };
+    add("the run that " + result.colliders[result.driver].info.name + " drives",
+        result.diverged_after);
+    for (std::size_t i = 0; runs && i < result.colliders.size(); ++i)
+        add("the free run of " + result.colliders[i].info.name, runs->diverged_after[i]);
+    return text;
+}
+
+/// Says how the comparison ended where that was not as planned, and returns the exit code.
+int exit_code(const ComparisonResult& result, const FreeRuns* runs) {
+    const std::string diverged = divergence(result, runs);
+    if (!diverged.empty()) std::fprintf(stderr, "plumb: %s\n", diverged.c_str());
+    if (interrupted()) return kInterrupted;
+    if (!diverged.empty()) return kDiverged;
+    return result.agrees() ? kDone : kDiffer;
+}
+
 int compare(const Options& o) {
     check(o);
     Prepared p(o);
@@ -140,8 +164,7 @@ int compare(const Options& o) {
     write(json_file, json_text);
     if (page_file)
         write(page_file, comparison_page(p.scene.name, json_text, drawn_shapes(p.scene, result)));
-    if (interrupted()) return kInterrupted;
-    return result.agrees() ? kDone : kDiffer;
+    return exit_code(result, runs ? &*runs : nullptr);
 }
 
 }  // namespace

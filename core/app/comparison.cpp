@@ -2,6 +2,7 @@
 #include "app/comparison.h"
 
 #include "app/interrupt.h"
+#include "app/within_reach.h"
 
 #include <algorithm>
 #include <cmath>
@@ -94,9 +95,18 @@ std::string so_far(const ComparisonResult& result) {
 
 }  // namespace
 
+bool ComparisonResult::answered(std::size_t collider) const {
+    const AnswerFigures& f = colliders[collider].clipped;
+    return f.failures == 0 && f.rejected == 0;
+}
+
+bool ComparisonResult::agrees(const PairFigures& pair) const {
+    return answered(pair.first) && answered(pair.second) && pair.clipped.agrees();
+}
+
 bool ComparisonResult::agrees() const {
     return std::all_of(pairs.begin(), pairs.end(),
-                       [](const PairFigures& pair) { return pair.clipped.agrees(); });
+                       [this](const PairFigures& pair) { return agrees(pair); });
 }
 
 ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simulation,
@@ -110,7 +120,10 @@ ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simul
         if (i == steps) break;
         const StepReport report = simulation.step();
         progress.show(i + 1, report.contacts, so_far(result));
-        if (!report.finite) break;
+        if (!report.finite || !within_reach(simulation.world())) {
+            result.diverged_after = simulation.steps();
+            break;
+        }
         result.was_interrupted = interrupted();
     }
     result.steps = simulation.steps();

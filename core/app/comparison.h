@@ -48,8 +48,13 @@ struct ComparisonResult {
     std::uint64_t steps = 0;
     double time = 0;  ///< simulated [s]
     bool was_interrupted = false;
+    std::uint64_t diverged_after = 0;  ///< step that left no finite state, and ended it; 0: none
 
-    bool agrees() const;  ///< clipped sets of all pairs of colliders
+    /// Whether a collider gave its whole clipped answer at every pose.
+    bool answered(std::size_t collider) const;
+    /// Clipped sets agree, and both are whole.
+    bool agrees(const PairFigures& pair) const;
+    bool agrees() const;  ///< all pairs of colliders
 };
 
 /// What is to be compared.

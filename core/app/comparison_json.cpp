@@ -13,6 +13,8 @@ using Json = nlohmann::ordered_json;
 Json to_json(const Vec3& v) { return {v.x, v.y, v.z}; }
 Json to_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
+Json step_or_null(std::uint64_t step) { return step > 0 ? Json(step) : Json(); }
+
 Json answer_figures(const AnswerFigures& f, std::uint64_t poses) {
     double sum = 0;
     for (const double ms : f.milliseconds) sum += ms;
@@ -108,6 +110,7 @@ Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonR
            {"description", scene.description},
            {"agrees", r.agrees()},
            {"interrupted", r.was_interrupted},
+           {"diverged_after_step", step_or_null(r.diverged_after)},
            {"driver", r.colliders[r.driver].info.name},
            {"poses", r.poses},
            {"steps", r.steps},
@@ -129,7 +132,7 @@ Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonR
         const bool single = first.precision == "single" || second.precision == "single";
         j["pairs"].push_back({{"first", first.name},
                               {"second", second.name},
-                              {"agrees", pair.clipped.agrees()},
+                              {"agrees", r.agrees(pair)},
                               {"clipped", sets_json(pair.clipped, {single, false})},
                               {"raw", sets_json(pair.raw, {single, true})}});
     }
@@ -144,7 +147,8 @@ Json free_runs_json(const ComparisonResult& r, const FreeRuns& runs) {
     for (std::size_t i = 0; i < r.colliders.size(); ++i)
         j["colliders"].push_back({{"name", r.colliders[i].info.name},
                                   {"height", runs.height[i]},
-                                  {"energy", runs.energy[i]}});
+                                  {"energy", runs.energy[i]},
+                                  {"diverged_after_step", step_or_null(runs.diverged_after[i])}});
     for (const Drift& d : runs.drifts)
         j["pairs"].push_back({{"first", r.colliders[d.first].info.name},
                               {"second", r.colliders[d.second].info.name},

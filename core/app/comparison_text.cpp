@@ -107,11 +107,17 @@ std::string comparison_tables(const ContactComparison& c, const ComparisonKind& 
     return text.empty() ? "  " + what + ": neither reports any pair\n" : text;
 }
 
+std::string pair_verdict(const ComparisonResult& r, const PairFigures& pair) {
+    if (!pair.clipped.agrees()) return ": THEY DIFFER\n";
+    for (const std::size_t i : {pair.first, pair.second})
+        if (!r.answered(i)) return ": NO VERDICT, " + r.colliders[i].info.name + " failed\n";
+    return ": they agree\n";
+}
+
 std::string pair_section(const ComparisonResult& r, const PairFigures& pair) {
     const SourceInfo &first = r.colliders[pair.first].info, &second = r.colliders[pair.second].info;
     const bool single = first.precision == "single" || second.precision == "single";
-    return "\n" + first.name + " and " + second.name +
-           (pair.clipped.agrees() ? ": they agree\n" : ": THEY DIFFER\n") +
+    return "\n" + first.name + " and " + second.name + pair_verdict(r, pair) +
            comparison_tables(pair.clipped, {single, false}) +
            comparison_tables(pair.raw, {single, true});
 }
@@ -169,6 +175,15 @@ std::string troubles(const ComparisonResult& r) {
     return text;
 }
 
+std::string verdict(const ComparisonResult& r) {
+    if (r.agrees()) return "\nThe colliders agree.\n";
+    const bool all_alike = std::all_of(r.pairs.begin(), r.pairs.end(), [](const PairFigures& pair) {
+        return pair.clipped.agrees();
+    });
+    return all_alike ? "\nNo verdict: not all colliders gave whole answers.\n"
+                     : "\nThe colliders differ.\n";
+}
+
 /// The samples nearest to fifths of the time: a chart in few rows.
 std::string free_run_text(const ComparisonResult& r, const FreeRuns& runs) {
     const std::size_t last = runs.times.size() - 1;
@@ -215,7 +230,10 @@ std::string comparison_text(const Scene& scene, const ComparisonResult& r, const
     const std::string trouble = troubles(r);
     if (!trouble.empty()) text += printed("\n%s", trouble.c_str());
     if (runs) text += free_run_text(r, *runs);
-    return text + (r.agrees() ? "\nThe colliders agree.\n" : "\nThe colliders differ.\n");
+    if (r.diverged_after > 0)
+        text += printed("\nThe run diverged in step %llu; nothing after it was compared.\n",
+                        static_cast<unsigned long long>(r.diverged_after));
+    return text + verdict(r);
 }
 
 }  // namespace plumb::app

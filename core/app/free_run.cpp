@@ -2,6 +2,7 @@
 #include "app/free_run.h"
 
 #include "app/interrupt.h"
+#include "app/within_reach.h"
 #include "host/source_proximity.h"
 #include "measure/measure.h"
 #include "scene/error.h"
@@ -40,7 +41,7 @@ std::vector<Run> start_runs(const Scene& scene, const ColliderLibrary& colliders
     return runs;
 }
 
-/// One step; false where the state is no longer finite.
+/// One step; false where the state is of no use any more.
 bool advance(Run& run, std::uint32_t& contacts) {
     const StepReport report = run.simulation->step();
     contacts = report.contacts;
@@ -49,7 +50,7 @@ bool advance(Run& run, std::uint32_t& contacts) {
         throw ColliderError("collider \"" + run.collider + "\" failed " +
                             std::to_string(kFailuresInARow) + " steps in a row of its free run (" +
                             report.message + ")");
-    return report.finite;
+    return report.finite && within_reach(run.simulation->world());
 }
 
 /// Mean height of the dynamic bodies, against gravity [m].
@@ -96,6 +97,7 @@ FreeRuns free_runs(const Scene& scene, const ColliderLibrary& colliders,
     FreeRuns result;
     result.height.resize(runs.size());
     result.energy.resize(runs.size());
+    result.diverged_after.resize(runs.size());
     for (std::size_t i = 0; i < runs.size(); ++i)
         for (std::size_t j = i + 1; j < runs.size(); ++j) result.drifts.push_back({i, j, {}, {}});
 
@@ -106,7 +108,11 @@ FreeRuns free_runs(const Scene& scene, const ColliderLibrary& colliders,
     for (std::uint64_t i = 1; i <= steps && !result.was_interrupted; ++i) {
         bool finite = true;
         std::uint32_t contacts = 0;
-        for (Run& run : runs) finite = advance(run, contacts) && finite;
+        for (std::size_t k = 0; k < runs.size(); ++k) {
+            if (advance(runs[k], contacts)) continue;
+            finite = false;
+            result.diverged_after[k] = i;
+        }
         if (!finite) break;
         result.was_interrupted = interrupted();
         if (i % every == 0 || i == steps || result.was_interrupted) take_sample(result, runs);

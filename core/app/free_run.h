@@ -20,6 +20,8 @@ struct FreeRuns {
     std::vector<std::vector<double>> height, energy;  ///< [collider][sample], [m], [J]
     std::vector<Drift> drifts;                        ///< every two colliders
     bool was_interrupted = false;
+    /// [collider], the step that left no finite state; 0: none. The first one ends all runs.
+    std::vector<std::uint64_t> diverged_after;
 };
 
 /// `sources`: of colliders in processes of their own, asked through them; the others run as

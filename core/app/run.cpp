@@ -7,6 +7,7 @@
 #include "app/statistics.h"
 #include "app/summary.h"
 #include "app/verbs.h"
+#include "app/within_reach.h"
 #include "host/collider_call.h"
 #include "host/simulation.h"
 
@@ -45,18 +46,6 @@ std::string worst(const Statistics& statistics) {
     else
         std::snprintf(text, sizeof text, "%.3f mm deep", statistics.worst_penetration() * 1e3);
     return text;
-}
-
-/// Whether all bodies are where a recording, in single precision, can still tell.
-bool within_reach(const World& world) {
-    constexpr double kFar = 1e30;  // [m], [m/s], [rad/s]
-    const Bodies& b = world.bodies;
-    for (std::size_t i = 0; i < b.size(); ++i)
-        if (!(b.position[i].cwiseAbs().maxCoeff() < kFar) ||
-            !(b.velocity[i].cwiseAbs().maxCoeff() < kFar) ||
-            !(b.angular_velocity[i].cwiseAbs().maxCoeff() < kFar))
-            return false;
-    return true;
 }
 
 /// How a run came to its end, and the sentence for it where it was not the planned one.

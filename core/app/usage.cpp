@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/usage.h"
 
-#include "reader/nearest.h"
+#include "scene/nearest.h"
 
 #include <algorithm>
 #include <vector>
@@ -56,12 +56,11 @@ std::string usage_sentence(const CLI::App& app, int argc, char** argv, const CLI
 
     const std::string option = unknown_option(asked, argc, argv);
     if (!option.empty())
-        return "unknown option \"" + option + '"' + reader::advice(option, option_names(asked)) +
-               help;
+        return "unknown option \"" + option + '"' + advice(option, option_names(asked)) + help;
     if (!parsed.empty()) return one_line(e.what()) + help;
     const std::string word = argc > 1 ? argv[1] : "";
-    if (word.empty()) return "a verb is missing" + reader::advice(word, verbs) + help;
-    return "unknown verb \"" + word + '"' + reader::advice(word, verbs) + help;
+    if (word.empty()) return "a verb is missing" + advice(word, verbs) + help;
+    return "unknown verb \"" + word + '"' + advice(word, verbs) + help;
 }
 
 }  // namespace plumb::app

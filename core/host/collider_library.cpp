@@ -7,6 +7,7 @@
 #include "host/shape_pairs.h"
 #include "host/watched_collider.h"
 #include "scene/error.h"
+#include "scene/nearest.h"
 
 #include <dlfcn.h>
 
@@ -52,6 +53,15 @@ std::string names_of(const std::vector<ColliderInfo>& colliders) {
     for (const ColliderInfo& c : colliders)
         if (c.table) names += (names.empty() ? "" : ", ") + c.name;
     return names.empty() ? "none" : names;
+}
+
+/// " (did you mean "bullet"?)" where the name is nearly one that is installed, else nothing.
+std::string spelling_advice(const std::string& name, const std::vector<ColliderInfo>& colliders) {
+    std::vector<std::string> usable;
+    for (const ColliderInfo& c : colliders)
+        if (c.table) usable.push_back(c.name);
+    const std::string near = nearest(name, usable);
+    return near.empty() ? "" : " (did you mean \"" + near + "\"?)";
 }
 
 /// The plugins that can do a pair; "" where none can.
@@ -112,8 +122,9 @@ const ColliderInfo& ColliderLibrary::find(const std::string& name) const {
                             ") was refused: " + refused->refusal);
     std::string searched;
     for (const std::string& d : searched_) searched += (searched.empty() ? "" : ", ") + d;
-    throw ColliderError("there is no collider \"" + name + "\"; installed are: " +
-                        names_of(colliders_) + " (searched " + searched + ")");
+    throw ColliderError(
+        "there is no collider \"" + name + "\"" + spelling_advice(name, colliders_) +
+        "; installed are: " + names_of(colliders_) + " (searched " + searched + ")");
 }
 
 ColliderChoice ColliderLibrary::choose(const Scene& scene) const {

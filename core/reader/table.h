@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "reader/nearest.h"
 #include "reader/node.h"
 #include "reader/types.h"
+#include "scene/nearest.h"
 
 namespace plumb::reader {
 

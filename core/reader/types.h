@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "reader/nearest.h"
 #include "reader/node.h"
+#include "scene/nearest.h"
 
 namespace plumb::reader {
 

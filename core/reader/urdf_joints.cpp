@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "reader/nearest.h"
+#include "scene/nearest.h"
 
 namespace plumb::reader {
 

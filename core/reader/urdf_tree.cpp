@@ -6,8 +6,8 @@
 #include <set>
 
 #include "math/principal.h"
-#include "reader/nearest.h"
 #include "reader/types.h"
+#include "scene/nearest.h"
 
 namespace plumb::reader {
 

@@ -92,6 +92,17 @@ expect 2 "is not a directory; name the one" "$plumb" check "$scenes/stack.json" 
 expect 2 "there is no such directory" "$plumb" check "$scenes/stack.json" --plugin-path "$work:$work/absent"
 expect 2 "there is no such directory" "$plumb" colliders --plugin-path "$work/absent"
 expect 4 'there is no collider ""' "$plumb" colliders --check ""
+# files that are no plugins are refused by the suite with the loader's sentence, and not called dead
+for file in junk nosymbol oldabi folder; do
+  expect 4 "plumb_collider_$file.so was refused: it" "$plumb" colliders --check "$bad_plugins/plumb_collider_$file.so"
+done
+head -c 5000 "$1/lib/plumb/plugins/plumb_collider_reference.so" >"$work/plumb_collider_torn.so"
+expect 4 "was refused: it cannot be loaded: it is cut short" "$plumb" colliders --check "$work/plumb_collider_torn.so"
+expect 4 "there is no file" "$plumb" colliders --check "$work/absent.so"
+# a misspelt collider, wherever one is named
+expect 4 'there is no collider "oed" (did you mean "ode"?); installed are' "$plumb" run "$scenes/stack.json" --collider oed
+expect 4 '(did you mean "bullet_float"?)' "$plumb" effects "$scenes/stack.json" --collider bulletfloat
+expect 4 '(did you mean "reference"?)' "$plumb" colliders --check refrence
 # of two plugins of one name the first is taken; the other is refused with who was first
 good_plugins=$1/lib/plumb/plugins
 expect 4 "$good_plugins/plumb_collider_reference.so has already taken" \

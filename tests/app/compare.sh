@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# compare.sh BUILD SOURCE: colliders that agree, colliders that do not, one in a process of its own, one whose process
+# compare.sh BUILD SOURCE BAD_PLUGINS: colliders that agree, colliders that do not, one in a process of its own, one whose process
 # dies, and mistakes on the command line.
 set -u
-plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has source=$2 failing=$1/lib/plumb/failing_plugins
+plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has source=$2 failing=$1/lib/plumb/failing_plugins bad=$3
 scenes=$source/samples/scenes small=$source/tests/structure/small_pile.json
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
@@ -82,6 +82,22 @@ ends 4 "cannot detect" "$scenes/shapes.json" --colliders bullet,reference --isol
 # One that fails on parts goes on, and is told of; what it leaves out counts.
 ends 1 "made to fail" "$small" --colliders ode,hiccup --every 10 --plugin-path "$failing"
 
+# Colliders that fail alike do not agree, nor do those whose contacts are no numbers.
+ends 1 "No verdict: not all colliders gave whole answers." "$small" --colliders failing,hiccup --every 10 --plugin-path "$failing" \
+  --json "$work/failed.json"
+[ "$(value "$work/failed.json" /agrees)" = false ] || fail "two that failed are said to agree"
+[ "$(value "$work/failed.json" /pairs/0/clipped/convex/agrees)" = true ] || fail "the two did not fail alike"
+ends 1 "NO VERDICT, notanumber failed" "$small" --colliders hiccup,notanumber --every 100000 --plugin-path "$failing:$bad"
+
+# A run that diverges ends the comparison with its own code, and says so; so do free runs.
+ends 5 "diverged: the run that ode drives is no longer finite after step" "$scenes/spinner.json" --colliders ode,reference \
+  --set gyroscopic=explicit --dt 0.2 --duration 20 --json "$work/diverged.json"
+grep -q "The run diverged in step $(value "$work/diverged.json" /diverged_after_step); nothing after it" "$work/out" ||
+  fail "the text does not tell of the divergence"
+[ "$(value "$work/diverged.json" /poses)" -gt 1 ] || fail "nothing was compared before the divergence"
+ends 5 "; the free run of ode is no longer finite after step" "$scenes/spinner.json" --colliders ode,reference \
+  --set gyroscopic=explicit --dt 0.2 --duration 20 --free-run
+
 ends 2 "--colliders is required" "$small"
 ends 2 "two are needed" "$small" --colliders ode
 ends 2 "twice" "$small" --colliders ode,ode
@@ -91,6 +107,6 @@ ends 2 "named twice" "$small" --colliders ode,bullet --out "$work/x.html" --json
 ends 2 "named twice" "$small" --colliders ode,bullet --out "$work/x.html" --json "$work/./x.html"
 ends 2 "--every" "$small" --colliders ode,bullet --every 0
 ends 3 "absent.json" "$work/absent.json" --colliders ode,bullet
-ends 4 "installed are" "$small" --colliders ode,bulet
+ends 4 '(did you mean "bullet"?); installed are' "$small" --colliders ode,bulet
 ends 6 "No such file" "$small" --colliders ode,bullet --json "$work/absent/x.json"
 exit $((failures > 0))

@@ -51,6 +51,12 @@ std::string filter_of(const std::string& wanted, const std::vector<std::string>&
     prctl(PR_SET_PDEATHSIG,
           SIGKILL);  // a plugin that hangs does not outlive a parent that is stopped
     choose_plugins({plugin_file});
+    auto* teller = new Teller(lines);
+    const std::string why_not = refusal(plugin_file);
+    if (!why_not.empty()) {
+        teller->tell(kTellsRefusal, why_not);
+        std::_Exit(1);
+    }
     const PluginTable& table = plugin(plugin_file);
     int argc = 1;
     char name[] = "plumb_check_collider";
@@ -59,7 +65,6 @@ std::string filter_of(const std::string& wanted, const std::vector<std::string>&
     GTEST_FLAG_SET(filter, filter);
     auto& listeners = ::testing::UnitTest::GetInstance()->listeners();
     delete listeners.Release(listeners.default_result_printer());
-    auto* teller = new Teller(lines);
     teller->tell(kTellsPlugin, std::string(table.name) + " (" + table.backend_version + ", " +
                                    table.precision + " precision)");
     listeners.Append(teller);

@@ -14,6 +14,7 @@ namespace plumb::test {
 
 /// What a line is about, its first letter.
 enum Told : char {
+    kTellsRefusal = 'R',  ///< why the plugin cannot be used; nothing follows
     kTellsPlugin = 'P',   ///< name, version, precision
     kTellsBegin = 'B',    ///< full name of a test
     kTellsFailure = 'F',  ///< a sentence

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "loading.h"
 
-#include <dlfcn.h>
+#include "host/load_plugin.h"
 
 #include <cstdlib>
 #include <cstring>
@@ -35,18 +35,15 @@ std::vector<std::string> split(const std::string& list, char separator) {
     std::_Exit(1);
 }
 
-const PluginTable* load(const std::string& name) {
+const ColliderInfo& loaded(const std::string& name) {
+    static std::mutex lock;
+    const std::lock_guard<std::mutex> guard(lock);
+    static std::map<std::string, ColliderInfo> plugins;
+    const auto known = plugins.find(name);
+    if (known != plugins.end()) return known->second;
     const std::string file = plugin_file(name);
     if (file.empty()) give_up("there is no collision plugin " + name);
-    void* library = dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL);
-    if (!library) give_up("cannot load " + file + ": " + dlerror());
-    const auto entry = reinterpret_cast<PluginEntry>(dlsym(library, kPluginSymbol));
-    if (!entry) give_up(file + " does not export " + kPluginSymbol);
-    const PluginTable* table = entry();
-    if (!table || table->magic != kPluginMagic || table->abi_major != kAbiMajor ||
-        table->table_size < sizeof(PluginTable))
-        give_up(file + " was built against another version of the plugin interface");
-    return table;
+    return plugins[name] = load_plugin(file);
 }
 
 bool names(const char* list, const char* name) {
@@ -72,13 +69,12 @@ std::string plugin_file(const std::string& name) {
     return {};
 }
 
+std::string refusal(const std::string& name) { return loaded(name).refusal; }
+
 const PluginTable& plugin(const std::string& name) {
-    static std::mutex lock;
-    const std::lock_guard<std::mutex> guard(lock);
-    static std::map<std::string, const PluginTable*> loaded;
-    const PluginTable*& table = loaded[name];
-    if (!table) table = load(name);
-    return *table;
+    const ColliderInfo& info = loaded(name);
+    if (!info.table) give_up(info.file.string() + " was refused: " + info.refusal);
+    return *info.table;
 }
 
 std::vector<std::string> plugin_names() {

@@ -15,6 +15,10 @@ namespace plumb::test {
 /// PLUMB_PLUGIN_PATH, then in lib/plumb/plugins beside the program. Empty where there is none.
 std::string plugin_file(const std::string& name_or_file);
 
+/// Why a plugin cannot be used, as a sentence of the host; "" where it can. The first call loads
+/// it.
+std::string refusal(const std::string& name_or_file);
+
 /// The table of a plugin, loaded once a process with RTLD_NOW | RTLD_LOCAL. Ends the process with a
 /// sentence where it cannot be used.
 const PluginTable& plugin(const std::string& name_or_file);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// plumb_check_collider: the conformance suite of collision plugins.
 ///
-///     plumb_check_collider NAME|FILE.so [--limit S] [--filter TEST]   a verdict on one plugin
-///     plumb_check_collider --table [NAME|FILE.so…]                    what each can do, in
-///     Markdown plumb_check_collider --gtest_…                                  GoogleTest on all
-///     of Plumb's
+///     plumb_check_collider NAME|FILE.so [--limit S] [--filter TEST]
+///                                                    a verdict on one plugin
+///     plumb_check_collider --table [NAME|FILE.so…]   what each can do, in Markdown
+///     plumb_check_collider --gtest_…                 GoogleTest on all of Plumb's
 #include "ability_table.h"
 #include "loading.h"
 #include "verdict.h"
@@ -24,7 +24,8 @@ constexpr const char* kUsage =
     "PLUMB_PLUGIN_PATH\n"
     "and among the installed plugins; a test may take 60 s unless a limit is given; TEST is a "
     "name\n"
-    "as the verdict prints it, and may end with *. Exit codes: 0 conforms, 1 does not, 2 usage.\n"
+    "as the verdict prints it, and may end with *. Exit codes: 0 conforms, 1 does not, 2 usage,\n"
+    "4 cannot be used.\n"
     "plumb_check_collider --table [NAME|FILE.so...]\n"
     "Prints what each plugin was seen to do with each pair of shapes; all of Plumb's unless "
     "named.\n";
@@ -48,7 +49,14 @@ int verdict(int argc, char** argv) {
             options.plugin = argv[i];
     }
     if (options.plugin.empty() || options.filter.empty() || options.limit < 1) return usage();
-    return check_plugin(options) ? 0 : 1;
+    switch (check_plugin(options)) {
+        case Verdict::conforms:
+            return 0;
+        case Verdict::does_not:
+            return 1;
+        default:
+            return 4;
+    }
 }
 
 int table(int argc, char** argv) {

@@ -24,7 +24,8 @@ constexpr std::size_t kMostSentences = 3;
 
 /// What came of all tests so far.
 struct Tally {
-    std::string plugin;  ///< name and version, as its table says
+    std::string plugin;   ///< name and version, as its table says
+    std::string refusal;  ///< of the host; empty where the plugin can be used
     std::vector<std::string> done;
     int passed = 0, failed = 0, skipped = 0, losses = 0;
 };
@@ -78,6 +79,9 @@ void lose_test(Tally& tally, Current& test, const char* verdict, const std::stri
 void hear(Tally& tally, Current& test, const std::string& line) {
     const std::string text = line.substr(1);
     switch (line[0]) {
+        case kTellsRefusal:
+            tally.refusal = text;
+            break;
         case kTellsPlugin:
             if (tally.plugin.empty()) std::printf("%s\n", text.c_str());
             tally.plugin = text;
@@ -135,6 +139,7 @@ bool run_child(Tally& tally, const CheckOptions& options, const std::string& fil
     int status = 0;
     waitpid(child.pid, &status, 0);
     const std::string name = tally.plugin.empty() ? options.plugin : tally.plugin;
+    if (!tally.refusal.empty()) return false;
     if (!in_time) {
         lose_test(tally, test, "HUNG",
                   name + " did not answer within " + std::to_string(options.limit) + " s");
@@ -151,14 +156,19 @@ bool run_child(Tally& tally, const CheckOptions& options, const std::string& fil
 
 }  // namespace
 
-bool check_plugin(const CheckOptions& options) {
+Verdict check_plugin(const CheckOptions& options) {
     const std::string file = plugin_file(options.plugin);
     if (file.empty()) {
-        std::printf("there is no collision plugin %s\n", options.plugin.c_str());
-        return false;
+        std::fprintf(stderr, "plumb: there is no collision plugin %s\n", options.plugin.c_str());
+        return Verdict::refused;
     }
     Tally tally;
     while (run_child(tally, options, file) && tally.losses < kMostLosses) {
+    }
+    if (!tally.refusal.empty()) {
+        std::fprintf(stderr, "plumb: collider %s was refused: %s\n", file.c_str(),
+                     tally.refusal.c_str());
+        return Verdict::refused;
     }
     if (tally.losses == kMostLosses)
         std::printf("  the rest was not run: %d tests were lost\n", tally.losses);
@@ -167,7 +177,7 @@ bool check_plugin(const CheckOptions& options) {
     std::printf("%s: %s; %d passed, %d failed, %d do not apply\n",
                 (name.empty() ? options.plugin : name).c_str(),
                 good ? "conforms" : "does not conform", tally.passed, tally.failed, tally.skipped);
-    return good;
+    return good ? Verdict::conforms : Verdict::does_not;
 }
 
 }  // namespace plumb::test

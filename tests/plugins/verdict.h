@@ -13,7 +13,10 @@ struct CheckOptions {
     int limit = 60;            ///< for each test [s]
 };
 
-/// Runs the suite, prints one line a test and a sentence for each failure; true when all passed.
-bool check_plugin(const CheckOptions& options);
+enum class Verdict { conforms, does_not, refused };
+
+/// Runs the suite, prints one line a test and a sentence for each failure. A plugin that the host
+/// would refuse is refused with the host's sentence, on stderr.
+Verdict check_plugin(const CheckOptions& options);
 
 }  // namespace plumb::test

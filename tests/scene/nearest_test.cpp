@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "reader/nearest.h"
+#include "scene/nearest.h"
 
 #include <gtest/gtest.h>
 
-namespace plumb::reader {
+namespace plumb {
 
 TEST(Nearest, CountsEdits) {
     EXPECT_EQ(edit_distance("friction", "friction"), 0u);
@@ -28,4 +28,4 @@ TEST(Nearest, ListsWhatIsAllowed) {
     EXPECT_EQ(advice("xyz", {}), ".");
 }
 
-}  // namespace plumb::reader
+}  // namespace plumb

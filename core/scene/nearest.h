@@ -1,18 +1,16 @@
 // SPDX-License-Identifier: MIT
-#include "reader/nearest.h"
+/// The nearest spelling of a name that is unknown. For errors of all layers, so all of it is here.
+#pragma once
 
 #include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
 
-namespace plumb::reader {
+namespace plumb {
 
-namespace {
-
-constexpr std::size_t kMostListed = 24;   // candidates that an error lists
-constexpr std::size_t kLongestWord = 64;  // [characters] longer words are not worth comparing
-
-}  // namespace
-
-std::size_t edit_distance(std::string_view a, std::string_view b) {
+/// Edits (insert, delete, replace, swap of two neighbours) that turn one word into the other.
+inline std::size_t edit_distance(std::string_view a, std::string_view b) {
     // Rows of the table of distances between the first i letters of a and the first j of b.
     std::vector<std::size_t> before(b.size() + 1), last(b.size() + 1), row(b.size() + 1);
     for (std::size_t j = 0; j <= b.size(); ++j) last[j] = j;
@@ -31,14 +29,16 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
     return last[b.size()];
 }
 
-std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
-    if (word.empty() || word.size() > kLongestWord) return "";
+/// The candidate that `word` most likely stands for, or "" when none is near.
+inline std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
+    constexpr std::size_t kLongestCompared = 64;  // [characters]
+    if (word.empty() || word.size() > kLongestCompared) return "";
 
     // Two fifths of the letters may be wrong, and one always.
     std::size_t best_distance = std::max<std::size_t>(1, 2 * word.size() / 5) + 1;
     std::string best;
     for (const std::string& candidate : candidates) {
-        if (candidate.size() > kLongestWord) continue;
+        if (candidate.size() > kLongestCompared) continue;
         const std::size_t distance = edit_distance(word, candidate);
         if (distance < best_distance) {
             best_distance = distance;
@@ -48,19 +48,21 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
     return best;
 }
 
-std::string advice(std::string_view word, const std::vector<std::string>& candidates) {
+/// What an error says of an unknown word: `; did you mean "friction"? Allowed: density, friction`.
+inline std::string advice(std::string_view word, const std::vector<std::string>& candidates) {
     const std::string near = nearest(word, candidates);
     std::string text = near.empty() ? "." : "; did you mean \"" + near + "\"?";
     if (candidates.empty()) return text;
+    constexpr std::size_t kMostNamed = 24;
 
     text += " Allowed: ";
-    for (std::size_t i = 0; i < std::min(candidates.size(), kMostListed); ++i) {
+    for (std::size_t i = 0; i < std::min(candidates.size(), kMostNamed); ++i) {
         text += (i > 0 ? ", " : "") + candidates[i];
     }
-    if (candidates.size() > kMostListed) {
-        text += " and " + std::to_string(candidates.size() - kMostListed) + " more";
+    if (candidates.size() > kMostNamed) {
+        text += " and " + std::to_string(candidates.size() - kMostNamed) + " more";
     }
     return text;
 }
 
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+#include "app/within_reach.h"
+
+namespace plumb::app {
+
+bool within_reach(const World& world) {
+    constexpr double kFar = 1e30;  // [m], [m/s], [rad/s]
+    const Bodies& b = world.bodies;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (!(b.position[i].cwiseAbs().maxCoeff() < kFar) ||
+            !(b.velocity[i].cwiseAbs().maxCoeff() < kFar) ||
+            !(b.angular_velocity[i].cwiseAbs().maxCoeff() < kFar))
+            return false;
+    return true;
+}
+
+}  // namespace plumb::app
