@@ -128,7 +128,7 @@ bool Channel::receive(void* bytes, std::size_t count) {
     while (count > 0) {
         const ssize_t got = ::recv(descriptor_, to, count, 0);
         if (got < 0 && errno == EINTR) continue;
-        if (got == 0) errno = 0;  // the other end is closed
+        was_silent_ = got < 0 && (errno == EAGAIN || errno == EWOULDBLOCK);
         if (got <= 0) return false;
         to += got, count -= static_cast<std::size_t>(got);
     }
@@ -181,7 +181,7 @@ ContactAnswer RemoteSource::ask(const ContactQuestion& question) {
 }
 
 void RemoteSource::give_up() {
-    const bool silent = errno == EAGAIN || errno == EWOULDBLOCK;
+    const bool silent = channel_.was_silent();
     if (silent) kill(child_, SIGKILL);
     channel_.close();
     const std::string ending = ending_of(child_);

@@ -23,15 +23,17 @@ public:
     Channel(const Channel&) = delete;
     Channel& operator=(const Channel&) = delete;
 
-    /// False when the other end is gone, or (receiving) silent for longer than `patience`.
+    /// False when the other end is gone, or (receiving) silent for longer than the patience.
     bool send(const void* bytes, std::size_t count);
     bool receive(void* bytes, std::size_t count);
+    bool was_silent() const { return was_silent_; }  ///< the patience is over
 
     void set_patience(int seconds);
     void close();
 
 private:
     int descriptor_;
+    bool was_silent_ = false;
 };
 
 class RemoteSource final : public ContactSource {

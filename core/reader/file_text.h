@@ -10,4 +10,7 @@ namespace plumb::reader {
 /// Throws SceneError, which names the file, where it is not there or cannot be read.
 std::string text_of_file(const std::filesystem::path& file);
 
+/// Throws BadShape instead.
+std::string text_of_mesh(const std::filesystem::path& file);
+
 }  // namespace plumb::reader

@@ -6,12 +6,12 @@
 #include <Eigen/Geometry>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <string_view>
 #include <unordered_map>
 
 #include "reader/bad_shape.h"
+#include "reader/file_text.h"
 
 namespace plumb::reader {
 
@@ -28,18 +28,6 @@ struct ObjFile {
     std::vector<Eigen::Vector3d> vertices;
     std::vector<ObjGroup> groups;
 };
-
-std::string text_of(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) {
-        throw BadShape("there is no mesh file \"" + file.string() + "\"");
-    }
-    std::ifstream stream(file, std::ios::binary);
-    std::ostringstream text;
-    if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
-    if (!stream.is_open()) throw BadShape("the mesh file \"" + file.string() + "\" cannot be read");
-    return text.str();
-}
 
 /// Takes the next word off a line.
 std::string_view next_word(std::string_view& line) {
@@ -126,7 +114,7 @@ ObjFile parse_obj(const std::string& text) {
 }
 
 ObjFile load(const std::filesystem::path& file) {
-    const std::string text = text_of(file);
+    const std::string text = text_of_mesh(file);
     try {
         return parse_obj(text);
     } catch (const BadShape& error) {

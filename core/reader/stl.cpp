@@ -10,7 +10,6 @@
 
 #include "reader/bad_shape.h"
 #include "reader/file_text.h"
-#include "scene/error.h"
 
 namespace plumb::reader {
 
@@ -122,18 +121,10 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& name) {
     return mesh.take(name);
 }
 
-std::string bytes_of(const std::filesystem::path& file) {
-    try {
-        return text_of_file(file);
-    } catch (const SceneError&) {
-        throw BadShape("there is no mesh file \"" + file.string() + "\" that can be read");
-    }
-}
-
 }  // namespace
 
 TriangleMesh load_stl(const std::filesystem::path& file) {
-    const std::string bytes = bytes_of(file);
+    const std::string bytes = text_of_mesh(file);
     try {
         return parse_stl(bytes, file.stem().string());
     } catch (const BadShape& error) {

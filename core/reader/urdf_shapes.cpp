@@ -83,6 +83,10 @@ fs::path mesh_file(const std::string& uri, const fs::path& folder) {
     const std::size_t scheme = uri.find("://");
     const std::string rest = scheme == std::string::npos ? uri : uri.substr(scheme + 3);
     if (scheme == std::string::npos || uri.starts_with("file://")) {
+        std::error_code error;
+        if (fs::is_directory(folder / rest, error))
+            throw NoMesh("the mesh file \"" + uri + "\" in \"" + folder.string() +
+                         "\" is a folder; name a file in it");
         if (is_file(folder / rest)) found = folder / rest;
     } else if (!rest.empty()) {
         found = in_package(rest, folder);

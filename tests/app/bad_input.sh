@@ -35,6 +35,9 @@ scene shape.json '{"bodies": [{"shape": {"spere": {"radius": 1}}}]}'
 scene material.json "{\"materials\": {\"wood\": {}}, \"bodies\": [$body, \"material\": \"wod\"}]}"
 scene effect.json '{"settings": {"require": ["shok_propagation"]}}'
 scene mesh.json '{"bodies": [{"shape": {"mesh": {"obj": "absent.obj"}}, "motion": "fixed"}]}'
+mkdir "$work/folder.obj" "$work/folder.stl"
+scene folder.json '{"bodies": [{"shape": {"mesh": {"obj": "folder.obj"}}, "motion": "fixed"}]}'
+scene folder.urdf '<robot name="r"><link name="a"><collision><geometry><mesh filename="folder.stl"/></geometry></collision></link></robot>'
 scene cone.json '{"bodies": [{"shape": {"cone": {"radius": 1, "half_height": 1}}}, {"shape": {"cone": {"radius": 1, "half_height": 1}}}]}'
 scene pair.json '{"bodies": [{"shape": {"plane": {}}, "motion": "fixed"},
   {"shape": {"height_field": {"rows": 2, "columns": 2, "spacing": [1, 1], "heights": [0, 0, 0, 0]}}, "motion": "fixed"},
@@ -60,6 +63,9 @@ expect 3 "did you mean \"sphere\"" "$plumb" check "$work/shape.json"
 expect 3 "did you mean \"wood\"" "$plumb" check "$work/material.json"
 expect 3 "shock_propagation" "$plumb" check "$work/effect.json"
 expect 3 "absent.obj" "$plumb" check "$work/mesh.json"
+expect 3 'folder.obj" is a folder; name a file in it' "$plumb" check "$work/folder.json"
+expect 3 'folder.stl" in ' "$plumb" check "$work/folder.urdf"
+expect 3 'is a folder; name a file in it' "$plumb" check "$work/folder.urdf"
 expect 3 "/bodies/0/inertia" "$plumb" check "$work/inertia.json"
 expect 4 "installed are" "$plumb" check "$scenes/stack.json" --collider physx
 expect 4 "no installed collider can detect moving mesh against height_field" "$plumb" run "$work/pair.json"

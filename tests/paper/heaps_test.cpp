@@ -90,7 +90,7 @@ std::vector<std::string> wanted_colliders() {
 
 struct Heap {
     std::string name, folder;
-    bool is_large;  ///< so many bodies that a start 1 mm aside changes the height by 1.6 % at most
+    bool is_large;  ///< so many bodies that a start a millimetre aside hardly changes the height
     double bottom;  ///< what heights are measured from: the ground, or where valleys end [m]
 
     std::filesystem::path file() const {

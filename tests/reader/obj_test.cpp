@@ -102,7 +102,7 @@ TEST_F(Obj, RefusalsNameFileAndPlace) {
     expect_error(with_shape(R"({"mesh": {"obj": "meshes/gems.obj"}})"), "/bodies/0/shape/mesh/obj",
                  "there is no mesh file");
     expect_error(with_shape(R"({"hull": {"obj": "meshes"}})"), "/bodies/0/shape/hull/obj",
-                 "there is no mesh file");
+                 "is a folder; name a file in it");
 }
 
 }  // namespace plumb::test
