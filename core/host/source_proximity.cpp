@@ -29,9 +29,15 @@ Status SourceProximity::remove(std::uint32_t) noexcept {
     return {Status::unsupported, 0, "a collider in another process keeps its bodies"};
 }
 
+Status SourceProximity::known() const {
+    if (!asked_) return ok_status();
+    return {Status::unsupported, 0, "a collider in another process keeps its bodies and pairs"};
+}
+
 Status SourceProximity::detect(const DetectRequest& request, const ContactSink* sinks,
                                std::uint32_t sink_count) noexcept {
     if (!sinks || sink_count == 0) return {Status::bad_argument, 0, "detect needs a sink"};
+    asked_ = true;
     try {
         return ask(request, sinks[0]);
     } catch (const std::exception& e) {

@@ -143,7 +143,8 @@ public:
     /// Adds a body under an id that is not in use. Ids are small integers chosen by the core.
     virtual Status add(std::uint32_t body, const ShapePlacement& placement) noexcept = 0;
 
-    /// Removes a body; afterwards its shape's memory may be freed.
+    /// Removes a body; afterwards its shape's memory may be freed. Its exclusions end with it, so
+    /// that the id may be given to another body.
     virtual Status remove(std::uint32_t body) noexcept = 0;
 
     /// Excludes a pair from detection (bodies that a joint links), or lets it in again.

@@ -2,6 +2,7 @@
 /// Edits that cannot be made: an exception with a sentence, and a world that goes on as if nobody
 /// had tried.
 #include "host/editing.h"
+#include "host/source_proximity.h"
 
 #include "scene/error.h"
 
@@ -228,6 +229,30 @@ TEST(BadEdits, ThatAColliderOfOnesOwnRefuses) {
     EXPECT_EQ(s.world().bodies.size(), scene.bodies.size());
     collider.room += 1;
     EXPECT_EQ(s.add_body(body_of(1, {0, 0, 0})), scene.bodies.size());
+}
+
+/// A source of contacts that knows two bodies and finds nothing.
+class Elsewhere : public ContactSource {
+public:
+    const SourceInfo& info() const override { return info_; }
+    ContactAnswer ask(const ContactQuestion&) override { return {}; }
+
+private:
+    SourceInfo info_{"elsewhere", "", ""};
+};
+
+TEST(BadEdits, OfAColliderInAnotherProcess) {
+    Scene scene;
+    add_ground(scene);
+    add_body(scene, sphere(1), {0, 9, 0});
+    Elsewhere source;
+    SourceProximity collider(source);
+    Simulation s(scene, collider, "elsewhere");
+    s.step();
+    expect_refusal<ColliderError>([&] { s.add_body(body_of(1, {0, 5, 0})); }, "another process");
+    expect_refusal<ColliderError>([&] { s.remove_body(1); }, "another process");
+    s.step();
+    EXPECT_EQ(s.world().bodies.size(), 2u);
 }
 
 /// The first body that calls for contacts brings all the others to the collider, or none.

@@ -65,6 +65,30 @@ TEST_P(EveryEnding, RunWithoutFramesStillMakesAFile) {
     EXPECT_GT(std::filesystem::file_size(file), 20u);
 }
 
+/// Bodies that came, went, or changed places: a file of one scene's bodies would tell a lie.
+TEST_P(EveryEnding, FramesOfOtherBodiesAreRefused) {
+    const Scene scene = falling_scene(1);
+    const auto exporter = make_exporter(path("edited") + GetParam(), scene, {});
+    Frame frame = falling_frame(scene, 0, 0);
+    for (std::uint32_t i = 0; i < frame.bodies.size(); ++i) frame.ids.push_back(i);
+    exporter->append(frame);
+    Frame vacant = frame, reused = frame, more = frame, fewer = frame;
+    vacant.ids[1] = kNoIndex;
+    reused.ids[1] = static_cast<std::uint32_t>(frame.bodies.size());
+    more.bodies.push_back(frame.bodies[0]), more.ids.push_back(reused.ids[1]);
+    fewer.bodies.pop_back(), fewer.ids.pop_back();
+    for (const Frame* other : {&vacant, &reused, &more, &fewer}) {
+        try {
+            exporter->append(*other);
+            FAIL() << "it took the frame";
+        } catch (const OutputError& error) {
+            EXPECT_NE(std::string(error.what()).find("added or removed"), std::string::npos)
+                << error.what();
+        }
+    }
+    EXPECT_NO_THROW(exporter->append(frame));
+}
+
 INSTANTIATE_TEST_SUITE_P(Endings, EveryEnding, testing::Values(".html", ".png", ".csv", ".plumb"));
 
 TEST_F(ExportersTest, OldFileStaysWhenARunIsBrokenOff) {
