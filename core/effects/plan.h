@@ -8,6 +8,7 @@
 
 #include "world/world.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -43,6 +44,12 @@ struct Plan {
                                         ///< forbidden, and the remarks of the scene's reader
 
     bool runs(Effect e) const { return decisions[static_cast<std::size_t>(e)].runs; }
+
+    /// Whether the same effects run as by another plan.
+    bool runs_as(const Plan& other) const {
+        return std::equal(decisions.begin(), decisions.end(), other.decisions.begin(),
+                          [](const Decision& p, const Decision& q) { return p.runs == q.runs; });
+    }
 };
 
 /// Asks every effect whether the world wants it, and applies Settings::require and

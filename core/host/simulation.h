@@ -143,6 +143,7 @@ public:
     void remove_coupling(std::uint32_t coupling);
 
     bool has_body(std::uint32_t body) const;
+    bool has_joint(std::uint32_t joint) const;
 
     /// The body's index in the tables of `world()` and in Frame::bodies, as long as it lives;
     /// Bodies::id and Frame::ids tell the way back.

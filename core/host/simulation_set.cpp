@@ -3,6 +3,7 @@
 #include "host/simulation_parts.h"
 #include "world/edit_world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -21,6 +22,12 @@ bool follows_keyframes(const Bodies& b, std::uint32_t place) {
 
 bool Simulation::has_body(std::uint32_t body) const {
     return parts_->world.places.find(body).has_value();
+}
+
+bool Simulation::has_joint(std::uint32_t joint) const {
+    const auto& joints = parts_->world.joints.joints;
+    return std::any_of(joints.begin(), joints.end(),
+                       [joint](const Joint& j) { return j.id == joint; });
 }
 
 std::uint32_t Simulation::place_of(std::uint32_t body) const { return parts_->place(body); }

@@ -13,6 +13,7 @@
 #include <plumb/proximity.h>
 
 #include <memory>
+#include <utility>
 
 namespace plumb {
 
@@ -24,10 +25,12 @@ struct Stepper {
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints or rows. What a
-    /// step leaves for the next is in the world's tables, so that nothing is lost.
+    /// step leaves for the next is in the world's tables, so that nothing is lost. A solver without
+    /// joints holds nothing of the world, and its memory serves on.
     void renew(const World& world) {
-        plan = make_plan(world);
-        solver = make_row_solver(world, plan, workers);
+        const Plan before = std::exchange(plan, make_plan(world));
+        if (plan.runs(Effect::joints) || !plan.runs_as(before))
+            solver = make_row_solver(world, plan, workers);
     }
 
     Plan plan;

@@ -101,6 +101,9 @@ TEST(EditedJoint, OthersKeepTheirNamesCountsAndTargets) {
     s.remove_joint(0);
     s.remove_body(1);
     EXPECT_EQ(s.world().joints.size(), 1u);
+    EXPECT_FALSE(s.has_joint(0));
+    EXPECT_FALSE(s.has_joint(1)) << "it went with its body";
+    EXPECT_TRUE(s.has_joint(2));
     EXPECT_EQ(s.joint_motion(2, kTurnX).position, before.position);
     EXPECT_NEAR(s.joint_load(2).force.y(), kG, 1e-4);
     s.set_motor_target(2, kTurnX, -4);
