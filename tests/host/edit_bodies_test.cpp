@@ -79,6 +79,20 @@ TEST_P(EditedBodies, ANewBodyInAnOldPlaceHasNoPast) {
     EXPECT_NEAR(c.point_a.y, 0.4, 1e-3);
 }
 
+TEST_P(EditedBodies, AnotherShapeWhereOneStoodIsLookedAtAnew) {
+    Scene scene = pair_of_cubes();
+    scene.bodies.pop_back();
+    Simulation s = running(scene);
+    const std::uint32_t ball = s.add_geometry(sphere(0.2));
+    make_steps(s, 50);
+    ASSERT_GE(s.step().contacts, 4u);
+    BodySpec spec = body_of(ball, Vector::Zero());
+    spec.placement = s.body_state(1).placement;
+    s.remove_body(1);
+    EXPECT_EQ(s.place_of(s.add_body(spec)), 1u);
+    EXPECT_EQ(s.step().contacts, 1u) << "those of the cube were kept";
+}
+
 TEST_P(EditedBodies, WhatIsAddedHasNoPlaceForQueriesBeforeAStep) {
     Simulation s = running(pair_of_cubes());
     make_steps(s, 1);
