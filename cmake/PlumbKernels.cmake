@@ -7,6 +7,10 @@ function(plumb_kernel_unit name source)
   target_link_libraries(plumb_kernels_${name} PRIVATE plumb_options plumb::interfaces Eigen3::Eigen)
   target_compile_options(plumb_kernels_${name} PRIVATE -O3 -fno-math-errno -fno-trapping-math -Wno-psabi ${ARGN})
   target_compile_definitions(plumb_kernels_${name} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_NO_DEBUG)
+  # Of the sanitized units one is enough: the others are the same source at other widths, and slow to build so.
+  if(PLUMB_SANITIZE AND NOT name STREQUAL "baseline")
+    set_source_files_properties(${source} PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)
+  endif()
   set(object "${CMAKE_CURRENT_BINARY_DIR}/plumb_kernels_${name}.o")
   add_custom_command(OUTPUT "${object}"
     COMMAND ${CMAKE_LINKER} -r --force-group-allocation -o "${object}" $<TARGET_OBJECTS:plumb_kernels_${name}>

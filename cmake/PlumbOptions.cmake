@@ -26,7 +26,7 @@ target_compile_definitions(plumb_options INTERFACE EIGEN_MPL2_ONLY)
 
 set(PLUMB_SANITIZE "" CACHE STRING "Sanitizers to build with, such as address,undefined or thread")
 if(PLUMB_SANITIZE)
-  target_compile_options(plumb_options INTERFACE -fsanitize=${PLUMB_SANITIZE} -fno-omit-frame-pointer)
+  target_compile_options(plumb_options INTERFACE -fsanitize=${PLUMB_SANITIZE} -fno-omit-frame-pointer -O1)
   target_link_options(plumb_options INTERFACE -fsanitize=${PLUMB_SANITIZE})
 endif()
 option(PLUMB_COVERAGE "Instrument for gcov" OFF)

@@ -6,9 +6,15 @@
 #include "world/mass_properties.h"
 
 #include <cmath>
+#include <cstdio>
 
 namespace plumb {
 namespace {
+
+/// Radii of a body that gravity may move it by in one step. Beyond that, what a contact at a corner
+/// takes from the fall turns the body several times within the step, and contacts, which are found
+/// once a step, are of another side of it.
+constexpr double kMostRadiiAStep = 25;
 
 /// A body that is being made, and where it stands in the draft.stock.
 struct Draft {
@@ -115,6 +121,22 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.angular_momentum, Vector3d(Vector3d::Zero()));
 }
 
+void check_size(const Draft& draft, double reach) {
+    const BodySpec& s = draft.spec;
+    const Settings& settings = draft.stock.settings;
+    const bool turns = draft.stock.geometries[s.geometry].kind != ShapeKind::sphere;
+    if (s.motion != Motion::dynamic || !turns || s.mask == 0) return;
+    const double g = settings.gravity.norm(), fall = g * settings.dt * settings.dt;
+    if (fall <= kMostRadiiAStep * reach) return;
+    char text[300];
+    std::snprintf(text, sizeof text,
+                  "the body reaches only %.2g m from its centre, and gravity moves it by %.2g m in "
+                  "a step of %.2g s: the step may be %.2g s at most, or the body must reach %.2g m",
+                  reach, fall, settings.dt, std::sqrt(kMostRadiiAStep * reach / g),
+                  fall / kMostRadiiAStep);
+    draft.refuse("shape", text);
+}
+
 }  // namespace
 
 BodyRow make_body(const Scene& stock, const BodySpec& spec, const std::string& pointer) {
@@ -142,6 +164,7 @@ BodyRow make_body(const Scene& stock, const BodySpec& spec, const std::string& p
     row.script = spec.script;
     if (!has_shape) return row;
     row.reach = reach_from(stock.geometries[spec.geometry], m.body_in_geometry.position);
+    check_size(draft, row.reach);
     row.group = spec.group, row.mask = spec.mask;
     return row;
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Far from the origin, fast spins, long and tiny steps.
+#include "scene/error.h"
 #include "support/scenes.h"
 
 #include <algorithm>
@@ -52,6 +53,47 @@ TEST(Extremes, LongStepsStayBounded) {
     run_for(simulation, 10);
     for (double depth : penetrations(simulation.world()))
         EXPECT_LT(depth, 0.1) << "a tenth of the size";
+}
+
+/// A cube that drops from five times its height, tilted.
+Scene dropped_cube(double half) {
+    Scene s;
+    add_ground(s);
+    BodySpec& cube = add_body(s, box(half, half, half), {0, 11 * half, 0});
+    cube.placement.rotation = Rotation(Eigen::AngleAxisd(0.7, Vector(1, 0.3, 0.2).normalized()));
+    return s;
+}
+
+TEST(Extremes, TheSmallestBodiesOfAStepComeToRest) {
+    const double limit = 9.81 * 0.01 * 0.01 / 25 / std::sqrt(3.0);  // half a cube's side [m]
+    const Scene s = dropped_cube(1.01 * limit);
+    ASSERT_EQ(s.settings.dt, 0.01);
+    for (const char* name : {"reference", "ode", "bullet", "fcl"}) {
+        Simulation simulation(s, colliders(), name);
+        run_for(simulation, 1);
+        EXPECT_NEAR(simulation.world().bodies.position[1].y(), limit, 0.05 * limit) << name;
+    }
+}
+
+TEST(Extremes, BodiesTooSmallForTheStepAreRefused) {
+    Scene s = dropped_cube(1e-6);
+    const auto sentence = [&s]() -> std::string {
+        try {
+            const Simulation simulation(s, colliders(), "reference");
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "";
+    };
+    EXPECT_EQ(sentence(),
+              "/bodies/1/shape: the body reaches only 1.7e-06 m from its centre, and gravity moves "
+              "it by 0.00098 m in a step of 0.01 s: the step may be 0.0021 s at most, or the body "
+              "must reach 3.9e-05 m");
+    s.settings.dt = 0.002;
+    EXPECT_EQ(sentence(), "");
+    s.settings.dt = 0.01;
+    s.settings.gravity.setZero();
+    EXPECT_EQ(sentence(), "");
 }
 
 TEST(Extremes, JointAtTheCentreOfMassAndJointBetweenCoincidentBodies) {
