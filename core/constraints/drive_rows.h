@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// What acts along or about a joint's free axis, as a row that drive.h solves: limit, motor, spring
-/// and damper, dry friction.
+/// and damper, dry friction, greatest speed.
 ///
 ///   q  coordinate now [m], [rad]     rate  its speed at the end of the substep
 ///   k  stiffness [N/m], [N m/rad]    d     damping [N s/m], [N m s/rad]
@@ -62,6 +62,13 @@ inline DriveRow position_motor_row(double q, double place, double speed, const J
 /// Stands still with at most the given force.
 inline DriveRow friction_row(double greatest, double h) {
     return {0, 0, -greatest * h, greatest * h};
+}
+
+/// Keeps a speed, now `rate`, within `greatest` to the side to which it goes.
+inline DriveRow speed_row(double rate, double greatest) {
+    constexpr double any = std::numeric_limits<double>::infinity();
+    if (rate < 0) return {greatest, 0, 0, any};
+    return {-greatest, 0, -any, 0};
 }
 
 /// A target and how fast it moves.

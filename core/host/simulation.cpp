@@ -187,12 +187,7 @@ Simulation::JointMotion Simulation::joint_motion(std::uint32_t joint, std::uint3
     if (axis >= kJointAxes || j.locked[axis])
         throw std::invalid_argument("the joint has no free axis " + std::to_string(axis));
     const JointCoordinate q = joint_coordinate(world, index, axis);
-    const auto part = [&](std::uint32_t body, const Vector3d& turn) {
-        if (body == kNoIndex) return 0.0;
-        return q.along.dot(world.bodies.velocity[body]) +
-               turn.dot(world.bodies.angular_velocity[body]);
-    };
-    return {q.value, part(j.a, q.turn_a) - part(j.b, q.turn_b)};
+    return {q.value, joint_rate(world.bodies, j, q)};
 }
 
 JointLoad Simulation::joint_load(std::uint32_t joint) const {

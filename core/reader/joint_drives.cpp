@@ -129,6 +129,8 @@ const Table<A>& joint_axis_table() {
                    "spring and damper, in metres or radians"),
         field<A>("friction", Number{kStrength}, &A::friction,
                  "greatest force [N] or torque [N m] of dry friction"),
+        field<A>("max_speed", Number{kNotNegative}, &A::greatest_speed,
+                 "greatest speed, to either side [m/s], [rad/s]; left out: any"),
     };
     return table;
 }

@@ -96,7 +96,7 @@ std::vector<std::string> usable_keys(JointKind kind) {
     add(keys, t.axis != Use::none, {"axis"});
     add(keys, t.second_axis != Use::none, {"second_axis"});
     add(keys, kind == JointKind::six_axis, {"locked"});
-    add(keys, t.has_main_axis, {"limits", "motor", "spring", "friction"});
+    add(keys, t.has_main_axis, {"limits", "motor", "spring", "friction", "max_speed"});
     add(keys, !t.axes.empty(), {"axes"});
     add(keys, t.translations, {"compliance", "breaking_force"});
     add(keys, t.rotations, {"angular_compliance", "breaking_torque"});

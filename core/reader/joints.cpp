@@ -193,7 +193,7 @@ void set_distance(JointDraft& draft, const Node& node) {
         if (axis.upper < 0) keys.at("limits").fail("a distance is never negative");
         return;
     }
-    for (const char* key : {"motor", "spring", "friction"}) {
+    for (const char* key : {"motor", "spring", "friction", "max_speed"}) {
         if (keys.has(key))
             keys.at(key).fail(
                 "a distance with neither \"limits\" nor a spring's \"stiffness\" is a rod, along "

@@ -3,9 +3,9 @@
 ///
 /// Links become bodies and joints joints; links that a fixed joint ties are one body. Masses are
 /// those of the "inertial" elements, shapes those of the "collision" elements; what looks alone
-/// serves is not read, and limits of velocity are not kept. A URDF's z axis points up; in the scene
-/// it points along y. Links of a robot whose base is fixed do not collide with fixed bodies that
-/// they begin in. What was left out or changed is told in Scene::remarks.
+/// serves is not read, and limits of velocity of 0 are not kept. A URDF's z axis points up; in the
+/// scene it points along y. Links of a robot whose base is fixed do not collide with fixed bodies
+/// that they begin in. What was left out or changed is told in Scene::remarks.
 #pragma once
 
 #include <cstdint>

@@ -73,6 +73,8 @@ JointSpec joint_of(const LinkGroup& group, double start, const UrdfOptions& opti
     JointAxisSpec& axis = spec.axes[coordinate_axis(joint)];
     if (has_limits(joint))
         axis.lower = joint.limits->lower - start, axis.upper = joint.limits->upper - start;
+    if (joint.limits && joint.limits->velocity != 0)  // many files have 0 where they mean none
+        axis.greatest_speed = at_least_0(joint, joint.limits->velocity, "limit of velocity");
     if (joint.dynamics) {
         axis.damping = at_least_0(joint, joint.dynamics->damping, "damping");
         axis.friction = at_least_0(joint, joint.dynamics->friction, "friction");

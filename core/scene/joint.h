@@ -72,6 +72,8 @@ struct JointAxisSpec {
     double rest = 0;       ///< where the spring is at ease [m], [rad]
     double damping = 0;    ///< [N s/m], [N m s/rad]
     double friction = 0;   ///< greatest force or torque of dry friction [N], [N m]
+    double greatest_speed =
+        std::numeric_limits<double>::infinity();  ///< to either side [m/s], [rad/s]
 };
 
 /// A joint between two bodies, or a body and the world (body_b = kNoIndex).

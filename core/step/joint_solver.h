@@ -171,7 +171,8 @@ private:
         const Joint& joint = world.joints.joints[drive.joint];
         const JointCoordinate q = joint_coordinate(world, drive.joint, drive.axis);
         const double k = response_of(world.bodies, joint, q);
-        const DriveRow row = drive_row(drive, q.value, k, world.settings, world.time + h, h);
+        const double rate = joint_rate(world.bodies, joint, q);
+        const DriveRow row = drive_row(drive, q.value, rate, k, world.settings, world.time + h, h);
         DriveBlock<Real, W>& block = drives_.block(item);
         const std::uint32_t lane = drives_.lane(item);
         drives_.fill_masses(item, world.bodies, joint.a, joint.b);
@@ -185,7 +186,7 @@ private:
         block.lambda[lane] = 0;
     }
 
-    static DriveRow drive_row(const JointDrive& drive, double q, double response,
+    static DriveRow drive_row(const JointDrive& drive, double q, double rate, double response,
                               const Settings& settings, double time, double h) {
         const JointAxisSpec& spec = drive.spec;
         const MotorTarget target = motor_target(spec.motor, time);
@@ -202,6 +203,8 @@ private:
                 return spring_row(q, spec.rest, 0, spec.stiffness, spec.damping, h);
             case DriveKind::friction:
                 return friction_row(spec.friction, h);
+            case DriveKind::speed:
+                return speed_row(rate, spec.greatest_speed);
         }
         return {};
     }

@@ -49,6 +49,14 @@ JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::u
     return q;
 }
 
+double joint_rate(const Bodies& b, const Joint& joint, const JointCoordinate& q) {
+    const auto part = [&](std::uint32_t body, const Vector3d& turn) {
+        if (body == kNoIndex) return 0.0;
+        return q.along.dot(b.velocity[body]) + turn.dot(b.angular_velocity[body]);
+    };
+    return part(joint.a, q.turn_a) - part(joint.b, q.turn_b);
+}
+
 JointLoad joint_load(const World& world, std::uint32_t index) {
     const Joint& joint = world.joints.joints[index];
     const JointPose pose = joint_pose(world.bodies, joint);

@@ -16,6 +16,9 @@ int free_turns(const Joint& joint);
 /// free axis is counted through whole turns.
 JointCoordinate joint_coordinate(const World& world, std::uint32_t joint, std::uint32_t axis);
 
+/// How fast a coordinate of a joint changes [m/s], [rad/s].
+double joint_rate(const Bodies& bodies, const Joint& joint, const JointCoordinate& q);
+
 /// Force at the joint's point of a and torque on a, from b; world frame [N], [N m]. Motors,
 /// springs, limits and friction of the joint are part of it. The mean of the last two substeps:
 /// iterations sweep forwards and backwards in turn, and so does what they have not settled.

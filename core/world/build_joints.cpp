@@ -134,7 +134,7 @@ private:
                 if (draft.joint.locked[axis])
                     refuse("",
                            "this kind of joint is locked along an axis that has a limit, a "
-                           "motor, a spring or friction");
+                           "motor, a spring, friction or a greatest speed");
                 check_axis(spec);
                 draft.drives.push_back({0, axis, kind, spec, 0});
             };
@@ -142,12 +142,14 @@ private:
             if (spec.motor.mode != MotorMode::none) add(DriveKind::motor);
             if (spec.stiffness > 0 || spec.damping > 0) add(DriveKind::spring);
             if (spec.friction > 0) add(DriveKind::friction);
+            if (std::isfinite(spec.greatest_speed)) add(DriveKind::speed);
         }
     }
 
     void check_axis(const JointAxisSpec& axis) const {
         if (!(axis.lower <= axis.upper))
             refuse("/limits", "the lower limit must not be above the upper one");
+        if (!(axis.greatest_speed >= 0)) refuse("/max_speed", "must be 0 or above");
         if (!(axis.motor.greatest >= 0)) refuse("/motor/max", "must be 0 or above");
         if (!(axis.motor.frequency > 0) || !(axis.motor.damping_ratio >= 0))
             refuse("/motor", "the frequency must be above 0 and the damping ratio 0 or above");

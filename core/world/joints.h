@@ -45,7 +45,7 @@ struct Joint {
     }
 };
 
-enum class DriveKind : std::uint32_t { limit, motor, spring, friction };
+enum class DriveKind : std::uint32_t { limit, motor, spring, friction, speed };
 
 /// One row along or about an axis that a joint leaves free.
 struct JointDrive {

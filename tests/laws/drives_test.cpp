@@ -168,6 +168,34 @@ TEST_P(Drives, FrictionHoldsBelowItsForceAndSlowsAboveIt) {
     EXPECT_NEAR(pushed.joint_motion(0, kAlongX).velocity, 2, 1e-3);
 }
 
+/// Whatever drives it: a force to either side, or a motor that is on its way to a place.
+TEST_P(Drives, AGreatestSpeedIsKept) {
+    for (const double side : {1.0, -1.0}) {
+        Scene s = scene(JointKind::slider);
+        s.joints[0].axes[kAlongX].greatest_speed = 2;
+        s.bodies[0].force = {side * 1500, 0, 0};
+        Simulation pushed(s, colliders(), "reference");
+        run_for(pushed, 1);
+        EXPECT_NEAR(pushed.joint_motion(0, kAlongX).velocity, side * 1.5, 1e-3);
+        run_for(pushed, 2);
+        EXPECT_NEAR(pushed.joint_motion(0, kAlongX).velocity, side * 2, 1e-5);
+        EXPECT_NEAR(pushed.joint_load(0).force.x(), -side * 1500, 1);
+
+        s = scene(JointKind::hinge);
+        JointAxisSpec& axis = s.joints[0].axes[kTurnX];
+        axis.greatest_speed = 0.5;
+        axis.motor.mode = MotorMode::position, axis.motor.target = side * 2;
+        Simulation turned(s, colliders(), "reference");
+        double fastest = 0;
+        for (int i = 0; i < 600; ++i) {
+            turned.step();
+            fastest = std::max(fastest, std::abs(turned.joint_motion(0, kTurnX).velocity));
+        }
+        EXPECT_NEAR(fastest, 0.5, 1e-3);
+        EXPECT_NEAR(position(turned, 0, kTurnX), side * 2, 1e-4);
+    }
+}
+
 /// Two hinged wheels tied by q_b = r q_a, the torque τ on the first: α_a = τ / (I_a + r² I_b).
 TEST_P(Drives, AGearSharesTorqueByItsRatio) {
     for (const double ratio : {-2.0, 0.5, 3.0}) {

@@ -86,10 +86,13 @@ TEST(JointDrives, SpringsAndFrictionAreRead) {
     EXPECT_EQ(axis.rest, 0.2);
     EXPECT_EQ(axis.damping, 3);
     EXPECT_EQ(axis.friction, 0.4);
+    EXPECT_EQ(axis.greatest_speed, kInfinity);
+    EXPECT_EQ(axis_of(R"("max_speed": 2)").greatest_speed, 2);
     EXPECT_EQ(axis_of(R"("spring": {"damping": 3})").stiffness, 0);
     expect_error(hinge(R"("spring": {"rest": 1})"), "/joints/0/spring", "a \"stiffness\" or");
     expect_error(hinge(R"("spring": {"stiffness": -1})"), "/joints/0/spring/stiffness", "from 0");
     expect_error(hinge(R"("friction": -1)"), "/joints/0/friction", "from 0");
+    expect_error(hinge(R"("max_speed": -1)"), "/joints/0/max_speed", "from 0");
 }
 
 TEST(JointDrives, StandInOnePlaceAlone) {

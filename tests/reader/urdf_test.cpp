@@ -133,6 +133,7 @@ TEST_F(Robots, HingesAndSlidersKeepTheirAxesLimitsAndDynamics) {
     EXPECT_EQ(hinge.axes[kTurnX].upper, 2);
     EXPECT_EQ(hinge.axes[kTurnX].damping, 0.5);
     EXPECT_EQ(hinge.axes[kTurnX].friction, 0.25);
+    EXPECT_EQ(hinge.axes[kTurnX].greatest_speed, 4);
     EXPECT_EQ(hinge.axes[kTurnX].motor.mode, MotorMode::none);
 
     EXPECT_EQ(slider.kind, JointKind::slider);
@@ -143,6 +144,14 @@ TEST_F(Robots, HingesAndSlidersKeepTheirAxesLimitsAndDynamics) {
     EXPECT_EQ(wheel.kind, JointKind::hinge);
     expect_near(wheel.frame * Eigen::Vector3d::UnitX(), {1, 0, 0});
     EXPECT_TRUE(std::isinf(wheel.axes[kTurnX].upper));
+    EXPECT_TRUE(std::isinf(wheel.axes[kTurnX].greatest_speed));
+}
+
+TEST_F(Robots, ALimitOfVelocityOf0MeansNone) {
+    const Scene scene = scene_of(
+        link("a", collision(R"(<sphere radius="0.3"/>)")) + link("b") +
+        joint("revolute", "a", "b", R"(<limit lower="-1" upper="2" effort="1" velocity="0"/>)"));
+    EXPECT_TRUE(std::isinf(scene.joints[0].axes[kTurnX].greatest_speed));
 }
 
 TEST_F(Robots, PlanarJointsKeepTheirPlaneAndFloatingOnesNothing) {
