@@ -9,20 +9,21 @@
 /// which bears any load and loses some energy.
 #pragma once
 
+#include "math/lanes.h"
 #include "math/symmetric.h"
-
-#include <algorithm>
 
 namespace plumb {
 
 /// From 0 to 1. `impulse`: of the substep before [N s]; `moment`: of its rotational rows [N m s];
 /// `inverse_inertia`: world frame [1/(kg m²)]; `turn`: of the body in this substep [rad], for rows
 /// that stay where they were are also poor rows of a body that turns far.
-inline double joint_follow(double impulse, double moment, double arm,
-                           const Symmetric3<double>& inverse_inertia, double turn, double h) {
-    const double softest = inverse_inertia.xx + inverse_inertia.yy + inverse_inertia.zz;
-    const double load = h * (impulse * arm + moment) * softest;  // (h ω)²
-    return std::clamp(std::max(4 * (load - 0.05), 4 * (turn - 0.25)), 0.0, 1.0);
+template <class T>
+inline T joint_follow(const T& impulse, const T& moment, const T& arm,
+                      const Symmetric3<T>& inverse_inertia, const T& turn, const T& h) {
+    const T softest = inverse_inertia.xx + inverse_inertia.yy + inverse_inertia.zz;
+    const T load = h * (impulse * arm + moment) * softest;  // (h ω)²
+    const T wanted = max((load - T(0.05)) * T(4), (turn - T(0.25)) * T(4));
+    return min(max(wanted, T(0)), T(1));
 }
 
 }  // namespace plumb

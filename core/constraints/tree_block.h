@@ -13,6 +13,7 @@
 #pragma once
 
 #include "constraints/joint_rows.h"
+#include "constraints/tree_stiffness.h"
 #include "math/dense.h"
 #include "math/symmetric.h"
 
@@ -25,6 +26,64 @@ struct BodyBlock {
     Vector3<T> b[3];  ///< columns
     Vector3<T> f, t;
 };
+
+/// What the bodies that hang on a body add to it: mass and right-hand side, and how their joints'
+/// impulses stiffen its turn.
+template <class T>
+struct TreeShare {
+    BodyBlock<T> block;
+    Symmetric3<T> stiffness;
+
+    static TreeShare none() {
+        TreeShare x;
+        const Symmetric3<T> zero{T(0), T(0), T(0), T(0), T(0), T(0)};
+        x.block.a = x.block.d = x.stiffness = zero;
+        for (Vector3<T>& column : x.block.b) column = Vector3<T>(T(0), T(0), T(0));
+        x.block.f = x.block.t = x.block.b[0];
+        return x;
+    }
+};
+
+/// The same as numbers in a row.
+inline constexpr int kShareNumbers = 36;
+template <class T>
+inline TreeShare<T> share_of(const T (&x)[kShareNumbers]) {
+    TreeShare<T> s;
+    s.block.a = {x[0], x[1], x[2], x[3], x[4], x[5]};
+    s.block.d = {x[6], x[7], x[8], x[9], x[10], x[11]};
+    s.stiffness = {x[12], x[13], x[14], x[15], x[16], x[17]};
+    for (int j = 0; j < 3; ++j)
+        s.block.b[j] = Vector3<T>(x[18 + 3 * j], x[19 + 3 * j], x[20 + 3 * j]);
+    s.block.f = Vector3<T>(x[27], x[28], x[29]), s.block.t = Vector3<T>(x[30], x[31], x[32]);
+    return s;
+}
+template <class T>
+inline void put_share(const TreeShare<T>& s, T (&x)[kShareNumbers]) {
+    const Symmetric3<T>* parts[3] = {&s.block.a, &s.block.d, &s.stiffness};
+    for (int k = 0; k < 3; ++k) {
+        const Symmetric3<T>& m = *parts[k];
+        const T numbers[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+        for (int i = 0; i < 6; ++i) x[6 * k + i] = numbers[i];
+    }
+    for (int i = 0; i < 9; ++i) x[18 + i] = s.block.b[i / 3][i % 3];
+    for (int i = 0; i < 3; ++i) x[27 + i] = s.block.f[i], x[30 + i] = s.block.t[i];
+    for (int i = 33; i < kShareNumbers; ++i) x[i] = T(0);
+}
+
+/// A body with what hangs on it. `inertia`: world frame; `stiffness`: by the joint that it hangs by
+/// itself; `own`: what the solver has changed of its velocity, whose momentum is asked back, so
+/// that the impulses are found anew.
+template <class T>
+inline void add_body(TreeShare<T>& share, const T& mass, const Symmetric3<T>& inertia,
+                     const Symmetric3<T>& stiffness, const Velocity<T>& own, bool balance) {
+    BodyBlock<T>& block = share.block;
+    block.a = block.a + Symmetric3<T>{mass, mass, mass, T(0), T(0), T(0)};
+    block.d = block.d + inertia;
+    if (!balance) return;
+    block.d = block.d + safe_stiffness<T>(share.stiffness + stiffness, inertia);
+    block.f -= own.v * mass;
+    block.t -= inertia * own.w;
+}
 
 /// [r]ₓ e_j.
 template <class T>
@@ -238,20 +297,6 @@ inline Velocity<T> solve_block(const BodyBlock<T>& body) {
     factor_ldlt(m, 6);
     solve_factored(m, 6, x);
     return {Vector3<T>(x[0], x[1], x[2]), Vector3<T>(x[3], x[4], x[5])};
-}
-
-/// Stiffness of a turn against an impulse P at arm r, whose torque r × P turns with the arm:
-/// −∂(r × P)/∂ω = h ((P·r) E − r Pᵀ), the symmetric part.
-template <class T>
-inline Symmetric3<T> turning_stiffness(const Vector3<T>& r, const Vector3<T>& p, T h) {
-    const Vector3<T> x = r * h;
-    const T along = dot(x, p), half = T(0.5);
-    return {along - x[0] * p[0],
-            along - x[1] * p[1],
-            along - x[2] * p[2],
-            -half * (x[0] * p[1] + x[1] * p[0]),
-            -half * (x[0] * p[2] + x[2] * p[0]),
-            -half * (x[1] * p[2] + x[2] * p[1])};
 }
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "effects/plan.h"
 
+#include "effects/meetings.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
 
@@ -30,14 +31,10 @@ Wish counted(std::size_t n, const std::string& some, const std::string& none) {
     return n > 0 ? Wish{true, std::to_string(n) + " " + some} : Wish{false, none};
 }
 
-std::size_t colliding_bodies(const World& w) {
-    return count_bodies(w, [&](std::size_t i) { return w.bodies.reach[i] > 0; });
-}
-
 Wish contacts(const World& w) {
     if (w.dynamic_count == 0) return {false, "nothing moves by itself"};
-    return counted(colliding_bodies(w) > 1 ? colliding_bodies(w) : 0, "bodies have shapes",
-                   "fewer than two bodies have shapes");
+    return counted(bodies_that_meet(w), "bodies have shapes that may meet others",
+                   "no two bodies have shapes that may meet");
 }
 Wish contact_reuse(const World& w) {
     if (!contacts(w).wanted) return {false, "there are no contacts"};

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Hands out kernels, and only those that this processor runs.
+#include "kernels/body_kernels.h"
 #include "kernels/contact_kernels.h"
 #include "kernels/joint_kernels.h"
 #include "kernels/kernel_tables.h"
+#include "kernels/tree_kernels.h"
 
 #include <stdexcept>
 #include <string>
@@ -43,6 +45,28 @@ const ContactKernels<Real, W>& contact_kernels(ContactVariant variant) {
 template <class Real, int W>
 const JointKernels<Real, W>& joint_kernels() {
     return *checked_table<JointKernels<Real, W>, W>();
+}
+
+template <int W>
+const TreeKernels<W>& tree_kernels() {
+    return *checked_table<TreeKernels<W>, W>();
+}
+template const TreeKernels<1>& tree_kernels<1>();
+template const TreeKernels<4>& tree_kernels<4>();
+template const TreeKernels<8>& tree_kernels<8>();
+template const TreeKernels<16>& tree_kernels<16>();
+
+const BodyKernels& body_kernels(int lanes) {
+    switch (lanes) {
+        case 1:
+            return *kernels::body_kernel_table<1>();
+        case 4:
+            return *kernels::body_kernel_table<4>();
+        case 8:
+            return *kernels::body_kernel_table<8>();
+        default:
+            return *kernels::body_kernel_table<16>();
+    }
 }
 
 #define PLUMB_INSTANTIATE(Real, W)                                                    \

@@ -49,6 +49,22 @@ inline void store_register(Real* to, const Register& r) {
     __builtin_memcpy(to, &r, sizeof r);
 }
 
+/// Two halves side by side, and each half again, in registers all the way.
+template <class Register, class Half, std::size_t... K>
+inline Register join_halves(Half low, Half high, std::index_sequence<K...>) {
+    return __builtin_shufflevector(low, high, int(K)...);
+}
+template <class Half, bool Upper, class Register, std::size_t... K>
+inline Half half_of(Register whole, std::index_sequence<K...>) {
+    return __builtin_shufflevector(whole, whole, (Upper ? int(sizeof...(K) + K) : int(K))...);
+}
+
+/// One row of a body, where registers are wider.
+template <class Real>
+struct RowRegister {
+    typedef Real type __attribute__((vector_size(kBodyRowSize * sizeof(Real))));
+};
+
 /// Eight components of W bodies: component c of lane i.
 template <class Real, int W>
 struct RowLanes {
@@ -73,10 +89,11 @@ inline void read_rows(const Real* rows, const std::int32_t* index, RowLanes<Real
         } else {  // two rows to a register
             Register m[kBodyRowSize];
             for (int i = 0; i < kBodyRowSize; ++i) {
-                Real* half = reinterpret_cast<Real*>(&m[i]);
-                __builtin_memcpy(half, rows + at[i] * kBodyRowSize, kBodyRowSize * sizeof(Real));
-                __builtin_memcpy(half + kBodyRowSize, rows + at[i + kBodyRowSize] * kBodyRowSize,
-                                 kBodyRowSize * sizeof(Real));
+                using Row = typename RowRegister<Real>::type;
+                m[i] = join_halves<Register>(
+                    load_register<Row>(rows + at[i] * kBodyRowSize),
+                    load_register<Row>(rows + at[i + kBodyRowSize] * kBodyRowSize),
+                    std::make_index_sequence<n>());
             }
             transpose<kBodyRowSize>(m);
             for (int c = 0; c < kBodyRowSize; ++c) out.component[c].part[part] = m[c];
@@ -106,12 +123,15 @@ inline void write_rows(Real* rows, const std::int32_t* index, std::int32_t dynam
             Register m[kBodyRowSize];
             for (int c = 0; c < kBodyRowSize; ++c) m[c] = in.component[c].part[part];
             transpose<kBodyRowSize>(m);
-            for (int i = 0; i < n; ++i) {
-                const Real* half = reinterpret_cast<const Real*>(&m[i % kBodyRowSize]);
+            using Row = typename RowRegister<Real>::type;
+            constexpr auto elements = std::make_index_sequence<kBodyRowSize>();
+            for (int i = 0; i < kBodyRowSize; ++i) {
+                const int j = i + kBodyRowSize;
                 if (at[i] < dynamic_count)
-                    __builtin_memcpy(rows + at[i] * kBodyRowSize,
-                                     half + (i / kBodyRowSize) * kBodyRowSize,
-                                     kBodyRowSize * sizeof(Real));
+                    store_register(rows + at[i] * kBodyRowSize,
+                                   half_of<Row, false>(m[i], elements));
+                if (at[j] < dynamic_count)
+                    store_register(rows + at[j] * kBodyRowSize, half_of<Row, true>(m[i], elements));
             }
         }
     }

@@ -2,6 +2,7 @@
 /// The joints' kernels, over blocks that share no dynamic body.
 #pragma once
 
+#include "kernels/body_kernels.h"
 #include "schedule/joint_blocks.h"
 
 namespace plumb {
@@ -10,9 +11,15 @@ template <class Block, class Real>
 using JointPass = void (*)(Block* blocks, const BodyRows<Real>& bodies, Real h, std::uint32_t first,
                            std::uint32_t last);
 
-/// One position iteration each.
+/// Arms, gaps and masses at the start of a substep of length h [s]; impulses start from nothing.
+template <class Real, int W>
+using BeginBalls = void (*)(BallBlock<Real, W>* blocks, const BallFrames<W>* frames,
+                            const BodyStates& bodies, double h, std::size_t count);
+
 template <class Real, int W>
 struct JointKernels {
+    BeginBalls<Real, W> begin_balls;
+    // one position iteration each
     JointPass<BallBlock<Real, W>, Real> balls;
     JointPass<JointBlock<Real, W>, Real> joints;
     JointPass<DriveBlock<Real, W>, Real> drives;

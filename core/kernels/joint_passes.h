@@ -7,6 +7,7 @@
 #include "constraints/joint_rows.h"
 #include "constraints/point.h"
 #include "kernels/gather.h"
+#include "kernels/joint_begin.h"
 #include "kernels/joint_kernels.h"
 
 namespace plumb::kernels {
@@ -63,8 +64,8 @@ inline void each_block(Block* blocks, const BodyRows<Real>& bodies, std::uint32_
 // ---- ball joints
 
 template <class Real, int W>
-void solve_balls(BallBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real h,
-                 std::uint32_t first, std::uint32_t last) {
+[[gnu::flatten]] void solve_balls(BallBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real h,
+                                  std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     each_block<Real, W>(blocks, bodies, first, last, [h](auto& block, auto& j) {
         // an empty lane has unit mass and no gap, so that its 3 × 3 system can be solved
@@ -122,8 +123,8 @@ inline void push_drive(const DriveBlock<Real, W>& block, JoinedBodies<Real, W>& 
 }
 
 template <class Real, int W>
-void solve_drives(DriveBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real,
-                  std::uint32_t first, std::uint32_t last) {
+[[gnu::flatten]] void solve_drives(DriveBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real,
+                                   std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     each_block<Real, W>(blocks, bodies, first, last, [](auto& block, auto& j) {
         const T rate = dot(load_vector(block.along), Vector3<T>(j.total_a.v - j.total_b.v)) +
@@ -139,7 +140,8 @@ void solve_drives(DriveBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Rea
 
 template <class Real, int W>
 constexpr JointKernels<Real, W> all_joint_kernels() {
-    return {solve_balls<Real, W>, solve_joints<Real, W>, solve_drives<Real, W>};
+    return {begin_balls<Real, W>, solve_balls<Real, W>, solve_joints<Real, W>,
+            solve_drives<Real, W>};
 }
 
 }  // namespace plumb::kernels

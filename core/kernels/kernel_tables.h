@@ -6,9 +6,15 @@
 /// can never stand in for the same template of the baseline.
 #pragma once
 
+#include "kernels/body_kernels.h"
+
 namespace plumb::kernels {
 
 template <class Table>
 const Table* kernel_table();
+
+/// `Lanes`: of the rows' kernels of the same unit.
+template <int Lanes>
+const BodyKernels* body_kernel_table();
 
 }  // namespace plumb::kernels

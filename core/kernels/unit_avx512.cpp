@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Kernels for processors with AVX-512: lanes of width 16.
+#include "kernels/body_passes.h"
 #include "kernels/contact_passes.h"
 #include "kernels/joint_passes.h"
 #include "kernels/kernel_tables.h"
+#include "kernels/tree_passes.h"
 
 namespace plumb::kernels {
 
@@ -26,6 +28,16 @@ template <>
 const JointKernels<double, 16>* kernel_table() {
     static constexpr auto table = all_joint_kernels<double, 16>();
     return &table;
+}
+
+template <>
+const BodyKernels* body_kernel_table<16>() {
+    return &kBodyKernels<kBodyLanes<16>>;
+}
+
+template <>
+const TreeKernels<16>* kernel_table() {
+    return &kTreeKernels<16>;
 }
 
 }  // namespace plumb::kernels

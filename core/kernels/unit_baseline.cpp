@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Kernels for every x86-64 processor: lanes of width 1 and 4.
+#include "kernels/body_passes.h"
 #include "kernels/contact_passes.h"
 #include "kernels/joint_passes.h"
 #include "kernels/kernel_tables.h"
+#include "kernels/tree_passes.h"
 
 namespace plumb::kernels {
 
@@ -48,6 +50,26 @@ template <>
 const JointKernels<double, 4>* kernel_table() {
     static constexpr auto table = all_joint_kernels<double, 4>();
     return &table;
+}
+
+template <>
+const BodyKernels* body_kernel_table<1>() {
+    return &kBodyKernels<kBodyLanes<1>>;
+}
+
+template <>
+const BodyKernels* body_kernel_table<4>() {
+    return &kBodyKernels<kBodyLanes<4>>;
+}
+
+template <>
+const TreeKernels<1>* kernel_table() {
+    return &kTreeKernels<1>;
+}
+
+template <>
+const TreeKernels<4>* kernel_table() {
+    return &kTreeKernels<4>;
 }
 
 }  // namespace plumb::kernels

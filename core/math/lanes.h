@@ -98,6 +98,15 @@ struct Lanes {
         for (int i = 0; i < kParts; ++i) r.part[i] = a.part[i] > b.part[i] ? x.part[i] : y.part[i];
         return r;
     }
+    /// Whether a > b in any lane.
+    friend bool any_greater(const Lanes& a, const Lanes& b) {
+        bool any = false;
+        for (int i = 0; i < kParts; ++i) {
+            const auto mask = a.part[i] > b.part[i];
+            for (int k = 0; k < kPart; ++k) any |= mask[k] != 0;
+        }
+        return any;
+    }
     friend Lanes sqrt(const Lanes& a) {
         Lanes r;
         for (int i = 0; i < kParts; ++i) r.part[i] = sqrt_register(a.part[i]);
@@ -138,6 +147,7 @@ inline double min(double a, double b) { return a < b ? a : b; }
 inline double max(double a, double b) { return a > b ? a : b; }
 inline double sqrt(double a) { return std::sqrt(a); }
 inline double select_greater(double a, double b, double x, double y) { return a > b ? x : y; }
+inline bool any_greater(double a, double b) { return a > b; }
 
 /// The number type of N constraints solved side by side: T itself for one.
 template <class T, int N>
@@ -150,6 +160,34 @@ struct NumberOf<T, 1> {
 };
 template <class T, int N>
 using Number = typename NumberOf<T, N>::type;
+
+/// One lane of a number, and how many it has.
+inline double number_of(double x, int) { return x; }
+template <int N>
+inline double number_of(const Lanes<double, N>& x, int lane) {
+    return x.part[lane / Lanes<double, N>::kPart][lane % Lanes<double, N>::kPart];
+}
+inline void set_number(double& x, int, double value) { x = value; }
+template <int N>
+inline void set_number(Lanes<double, N>& x, int lane, double value) {
+    x.part[lane / Lanes<double, N>::kPart][lane % Lanes<double, N>::kPart] = value;
+}
+template <class T>
+inline constexpr int kLaneCount = 1;
+template <class T, int N>
+inline constexpr int kLaneCount<Lanes<T, N>> = N;
+
+/// And the other way round: what one number of T's is.
+template <class T>
+struct ScalarOfLanes {
+    using type = T;
+};
+template <class T, int N>
+struct ScalarOfLanes<Lanes<T, N>> {
+    using type = T;
+};
+template <class T>
+using ScalarOf = typename ScalarOfLanes<T>::type;
 
 /// Reads N numbers that stand side by side.
 template <class T, int N>

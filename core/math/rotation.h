@@ -2,37 +2,12 @@
 /// Rotations by the exponential map (§4): a vector ϑ turns by |ϑ| about ϑ/|ϑ|.
 #pragma once
 
-#include "math/types.h"
+#include "math/lanes.h"
+#include "math/quaternion.h"
 
 #include <cmath>
 
 namespace plumb {
-
-/// Sine and cosine of an angle of at least 0 [rad], in additions and products alone: a system's own
-/// differ in the last bit from processor to processor, and with it every run.
-struct SineCosine {
-    double sine, cosine;
-};
-inline SineCosine sine_cosine(double angle) {
-    constexpr double kTurn = 6.283185307179586;
-    double x = angle < 16 ? angle : std::fmod(angle, kTurn);
-    int halvings = 0;
-    for (; x > 0.25; x *= 0.5) ++halvings;
-    const double y = x * x;
-    double sine = 1, cosine = 1;
-#pragma GCC unroll 6
-    for (int k = 6; k >= 1; --k) {
-        sine = 1 - y * (1.0 / ((2 * k) * (2 * k + 1))) * sine;
-        cosine = 1 - y * (1.0 / ((2 * k - 1) * (2 * k))) * cosine;
-    }
-    sine *= x;
-    for (; halvings > 0; --halvings) {
-        const double doubled = 2 * sine * cosine;
-        cosine = 1 - 2 * sine * sine;
-        sine = doubled;
-    }
-    return {sine, cosine};
-}
 
 /// The angle in [0, π/2] of a sine and a cosine of at least 0 [rad], likewise.
 inline double angle_of(double sine, double cosine) {
@@ -44,13 +19,48 @@ inline double angle_of(double sine, double cosine) {
     return 16 * tangent * series;
 }
 
-/// exp(ϑ) as a unit quaternion. ϑ [rad]
+/// ϑ without the whole turns in it, where there are any.
+template <class T>
+inline Vector3<T> without_whole_turns(const Vector3<T>& theta) {
+    constexpr double kTurn = 6.283185307179586;
+    constexpr double kWhole = 6755399441055744.0;  // 1.5 · 2⁵²: a sum with it has no fraction
+    const T angle = sqrt(dot(theta, theta));
+    const T turns = (angle * T(1 / kTurn) + T(kWhole)) - T(kWhole);
+    const T shorter = (angle - turns * T(kTurn)) / max(angle, T(1));
+    return theta * select_greater(angle, T(kTurn), shorter, T(1));
+}
+
+/// exp(ϑ) as a unit quaternion: cos x and ϑ/2 sin(x)/x for x = |ϑ|/2, from their series at x/8 by
+/// doubling. There is no system's sine in it: that differs in the last bit from processor to
+/// processor, and with it every run. ϑ [rad]
+template <class T>
+inline UnitQuaternion<T> unit_exponential(const Vector3<T>& theta) {
+    constexpr double kGreatest = 39.5;  // (2π)², where the series still have all digits
+    constexpr int kHalvings = 3;
+    T square = dot(theta, theta);
+    Vector3<T> part = theta;
+    if (any_greater(square, T(kGreatest))) {
+        part = without_whole_turns<T>(theta);
+        square = dot(part, part);
+    }
+    T y = square * T(1.0 / (4 << (2 * kHalvings)));
+    T sine = T(1), cosine = T(1);  // sin(x)/x and cos x
+#pragma GCC unroll 6
+    for (int k = 6; k >= 1; --k) {
+        sine = T(1) - y * T(1.0 / ((2 * k) * (2 * k + 1))) * sine;
+        cosine = T(1) - y * T(1.0 / ((2 * k - 1) * (2 * k))) * cosine;
+    }
+    for (int i = 0; i < kHalvings; ++i) {
+        const T versine = T(2) * y * sine * sine;
+        sine = sine * cosine;
+        cosine = T(1) - versine;
+        y = T(4) * y;
+    }
+    return {part * (T(0.5) * sine), cosine};
+}
 inline Quaterniond exponential_map(const Vector3d& theta) {
-    const double half = 0.5 * theta.norm();
-    const SineCosine turn = sine_cosine(half);
-    // sin(x)/x by its series where the quotient loses digits
-    const double s = half < 1e-4 ? 0.5 * (1 - half * half / 6) : 0.5 * turn.sine / half;
-    return {turn.cosine, s * theta.x(), s * theta.y(), s * theta.z()};
+    const UnitQuaternion<double> q = unit_exponential<double>(theta);
+    return {q.w, q.v.x(), q.v.y(), q.v.z()};
 }
 
 /// log(q): the rotation vector of the shorter way round [rad].
@@ -77,7 +87,7 @@ public:
     explicit Turn(const Vector3<T>& theta) : theta_(theta), sine_(T(1)), cosine_(T(0.5)) {
         const T x = dot(theta, theta);
         T term_sine = T(1), term_cosine = T(0.5);
-        for (int k = 1; k <= 9; ++k) {
+        for (int k = 1; k <= kTerms; ++k) {
             term_sine = -term_sine * x * T(1.0 / ((2 * k) * (2 * k + 1)));
             term_cosine = -term_cosine * x * T(1.0 / ((2 * k + 1) * (2 * k + 2)));
             sine_ = sine_ + term_sine;
@@ -94,6 +104,8 @@ public:
     Vector3<T> operator()(const Vector3<T>& r) const { return r + change(r); }
 
 private:
+    static constexpr int kTerms = sizeof(ScalarOf<T>) == sizeof(float) ? 5 : 9;
+
     Vector3<T> theta_;
     T sine_, cosine_;
 };

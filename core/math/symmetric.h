@@ -37,12 +37,17 @@ inline Vector3<T> solve_ldlt(const Symmetric3<T>& k, const Vector3<T>& c) {
     return Vector3<T>(x0, x1, x2);
 }
 
-/// R diag(d) Rᵀ.
-inline Symmetric3<double> rotated_diagonal(const Matrix3d& r, const Vector3d& d) {
-    auto entry = [&](int i, int j) {
-        return r(i, 0) * d[0] * r(j, 0) + r(i, 1) * d[1] * r(j, 1) + r(i, 2) * d[2] * r(j, 2);
+/// R diag(d) Rᵀ for the columns of R.
+template <class T>
+inline Symmetric3<T> rotated_diagonal(const Vector3<T> (&r)[3], const Vector3<T>& d) {
+    const auto entry = [&](int i, int j) {
+        return (r[0][i] * d[0] * r[0][j] + r[1][i] * d[1] * r[1][j]) + r[2][i] * d[2] * r[2][j];
     };
     return {entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1), entry(0, 2), entry(1, 2)};
+}
+inline Symmetric3<double> rotated_diagonal(const Matrix3d& r, const Vector3d& d) {
+    const Vector3d columns[3] = {r.col(0), r.col(1), r.col(2)};
+    return rotated_diagonal<double>(columns, d);
 }
 
 }  // namespace plumb

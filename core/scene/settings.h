@@ -43,7 +43,7 @@ struct Settings {
     Gyroscopic gyroscopic = Gyroscopic::conserving;
 
     JointMethod joints = JointMethod::auto_;
-    double joint_tolerance = 1e-8;  ///< up to which trees of joints are closed [m], [rad]
+    double joint_tolerance = 5e-7;  ///< up to which trees of joints are closed [m], [rad]
 
     bool warm_start = true;        ///< begin from the impulses of the step before
     bool alternate_sweeps = true;  ///< forwards and backwards in turn

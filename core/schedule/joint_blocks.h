@@ -24,6 +24,15 @@ struct BallBlock : JointBodies<Real, W> {
     Real used[W];                   // 1 where a joint sits, 0 in an empty lane
 };
 
+/// Where the points of a BallBlock are on its bodies.
+template <int W>
+struct alignas(64) BallFrames {
+    double point_a[3][W], point_b[3][W];  // body frames, or the world's [m]
+    double load[W];                       // impulse that was stored last [N s]
+    double used[W], held[W];              // 1 where a joint sits; 1 where b is the world
+    std::uint32_t body_a[W], body_b[W];   // where there is none, any other of the block's
+};
+
 /// Joints of any kind.
 template <class Real, int W>
 struct JointBlock : JointBodies<Real, W> {

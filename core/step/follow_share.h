@@ -13,9 +13,10 @@ inline double follow_share(const World& world, const Joint& joint, std::uint32_t
                            const Vector3d& arm, double h) {
     if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic) return 0;
     const auto& r = joint.rows;
-    return joint_follow(Vector3d(r[0], r[1], r[2]).norm(), Vector3d(r[3], r[4], r[5]).norm(),
-                        arm.norm(), world.bodies.world_inverse_inertia[body],
-                        h * world.bodies.angular_velocity[body].norm(), h);
+    return joint_follow<double>(Vector3d(r[0], r[1], r[2]).norm(),
+                                Vector3d(r[3], r[4], r[5]).norm(), arm.norm(),
+                                world.bodies.world_inverse_inertia[body],
+                                h * world.bodies.angular_velocity[body].norm(), h);
 }
 
 }  // namespace plumb

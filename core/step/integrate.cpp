@@ -2,37 +2,16 @@
 /// Symplectic Euler with the gyroscopic term in three forms (§3).
 ///
 /// The paper's explicit form gains energy; the implicit one loses some; the conserving one carries
-/// the angular momentum L from step to step and turns with the rate of the step's middle, ω_m = R_m
-/// I⁻¹ R_mᵀ L with R_m = exp(h ω_m / 2) R, found by a few fixed-point rounds.
-#include "math/rotation.h"
+/// the angular momentum from step to step and turns with the rate of the step's middle
+/// (math/free_rotation.h).
+#include "kernels/contact_kernels.h"
+#include "step/body_columns.h"
 #include "step/stages.h"
 
-#include <cmath>
+#include <Eigen/LU>
 
 namespace plumb {
 namespace {
-
-Symmetric3<double> world_inverse_inertia(const Bodies& b, std::size_t i) {
-    return rotated_diagonal(b.orientation[i].toRotationMatrix(), b.inverse_inertia[i]);
-}
-
-/// I ω and I⁻¹ L in the world frame.
-Vector3d momentum_of(const Quaterniond& q, const Vector3d& inertia, const Vector3d& w) {
-    return q * inertia.cwiseProduct(q.conjugate() * w);
-}
-
-/// Rate of rotation in the middle of the step.
-Vector3d middle_rate(const Bodies& b, std::size_t i, const Vector3d& momentum, double h) {
-    Vector3d w = momentum_of(b.orientation[i], b.inverse_inertia[i], momentum);
-    for (int round = 0; round < 12; ++round) {
-        const Quaterniond middle = turned(b.orientation[i], 0.5 * h * w);
-        const Vector3d next = momentum_of(middle, b.inverse_inertia[i], momentum);
-        const double change = (next - w).squaredNorm();
-        w = next;
-        if (change <= 1e-26 * w.squaredNorm()) break;
-    }
-    return w;
-}
 
 /// One Newton step of ω₁ = ω₀ − h I⁻¹(ω₁ × I ω₁), in the body frame.
 Vector3d implicit_rate(const Vector3d& w0, const Vector3d& inertia, double h) {
@@ -47,58 +26,49 @@ Vector3d implicit_rate(const Vector3d& w0, const Vector3d& inertia, double h) {
     return w0 - jacobian.partialPivLu().solve(h * w0.cross(l));
 }
 
-void integrate_rotation(Bodies& b, std::size_t i, Gyroscopic form, double h) {
-    const Quaterniond& q = b.orientation[i];
-    Vector3d& w = b.angular_velocity[i];
-    if (form == Gyroscopic::conserving) {
-        b.angular_momentum[i] = momentum_of(q, b.inertia[i], w) + h * b.torque[i];
-        w = middle_rate(b, i, b.angular_momentum[i], h);
-        return;
+Vector3d explicit_rate(const Vector3d& w0, const Vector3d& inertia, double h) {
+    return w0 - h * w0.cross(inertia.cwiseProduct(w0)).cwiseQuotient(inertia);
+}
+
+void add_gyroscopic_term(Bodies& b, const std::vector<std::uint32_t>& bodies, Gyroscopic form,
+                         double h) {
+    for (const std::uint32_t i : bodies) {
+        if (b.isotropic[i]) continue;
+        const Quaterniond& q = b.orientation[i];
+        const Vector3d w = q.conjugate() * b.angular_velocity[i];
+        b.angular_velocity[i] =
+            q * (form == Gyroscopic::implicit ? implicit_rate(w, b.inertia[i], h)
+                                              : explicit_rate(w, b.inertia[i], h));
     }
-    w += h * momentum_of(q, b.inverse_inertia[i], b.torque[i]);
-    const Vector3d w_body = q.conjugate() * w;
-    if (form == Gyroscopic::implicit) {
-        w = q * implicit_rate(w_body, b.inertia[i], h);
-    } else {
-        const Vector3d l = b.inertia[i].cwiseProduct(w_body);
-        w = q * (w_body - h * b.inverse_inertia[i].cwiseProduct(w_body.cross(l)));
-    }
+}
+
+BodyList list_of(const std::vector<std::uint32_t>& bodies) {
+    return {bodies.data(), bodies.size()};
+}
+
+const BodyKernels& kernels_for(const Settings& s) {
+    return body_kernels(s.lanes == 0 ? widest_lanes() : static_cast<int>(s.lanes));
 }
 
 }  // namespace
 
-void integrate_velocities(World& world, const Plan& plan, double h) {
-    Bodies& b = world.bodies;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        if (b.motion[i] != Motion::dynamic) continue;
-        b.world_inverse_inertia[i] = world_inverse_inertia(b, i);
-        b.velocity[i] += h * (world.settings.gravity + b.inverse_mass[i] * b.force[i]);
-        if (!b.isotropic[i] && plan.runs(Effect::gyroscopic))
-            integrate_rotation(b, i, world.settings.gyroscopic, h);
-        else
-            b.angular_velocity[i] += h * (b.world_inverse_inertia[i] * b.torque[i]);
-    }
+void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h) {
+    const BodyKernels& kernels = kernels_for(world.settings);
+    const BodyColumns columns = columns_of(world.bodies);
+    const Vector3d& g = world.settings.gravity;
+    const double gravity[3] = {g.x(), g.y(), g.z()};
+    kernels.integrate(columns, list_of(lists.plain), gravity, h);
+    kernels.integrate_turning(columns, list_of(lists.turning), gravity, h);
+    if (plan.runs(Effect::gyroscopic) && world.settings.gyroscopic != Gyroscopic::conserving)
+        add_gyroscopic_term(world.bodies, lists.plain, world.settings.gyroscopic, h);
 }
 
-void move(World& world, const RowSolver& solver, double h) {
-    Bodies& b = world.bodies;
-    const bool carries_momentum = world.settings.gyroscopic == Gyroscopic::conserving;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        if (b.motion[i] == Motion::fixed) continue;
-        const Quaterniond before = b.orientation[i];
-        Vector3d turn_change = Vector3d::Zero();
-        if (b.motion[i] == Motion::dynamic) {
-            turn_change = solver.angular_velocity_change(b.row[i]);
-            b.velocity[i] += solver.velocity_change(b.row[i]);
-            b.angular_velocity[i] += turn_change;
-        }
-        b.position[i] += h * b.velocity[i];
-        b.orientation[i] = turned(before, h * b.angular_velocity[i]);
-        if (b.isotropic[i] || !carries_momentum) continue;
-        b.angular_momentum[i] += momentum_of(before, b.inertia[i], turn_change);
-        b.angular_velocity[i] =
-            momentum_of(b.orientation[i], b.inverse_inertia[i], b.angular_momentum[i]);
-    }
+void move(World& world, const MotionLists& lists, double h) {
+    const BodyKernels& kernels = kernels_for(world.settings);
+    const BodyColumns columns = columns_of(world.bodies);
+    kernels.move(columns, list_of(lists.plain), h);
+    kernels.move(columns, list_of(lists.scripted), h);
+    kernels.move_turning(columns, list_of(lists.turning), h);
 }
 
 }  // namespace plumb

@@ -4,6 +4,7 @@
 
 #include "constraints/drive_rows.h"
 #include "schedule/joint_forest.h"
+#include "step/body_columns.h"
 #include "step/coupling_solver.h"
 #include "step/follow_share.h"
 #include "step/joint_state.h"
@@ -31,8 +32,8 @@ public:
     /// substep before point where the bodies were, and chains that swing gain energy from them.
     void begin(const World& world, double h) {
         const auto& joints = world.joints.joints;
-        for (std::size_t i = 0; i < ball_joints_.size(); ++i)
-            fill_ball(world, joints[ball_joints_[i]], i, h);
+        kernels_.begin_balls(balls_.data(), frames_.data(), states_of(world.bodies), h,
+                             frames_.size());
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
             fill_block(world, joints[block_joints_[i]], i, h);
         for (std::size_t i = 0; i < world.joints.drives.size(); ++i)
@@ -54,10 +55,12 @@ public:
 
     void store_impulses(World& world) {
         JointTable& table = world.joints;
-        for (std::size_t i = 0; i < ball_joints_.size(); ++i)
-            for (int k = 0; k < 3; ++k)
-                table.joints[ball_joints_[i]].rows[k] =
-                    double(balls_.block(i).impulse[k][balls_.lane(i)]);
+        for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
+            auto& rows = table.joints[ball_joints_[i]].rows;
+            const std::uint32_t lane = balls_.lane(i);
+            for (int k = 0; k < 3; ++k) rows[k] = double(balls_.block(i).impulse[k][lane]);
+            frames_[balls_.index(i)].load[lane] = Vector3d(rows[0], rows[1], rows[2]).norm();
+        }
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
             for (int k = 0; k < 6; ++k)
                 table.joints[block_joints_[i]].rows[k] =
@@ -95,6 +98,9 @@ private:
         balls_.lay_out(balls, world);
         blocks_.lay_out(blocks, world);
         drives_.lay_out(drives, world);
+        frames_.assign(balls_.block_count(), BallFrames<W>{});
+        for (std::size_t i = 0; i < ball_joints_.size(); ++i)
+            place_ball(world.joints.joints[ball_joints_[i]], i);
     }
 
     static void put(Real (&to)[3][W], std::uint32_t lane, const Vector3d& v) {
@@ -111,22 +117,19 @@ private:
             static_cast<Real>(follow_share(world, joint, joint.b, joint.frame_b.position, h));
     }
 
-    void fill_ball(const World& world, const Joint& joint, std::size_t item, double h) {
-        const Bodies& bodies = world.bodies;
-        BallBlock<Real, W>& block = balls_.block(item);
+    /// Where the balls' points are on their bodies, and what they bore.
+    void place_ball(const Joint& joint, std::size_t item) {
+        BallFrames<W>& frames = frames_[balls_.index(item)];
         const std::uint32_t lane = balls_.lane(item);
-        const Vector3d arm_a = bodies.orientation[joint.a] * joint.frame_a.position;
-        Vector3d arm_b = Vector3d::Zero(), point_b = joint.frame_b.position;
-        if (joint.b != kNoIndex) {
-            arm_b = bodies.orientation[joint.b] * joint.frame_b.position;
-            point_b = bodies.position[joint.b] + arm_b;
+        frames.used[lane] = 1;
+        frames.held[lane] = joint.b == kNoIndex;
+        frames.load[lane] = Vector3d(joint.rows[0], joint.rows[1], joint.rows[2]).norm();
+        frames.body_a[lane] = joint.a;
+        frames.body_b[lane] = joint.b == kNoIndex ? joint.a : joint.b;
+        for (int k = 0; k < 3; ++k) {
+            frames.point_a[k][lane] = joint.frame_a.position[k];
+            frames.point_b[k][lane] = joint.frame_b.position[k];
         }
-        balls_.fill_masses(item, bodies, joint.a, joint.b);
-        put(block.arm_a, lane, arm_a), put(block.arm_b, lane, arm_b);
-        put(block.gap, lane, (bodies.position[joint.a] + arm_a) - point_b);
-        for (int k = 0; k < 3; ++k) block.impulse[k][lane] = 0;
-        fill_follow(world, joint, block, lane, h);
-        block.used[lane] = 1;
     }
 
     void fill_block(const World& world, const Joint& joint, std::size_t item, double h) {
@@ -213,6 +216,7 @@ private:
     Workers& workers_;
     std::vector<std::uint32_t> ball_joints_, block_joints_;  ///< index into JointTable::joints
     LaneBlocks<BallBlock<Real, W>, Real, W> balls_;
+    std::vector<BallFrames<W>> frames_;  ///< [block of balls_]
     LaneBlocks<JointBlock<Real, W>, Real, W> blocks_;
     LaneBlocks<DriveBlock<Real, W>, Real, W> drives_;
     CouplingSolver<Real> couplings_;

@@ -33,6 +33,9 @@ public:
 
     bool empty() const { return places_.empty(); }
     std::size_t size() const { return places_.size(); }
+    std::size_t block_count() const { return blocks_.size(); }
+    Block* data() { return blocks_.data(); }
+    std::uint32_t index(std::size_t item) const { return places_[item].block; }
     Block& block(std::size_t item) { return blocks_[places_[item].block]; }
     std::uint32_t lane(std::size_t item) const { return places_[item].lane; }
 

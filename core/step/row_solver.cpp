@@ -94,7 +94,7 @@ public:
     void solve_positions() override {
         if (contacts_.empty() && !joints_) return;
         if (trees_ && joints_->empty() && contacts_.empty()) {
-            if (settings_.position_iterations > 0) trees_->solve(table_.rows());
+            if (settings_.position_iterations > 0) trees_->solve(table_.rows(), true);
             return;
         }
         workers_.run([this](std::uint32_t worker) {
@@ -104,7 +104,7 @@ public:
                 if (joints_) joints_->position_iteration(table_.rows(), pass.h, worker);
                 if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
                 if (!trees_) continue;
-                if (worker == 0) trees_->solve(table_.rows());
+                if (worker == 0) trees_->solve(table_.rows(), false);
                 workers_.barrier();
             }
         });
@@ -125,12 +125,7 @@ public:
         });
     }
 
-    Vector3d velocity_change(std::int32_t row) const override {
-        return table_.velocity_change(row);
-    }
-    Vector3d angular_velocity_change(std::int32_t row) const override {
-        return table_.angular_velocity_change(row);
-    }
+    void take_changes(Bodies& bodies) const override { table_.take_changes(bodies); }
 
     void store_impulses(World& world) override { contacts_.store_impulses(world.contacts); }
 
@@ -168,7 +163,7 @@ private:
     ContactSolver<Real, W> contacts_;
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<JointSolver<Real, W>> joints_;
-    std::optional<TreeSolver> trees_;
+    std::optional<TreeSolver<W>> trees_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t sweeps_ = 0;

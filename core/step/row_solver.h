@@ -28,9 +28,8 @@ public:
     virtual void solve_positions() = 0;
     virtual void propagate_shock() = 0;
 
-    /// What the substep changed of a dynamic body's velocity [m/s] and angular velocity [rad/s].
-    virtual Vector3d velocity_change(std::int32_t row) const = 0;
-    virtual Vector3d angular_velocity_change(std::int32_t row) const = 0;
+    /// Adds what the passes changed to the velocities of dynamic bodies, and keeps the turns'.
+    virtual void take_changes(Bodies& bodies) const = 0;
 
     /// Once a step: impulses, into ContactTable::memory.
     virtual void store_impulses(World& world) = 0;

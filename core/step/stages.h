@@ -5,9 +5,10 @@
 
 #include "effects/ledger.h"
 #include "effects/plan.h"
+#include "schedule/motion_lists.h"
+#include "schedule/workers.h"
 #include "step/contact_room.h"
 #include "step/report.h"
-#include "step/row_solver.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -45,12 +46,12 @@ void move_scripted(World& world, double h);
 /// e.
 void choose_rebounds(World& world, bool first_substep);
 
-/// v ← v + h F/m, ω ← ω + h I⁻¹(τ − ω × Iω) (§3).
-void integrate_velocities(World& world, const Plan& plan, double h);
+/// v ← v + h F/m, ω ← ω + h I⁻¹(τ − ω × Iω) (§3); and I⁻¹ in the world's frame.
+void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h);
 
 /// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made; where angular
 /// momentum is carried, it decides the velocity that is left.
-void move(World& world, const RowSolver& solver, double h);
+void move(World& world, const MotionLists& lists, double h);
 
 /// Breaks the joints whose load was more than they bear; bodies that nothing keeps apart any more
 /// may touch from the next step on.

@@ -46,14 +46,17 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::joints)) timed(Stage::begin, [&] { count_turns(world); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
-        timed(Stage::integrate, [&] { integrate_velocities(world, plan, h); });
+        timed(Stage::integrate, [&] { integrate_velocities(world, plan, stepper.motion, h); });
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
         timed(Stage::begin, [&] { report.clamped_recoveries += solver.begin_substep(world, h); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
         timed(Stage::positions, [&] { solver.solve_positions(); });
         if (plan.runs(Effect::shock_propagation))
             timed(Stage::shock, [&] { solver.propagate_shock(); });
-        timed(Stage::move, [&] { move(world, solver, h); });
+        timed(Stage::move, [&] {
+            solver.take_changes(world.bodies);
+            move(world, stepper.motion, h);
+        });
         if (plan.runs(Effect::joints) && i + 2 >= world.settings.substeps)
             timed(Stage::remember, [&] { solver.store_joint_impulses(world); });
         world.time += h;

@@ -22,6 +22,7 @@ struct Stepper {
     explicit Stepper(const World& world)
         : plan(make_plan(world)),
           workers(world.settings.threads),
+          motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints or rows. What a
@@ -29,12 +30,14 @@ struct Stepper {
     /// joints holds nothing of the world, and its memory serves on.
     void renew(const World& world) {
         const Plan before = std::exchange(plan, make_plan(world));
+        motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         if (plan.runs(Effect::joints) || !plan.runs_as(before))
             solver = make_row_solver(world, plan, workers);
     }
 
     Plan plan;
     Workers workers;
+    MotionLists motion;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     Ledger ledger;  ///< of the last step

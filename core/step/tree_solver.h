@@ -8,114 +8,84 @@
 /// velocity. Since J is that of the poses at the end of the substep, stiff trees (a light rod that
 /// carries a heavy load) stay calm; Newton's matrix holds, beside M, how the joints' torques turn
 /// with the bodies. Numbers are double, whatever the rows' precision.
+///
+/// Bodies on plain balls are solved several side by side, level by level; those on other joints,
+/// and roots that hang by nothing, one by one (tree_nodes.h).
 #pragma once
 
-#include "constraints/tree_block.h"
-#include "schedule/contact_rows.h"
-#include "schedule/joint_forest.h"
-#include "world/world.h"
+#include "kernels/tree_kernels.h"
+#include "schedule/tree_levels.h"
+#include "step/body_columns.h"
+#include "step/tree_nodes.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace plumb {
 
+template <int W>
 class TreeSolver {
 public:
     TreeSolver(const World& world, const JointForest& forest);
 
     /// Arms, gaps, masses and velocities at the start of a substep of length h [s].
-    void begin(const World& world, double h);
-
-    /// Newton steps until no row is violated by more than Settings::joint_tolerance.
-    template <class Real>
-    void solve(const BodyRows<Real>& rows) {
-        for (Node& node : nodes_) node.given = read(rows.change, node.row) - node.own;
-        solve();
-        for (Node& node : nodes_) write(rows.change, node.row, node.given + node.own);
+    void begin(const World& world, double h) {
+        h_ = h, fresh_ = true;
+        kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h);
+        nodes_.begin(world, h);
     }
+
+    /// Newton steps until no row is violated by more than Settings::joint_tolerance. `alone`:
+    /// nothing else changes velocities.
+    template <class Real>
+    void solve(const BodyRows<Real>& rows, bool alone);
 
     /// Impulses of the last substep, into Joint::rows.
-    void store_impulses(JointTable& joints) const;
-
-    std::uint64_t newton_steps() const { return newton_steps_; }  ///< since the start
+    void store_impulses(JointTable& joints);
 
 private:
-    struct Change : Velocity<double> {
-        Change operator+(const Change& o) const { return {{v + o.v, w + o.w}}; }
-        Change operator-(const Change& o) const { return {{v - o.v, w - o.w}}; }
+    static constexpr int N = kBodyLanes<W>;
+    /// Newton steps at the most; the first of them hold the balance of momentum at the end of the
+    /// substep, and if that does not succeed the others only close the joints.
+    static constexpr int kMostSteps = 20, kBalancedSteps = 10;
+
+    /// A group of bodies: blocks, or those that are solved one by one.
+    struct Span {
+        std::size_t first, count;
+        bool comes_first, leaves;  ///< as in TreeGroup
+        std::vector<std::uint32_t> singles;
     };
 
-    /// A body and the joint that it hangs by.
-    struct Node {
-        std::int32_t row, parent;
-        std::uint32_t body, joint;
-        std::int32_t rows;  ///< index into rows_; −1 of a plain ball
-        double sign;        ///< 1 where the body is the joint's a, else −1
-        double mass;
-        Symmetric3<double> inertia;      ///< world frame, at the start [kg m²]
-        Vector3d arm, parent_arm;        ///< of the joint's point, at the start [m]
-        double follow, parent_follow;    ///< share of the turn that an impulse goes along with
-        Vector3d apart;                  ///< child's point − parent's, at the start [m]
-        Change start;                    ///< velocity at the start, forces included
-        Change given, own;               ///< changes by others, and by this solver
-        Change held;                     ///< velocity of an immovable parent
-        Vector3d held_shift;             ///< and how far it moves the point [m]
-        Matrix3d turn;                   ///< exp(h ω) − 1
-        Vector3d gap;                    ///< child's point − parent's, at the preview [m]
-        Vector3d acting, parent_acting;  ///< arms by which the impulse acts [m]
-        Vector3d impulse;                ///< of a ball, on the child [N s]
-        Symmetric3<double> stiffness;    ///< of the turn, by the joints' impulses
-        BodyBlock<double> block;
-        BallElimination<double> ball;
-        Velocity<double> step;  ///< Δv
-    };
-
-    /// What a joint of another kind than a plain ball has besides.
-    struct Rows {
-        JointGeometry<double> geometry;
-        JointRows<double> now;
-        RowsElimination<double> elimination;
-        double lambda[6];  ///< along the joint's rows
-    };
-
+    void lay_out(const World& world, const JointForest& forest,
+                 const std::vector<std::uint8_t>& side_by_side);
+    void add_blocks(const World& world, const JointForest& forest,
+                    const std::vector<std::uint32_t>& group);
+    void place(const World& world, const ForestNode& from, std::uint32_t node, TreeBalls<N>& balls,
+               int lane);
     template <class Real>
-    static Change read(const Real* rows, std::int32_t row) {
-        const Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        return {{{double(r[0]), double(r[1]), double(r[2])},
-                 {double(r[4]), double(r[5]), double(r[6])}}};
-    }
+    void take(const BodyRows<Real>& rows);
     template <class Real>
-    static void write(Real* rows, std::int32_t row, const Change& change) {
-        Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        for (int k = 0; k < 3; ++k) {
-            r[k] = static_cast<Real>(change.v[k]);
-            r[4 + k] = static_cast<Real>(change.w[k]);
-        }
-    }
+    void give(const BodyRows<Real>& rows) const;
 
     void solve();
     void forget();
-    void begin_node(const World& world, Node& node);
-    void begin_rows(const World& world, const Joint& joint, const Node& node);
-
     double evaluate();
-    double evaluate_ball(Node& node);
-    double evaluate_rows(Node& node);
-    static void place_impulse(Node& node, const Vector3d& change, const Vector3d& parent_change,
-                              const Vector3d& gap);
-    void stiffen(Node& node, const Vector3d& impulse);
+    void eliminate(bool balance);
+    void substitute(bool balance);
 
-    void eliminate(bool follow);
-    void load_block(Node& node, bool follow) const;
-    void substitute(bool follow);
-    void substitute_ball_joint(Node& node, bool follow);
-    void substitute_rows_joint(Node& node, bool follow);
+    TreeColumns columns() {
+        return {tables_.turn.data(), tables_.velocity.data(), tables_.share.data(),
+                tables_.step.data()};
+    }
 
-    std::vector<Node> nodes_;  ///< parents before children
-    std::vector<Rows> rows_;
-    double h_ = 0, inverse_h_ = 0, tolerance_;
+    const TreeKernels<W>& kernels_ = tree_kernels<W>();
+    double tolerance_, h_ = 0;
     bool fresh_ = true;  ///< no step was made in this substep
-    std::uint64_t newton_steps_ = 0;
+    TreeTables tables_;
+    TreeNodes nodes_;
+    std::vector<TreeBalls<N>> balls_;
+    std::vector<std::uint32_t> joint_of_;  ///< [block of balls_ × N + lane]
+    std::vector<Span> spans_;              ///< roots first
 };
 
 }  // namespace plumb

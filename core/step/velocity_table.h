@@ -35,15 +35,19 @@ public:
 
     BodyRows<Real> rows() { return {change_.data(), start_.data(), dynamic_count_}; }
 
-    Vector3d velocity_change(std::int32_t row) const { return read(row, 0); }
-    Vector3d angular_velocity_change(std::int32_t row) const { return read(row, 4); }
-
-private:
-    Vector3d read(std::int32_t row, int offset) const {
-        const Real* r = change_.data() + row * kBodyRowSize + offset;
-        return {static_cast<double>(r[0]), static_cast<double>(r[1]), static_cast<double>(r[2])};
+    void take_changes(Bodies& bodies) const {
+        for (std::size_t i = 0; i < bodies.size(); ++i) {
+            if (bodies.motion[i] != Motion::dynamic) continue;
+            const Real* row = change_.data() + bodies.row[i] * kBodyRowSize;
+            for (int k = 0; k < 3; ++k) {
+                bodies.velocity[i][k] += static_cast<double>(row[k]);
+                bodies.turn_change[i][k] = static_cast<double>(row[4 + k]);
+                bodies.angular_velocity[i][k] += bodies.turn_change[i][k];
+            }
+        }
     }
 
+private:
     std::vector<Real> start_, change_;
     std::int32_t dynamic_count_ = 0;
 };

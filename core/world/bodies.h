@@ -44,6 +44,7 @@ struct Bodies {
     std::vector<Symmetric3<double>> world_inverse_inertia;  ///< at the start of the substep
     std::vector<Vector3d>
         angular_momentum;  ///< carried through the substep where `isotropic` is 0 [kg m²/s]
+    std::vector<Vector3d> turn_change;  ///< of the angular velocity, by the passes [rad/s]
 
     std::size_t size() const { return motion.size(); }
 };

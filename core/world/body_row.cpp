@@ -119,6 +119,7 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.row, 0);
     visit(b.world_inverse_inertia, Symmetric3<double>{});
     visit(b.angular_momentum, Vector3d(Vector3d::Zero()));
+    visit(b.turn_change, Vector3d(Vector3d::Zero()));
 }
 
 void check_size(const Draft& draft, double reach) {

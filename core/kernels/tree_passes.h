@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: MIT
+/// The loops behind the trees' kernels. Included by the units of each instruction set and by
+/// nothing else.
+#pragma once
+
+#include "constraints/joint_follow.h"
+#include "kernels/item_group.h"
+#include "kernels/tree_kernels.h"
+#include "math/rotation.h"
+
+namespace plumb::kernels {
+
+template <int N, class T = Number<double, N>>
+inline Symmetric3<T> load_symmetric(const double (&x)[6][N]) {
+    return {load(x[0]), load(x[1]), load(x[2]), load(x[3]), load(x[4]), load(x[5])};
+}
+template <int N, class T = Number<double, N>>
+inline void store_symmetric(double (&to)[6][N], const Symmetric3<T>& m) {
+    const T x[6] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+    for (int k = 0; k < 6; ++k) store(to[k], x[k]);
+}
+template <int N, class T = Number<double, N>>
+inline Velocity<T> load_velocity(const double (&x)[6][N]) {
+    return {Vector3<T>(load(x[0]), load(x[1]), load(x[2])),
+            Vector3<T>(load(x[3]), load(x[4]), load(x[5]))};
+}
+template <int N, class T = Number<double, N>>
+inline void store_velocity(double (&to)[6][N], const Velocity<T>& x) {
+    for (int k = 0; k < 3; ++k) store(to[k], x.v[k]), store(to[3 + k], x.w[k]);
+}
+
+template <int N, class T = Number<double, N>>
+inline Velocity<T> read_velocity(const ItemGroup<N>& nodes, const double* table) {
+    T x[kTreeVelocity];
+    nodes.read(table, x);
+    return {Vector3<T>(x[0], x[1], x[2]), Vector3<T>(x[4], x[5], x[6])};
+}
+template <int N, class T = Number<double, N>>
+inline void write_velocity(const ItemGroup<N>& nodes, double* table, const Velocity<T>& y) {
+    const T x[kTreeVelocity] = {y.v[0], y.v[1], y.v[2], T(0), y.w[0], y.w[1], y.w[2], T(0)};
+    nodes.write(table, x);
+}
+
+// ---- begin
+
+/// A joint's point on some bodies, and the share of their turn that an impulse there follows.
+template <int N>
+struct TreeSide {
+    using T = Number<double, N>;
+    Vector3<T> arm, point;
+    T follow;
+
+    TreeSide(const BodyStates& b, const ItemGroup<N>& bodies, const Vector3<T>& local,
+             const T& impulse, double h) {
+        arm = bodies.rotation(b.orientation) * local;
+        point = bodies.vector(b.position) + arm;
+        const Vector3<T> rate = bodies.vector(b.angular_velocity);
+        const T share = joint_follow<T>(impulse, T(0), sqrt(dot(arm, arm)),
+                                        bodies.symmetric(b.world_inverse_inertia),
+                                        sqrt(dot(rate, rate)) * T(h), T(h));
+        follow = select_greater(bodies.number(b.inverse_mass), T(0), share, T(0));
+    }
+};
+
+template <int N>
+inline void begin_bodies(TreeBalls<N>& balls, const BodyStates& b, const ItemGroup<N>& bodies) {
+    using T = Number<double, N>;
+    Vector3<T> axes[3];
+    bodies.rotation(b.orientation).columns(axes);
+    store(balls.mass, T(1) / bodies.number(b.inverse_mass));
+    store_symmetric<N>(balls.inertia, rotated_diagonal<T>(axes, bodies.vector(b.inertia)));
+    store_velocity<N>(balls.start, {bodies.vector(b.velocity), bodies.vector(b.angular_velocity)});
+    for (int k = 0; k < 6; ++k) store(balls.own[k], T(0)), store(balls.given[k], T(0));
+}
+
+/// Where the joint's points are. A parent that cannot be moved takes its point along by `shift`.
+template <int N>
+inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGroup<N>& bodies,
+                         double h) {
+    using T = Number<double, N>;
+    const Vector3<T> local = load_vector(balls.other_point);
+    const T impulse = load(balls.load);
+    const T held = load(balls.held), linked = T(1) - held;
+    const ItemGroup<N> others(balls.other);
+    const TreeSide<N> own(b, bodies, load_vector(balls.point), impulse, h);
+    const TreeSide<N> other(b, others, local, impulse, h);
+    const Vector3<T> other_arm = other.arm * linked;
+    store_vector(balls.arm, own.arm), store_vector(balls.other_arm, other_arm);
+    store_vector(balls.apart, Vector3<T>(own.point - (other.point * linked + local * held)));
+    store(balls.follow, own.follow), store(balls.other_follow, T(other.follow * linked));
+    const T scripted = select_greater(others.number(b.inverse_mass), T(0), T(0), linked);
+    const UnitQuaternion<T> turn =
+        unit_exponential<T>(Vector3<T>(others.vector(b.angular_velocity) * T(h)));
+    const Vector3<T> shift = others.vector(b.velocity) * T(h) + turn.change(other_arm);
+    store_vector(balls.shift, Vector3<T>(shift * scripted));
+}
+
+template <int N>
+[[gnu::flatten]] void begin_tree(TreeBalls<N>* blocks, std::size_t count, const BodyStates& bodies,
+                                 double h) {
+    for (std::size_t i = 0; i < count; ++i) {
+        const ItemGroup<N> group(blocks[i].body);
+        begin_bodies<N>(blocks[i], bodies, group);
+        begin_points<N>(blocks[i], bodies, group, h);
+    }
+}
+
+// ---- evaluate
+
+/// Both bodies feel the impulse at one point, that of the joint's a.
+template <int N, class T = Number<double, N>>
+inline void place_impulse(TreeBalls<N>& balls, const Vector3<T>& change,
+                          const Vector3<T>& other_change, const Vector3<T>& gap) {
+    const T follow = load(balls.follow), other_follow = load(balls.other_follow);
+    const T sign = load(balls.sign), is_a = (T(1) + sign) * T(0.5), is_b = T(1) - is_a;
+    const Vector3<T> apart = load_vector(balls.apart), opened = gap - apart;
+    const Vector3<T> acting = load_vector(balls.arm) + change * follow;
+    const Vector3<T> other_acting = load_vector(balls.other_arm) + other_change * other_follow;
+    store_vector(balls.acting, Vector3<T>(acting - (apart + opened * follow) * is_b));
+    store_vector(balls.other_acting,
+                 Vector3<T>(other_acting + (apart + opened * other_follow) * is_a));
+}
+
+template <int N>
+inline Number<double, N> evaluate_block(TreeBalls<N>& balls, const TreeColumns& tables, double h) {
+    using T = Number<double, N>;
+    const Velocity<T> start = load_velocity<N>(balls.start), own = load_velocity<N>(balls.own);
+    const Vector3<T> v = start.v + own.v, w = start.w + own.w;
+    const UnitQuaternion<T> turn = unit_exponential<T>(Vector3<T>(w * T(h)));
+    const ItemGroup<N> nodes(balls.node), parents(balls.parent);
+    nodes.write(tables.turn, turn);
+    write_velocity<N>(nodes, tables.velocity, {v, w});
+    const UnitQuaternion<T> other_turn = parents.rotation(tables.turn);
+    const Velocity<T> other = read_velocity<N>(parents, tables.velocity);
+    const Vector3<T> change = turn.change(load_vector(balls.arm));
+    const Vector3<T> other_change = other_turn.change(load_vector(balls.other_arm));
+    const Vector3<T> moved = (v - other.v) * T(h);
+    const Vector3<T> gap =
+        load_vector(balls.apart) + change + moved - other_change - load_vector(balls.shift);
+    store_vector(balls.gap, gap);
+    place_impulse<N>(balls, change, other_change, gap);
+    const T size = max(max(gap[0], -gap[0]), max(max(gap[1], -gap[1]), max(gap[2], -gap[2])));
+    return size * load(balls.used);
+}
+
+template <int N>
+[[gnu::flatten]] double evaluate_tree(TreeBalls<N>* blocks, std::size_t count,
+                                      const TreeColumns& tables, double h) {
+    using T = Number<double, N>;
+    T worst = T(0);
+    for (std::size_t i = 0; i < count; ++i)
+        worst = max(evaluate_block<N>(blocks[i], tables, h), worst);
+    double greatest = 0;
+    for (int lane = 0; lane < N; ++lane) greatest = max(number_of(worst, lane), greatest);
+    return greatest;
+}
+
+// ---- eliminate
+
+template <int N, class T = Number<double, N>>
+inline TreeShare<T> read_share(const std::uint32_t (&nodes)[N], const TreeColumns& tables) {
+    T x[kShareNumbers];
+    ItemGroup<N>(nodes).read(tables.share, x);
+    return share_of<T>(x);
+}
+
+template <int N, class T = Number<double, N>>
+inline void keep_elimination(TreeBalls<N>& balls, const BallElimination<T>& e) {
+    store_symmetric<N>(balls.felt, e.mass);
+    store_vector(balls.free, e.free), store_vector(balls.torque, e.torque);
+    for (int k = 0; k < 9; ++k) store(balls.across[k], e.across[k / 3][k % 3]);
+    const T factors[6] = {e.turn.l10, e.turn.l20, e.turn.l21, e.turn.i0, e.turn.i1, e.turn.i2};
+    for (int k = 0; k < 6; ++k) store(balls.turn[k], factors[k]);
+}
+template <int N, class T = Number<double, N>>
+inline BallElimination<T> kept_elimination(const TreeBalls<N>& balls) {
+    BallElimination<T> e;
+    e.mass = load_symmetric<N>(balls.felt);
+    e.free = load_vector(balls.free), e.torque = load_vector(balls.torque);
+    for (int k = 0; k < 9; ++k) e.across[k / 3][k % 3] = load(balls.across[k]);
+    e.turn.l10 = load(balls.turn[0]), e.turn.l20 = load(balls.turn[1]);
+    e.turn.l21 = load(balls.turn[2]), e.turn.i0 = load(balls.turn[3]);
+    e.turn.i1 = load(balls.turn[4]), e.turn.i2 = load(balls.turn[5]);
+    return e;
+}
+
+/// What the bodies are to their parents.
+template <int N, class T = Number<double, N>>
+inline void add_to_parents(const TreeBalls<N>& balls, const BallElimination<T>& e,
+                           const TreeColumns& tables, double h, bool first) {
+    TreeShare<T> parent = first ? TreeShare<T>::none() : read_share<N>(balls.parent, tables);
+    const Vector3<T> push = e.free + e.mass * Vector3<T>(load_vector(balls.gap) * T(1 / h));
+    const Vector3<T> acting = load_vector(balls.other_acting);
+    add_at_point<T>(parent.block, e.mass, acting, push);
+    parent.stiffness =
+        parent.stiffness + turning_stiffness<T>(acting, Vector3<T>(-load_vector(balls.impulse)),
+                                                load(balls.other_follow) * T(h));
+    T x[kShareNumbers];
+    put_share<T>(parent, x);
+    ItemGroup<N>(balls.parent).write(tables.share, x);
+}
+
+template <int N>
+[[gnu::flatten]] void eliminate_tree(TreeBalls<N>* blocks, std::size_t count,
+                                     const TreeColumns& tables, double h, bool balance, bool first,
+                                     bool leaves) {
+    using T = Number<double, N>;
+    for (std::size_t i = 0; i < count; ++i) {
+        TreeBalls<N>& balls = blocks[i];
+        const Vector3<T> acting = load_vector(balls.acting);
+        TreeShare<T> whole = leaves ? TreeShare<T>::none() : read_share<N>(balls.node, tables);
+        add_body<T>(
+            whole, load(balls.mass), load_symmetric<N>(balls.inertia),
+            turning_stiffness<T>(acting, load_vector(balls.impulse), load(balls.follow) * T(h)),
+            load_velocity<N>(balls.own), balance);
+        const BallElimination<T> e = eliminate_ball<T>(whole.block, acting);
+        keep_elimination<N>(balls, e);
+        add_to_parents<N>(balls, e, tables, h, first);
+    }
+}
+
+// ---- substitute
+
+template <int N>
+[[gnu::flatten]] void substitute_tree(TreeBalls<N>* blocks, std::size_t count,
+                                      const TreeColumns& tables, double h, bool balance) {
+    using T = Number<double, N>;
+    for (std::size_t i = 0; i < count; ++i) {
+        TreeBalls<N>& balls = blocks[i];
+        const Velocity<T> parent = read_velocity<N>(ItemGroup<N>(balls.parent), tables.step);
+        const Vector3<T> point = velocity_at<T>(parent, load_vector(balls.other_acting)) -
+                                 load_vector(balls.gap) * T(1 / h);
+        const BallElimination<T> e = kept_elimination<N>(balls);
+        const Velocity<T> step = substitute_ball<T>(e, load_vector(balls.acting), point);
+        const Vector3<T> impulse = e.mass * point - e.free;
+        const T before = T(balance ? 0 : 1);
+        store_vector(balls.impulse, Vector3<T>(load_vector(balls.impulse) * before + impulse));
+        const Velocity<T> own = load_velocity<N>(balls.own);
+        store_velocity<N>(balls.own, {own.v + step.v, own.w + step.w});
+        write_velocity<N>(ItemGroup<N>(balls.node), tables.step, step);
+    }
+}
+
+template <int W>
+inline constexpr TreeKernels<W> kTreeKernels{
+    begin_tree<kBodyLanes<W>>, evaluate_tree<kBodyLanes<W>>, eliminate_tree<kBodyLanes<W>>,
+    substitute_tree<kBodyLanes<W>>};
+
+}  // namespace plumb::kernels

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: MIT
+#include "step/tree_nodes.h"
+
+#include "constraints/tension_rows.h"
+#include "math/rotation.h"
+#include "step/follow_share.h"
+#include "step/joint_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+const Vector3d kZero = Vector3d::Zero();
+
+template <int N>
+double* row_at(std::vector<double>& table, std::uint32_t node) {
+    return table.data() + std::size_t(node) * N;
+}
+
+void put_velocity(std::vector<double>& table, std::uint32_t node, const Velocity<double>& x) {
+    double* row = row_at<kTreeVelocity>(table, node);
+    for (int k = 0; k < 3; ++k) row[k] = x.v[k], row[4 + k] = x.w[k];
+}
+Velocity<double> velocity_of(std::vector<double>& table, std::uint32_t node) {
+    const double* x = row_at<kTreeVelocity>(table, node);
+    return {{x[0], x[1], x[2]}, {x[4], x[5], x[6]}};
+}
+
+double (&share_row(std::vector<double>& table, std::uint32_t node))[kShareNumbers] {
+    return *reinterpret_cast<double(*)[kShareNumbers]>(row_at<kShareNumbers>(table, node));
+}
+
+}  // namespace
+
+TreeNodes::TreeNodes(const World& world, const JointForest& forest,
+                     const std::vector<std::uint8_t>& side_by_side, TreeTables& tables)
+    : tables_(tables), index_(forest.nodes.size(), 0) {
+    std::vector<std::uint32_t> body_of(static_cast<std::size_t>(world.dynamic_count));
+    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+        if (world.bodies.motion[i] == Motion::dynamic) body_of[world.bodies.row[i]] = i;
+    for (std::uint32_t i = 0; i < forest.nodes.size(); ++i) {
+        if (side_by_side[i]) continue;
+        const ForestNode& from = forest.nodes[i];
+        index_[i] = static_cast<std::uint32_t>(nodes_.size());
+        Node& node = nodes_.emplace_back();
+        node.node = i, node.row = from.row, node.body = body_of[from.row];
+        node.joint = from.joint, node.free = from.parent == kFree;
+        node.parent = from.parent >= 0 ? static_cast<std::uint32_t>(from.parent) : tables.ground;
+        if (node.free) continue;
+        const Joint& joint = world.joints.joints[node.joint];
+        node.sign = joint.a == node.body ? 1 : -1;
+        std::copy(joint.rows.begin(), joint.rows.end(), node.lambda);
+    }
+}
+
+void TreeNodes::begin(const World& world, double h) {
+    h_ = h, inverse_h_ = 1 / h;
+    const Bodies& b = world.bodies;
+    for (Node& node : nodes_) {
+        node.mass = b.mass[node.body];
+        node.inertia =
+            rotated_diagonal(b.orientation[node.body].toRotationMatrix(), b.inertia[node.body]);
+        node.start = {{b.velocity[node.body], b.angular_velocity[node.body]}};
+        node.own = node.given = node.held = {{kZero, kZero}};
+        if (!node.free) begin_joint(world, node);
+    }
+}
+
+void TreeNodes::begin_joint(const World& world, Node& node) {
+    const Bodies& b = world.bodies;
+    const Joint& joint = world.joints.joints[node.joint];
+    const bool is_a = node.sign > 0;
+    const std::uint32_t other = is_a ? joint.b : joint.a;
+    const auto point = [&](std::uint32_t body, const Placement& frame, Vector3d& arm) -> Vector3d {
+        if (body == kNoIndex) return arm = kZero, frame.position;
+        arm = b.orientation[body] * frame.position;
+        return b.position[body] + arm;
+    };
+    const Vector3d own_point = point(node.body, is_a ? joint.frame_a : joint.frame_b, node.arm);
+    node.apart = own_point - point(other, is_a ? joint.frame_b : joint.frame_a, node.other_arm);
+    node.follow = follow_share(world, joint, node.body, node.arm, h_);
+    node.other_follow = follow_share(world, joint, other, node.other_arm, h_);
+    if (other != kNoIndex && b.motion[other] != Motion::dynamic)
+        node.held = {{b.velocity[other], b.angular_velocity[other]}};
+    begin_rows(world, joint, node);
+}
+
+void TreeNodes::begin_rows(const World& world, const Joint& joint, Node& node) {
+    const JointPose pose = joint_pose(world.bodies, joint);
+    JointGeometry<double>& g = node.geometry;
+    g.r_a = pose.point_a - pose.centre_a;
+    g.r_b = joint.b == kNoIndex ? kZero : Vector3d(pose.point_b - pose.centre_b);
+    g.apart = pose.point_a - pose.point_b;
+    for (int k = 0; k < 3; ++k) {
+        g.e[k] = pose.axes_b.col(k);
+        g.u[k] = world.bodies.orientation[joint.a] * joint.turns[k].u;
+        g.w[k] = joint.turns[k].w;
+        if (joint.b != kNoIndex) g.w[k] = world.bodies.orientation[joint.b] * g.w[k];
+    }
+    for (std::uint32_t k = 0; k < kJointAxes; ++k) {
+        const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
+        g.lock[k] = joint.locked[k] && !joint.broken;
+        g.softness[k] = alpha * inverse_h_ * inverse_h_;
+    }
+    g.follow_a = node.sign > 0 ? node.follow : node.other_follow;
+    g.follow_b = node.sign > 0 ? node.other_follow : node.follow;
+    g.length = joint.locked[kAlongX] ? joint.length : 0;
+}
+
+void TreeNodes::forget() {
+    for (Node& node : nodes_) {
+        node.own = {{kZero, kZero}};
+        std::fill(std::begin(node.lambda), std::end(node.lambda), 0.0);
+    }
+}
+
+double TreeNodes::evaluate(std::uint32_t index) {
+    Node& node = nodes_[index_[index]];
+    const Change own = node.start + node.given + node.own;
+    const UnitQuaternion<double> turn = unit_exponential<double>(h_ * own.w);
+    double* row = row_at<kTreeTurn>(tables_.turn, node.node);
+    for (int k = 0; k < 3; ++k) row[k] = turn.v[k];
+    row[3] = turn.w;
+    put_velocity(tables_.velocity, node.node, own);
+    if (node.free) return 0;
+    Velocity<double> other = node.held;
+    if (node.parent != tables_.ground) other = velocity_of(tables_.velocity, node.parent);
+    node.now = node.sign > 0 ? joint_rows<double>(node.geometry, own, other, h_)
+                             : joint_rows<double>(node.geometry, other, own, h_);
+    take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
+    const Vector3d change = turn.change(node.arm),
+                   other_change = unit_exponential<double>(h_ * other.w).change(node.other_arm);
+    place_impulse(node, change, other_change);
+    if (node.geometry.length > 0 && node.lambda[0] < 0)
+        add_tension_rows<double>(node.elimination, node.now.e[0], node.arm + change,
+                                 node.other_arm + other_change, -node.lambda[0],
+                                 node.geometry.length, h_);
+    double worst = 0;
+    for (int k = 0; k < 6; ++k)
+        if (node.geometry.lock[k] > 0)
+            worst = std::max(
+                worst, std::abs(node.now.c[k] + h_ * node.geometry.softness[k] * node.lambda[k]));
+    return worst;
+}
+
+/// Both bodies feel the impulse at one point, that of the joint's a.
+void TreeNodes::place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change) {
+    node.acting = node.arm + node.follow * change;
+    node.other_acting = node.other_arm + node.other_follow * other_change;
+    if (node.sign > 0)
+        node.other_acting += node.apart;
+    else
+        node.acting -= node.apart;
+}
+
+/// With all that hangs on the body.
+void TreeNodes::load_block(Node& node, bool balance, bool leaf) {
+    TreeShare<double> whole =
+        leaf ? TreeShare<double>::none() : share_of<double>(share_row(tables_.share, node.node));
+    Symmetric3<double> stiffness{0, 0, 0, 0, 0, 0};
+    if (!node.free)
+        stiffness = turning_stiffness<double>(node.acting, impulse_of(node), node.follow * h_);
+    add_body<double>(whole, node.mass, node.inertia, stiffness, node.own, balance);
+    node.block = whole.block;
+}
+
+/// Of the joint, on the child [N s].
+Vector3d TreeNodes::impulse_of(const Node& node) {
+    Vector3d impulse = kZero;
+    for (int k = 0; k < 3; ++k)
+        if (node.geometry.lock[k] > 0) impulse += node.now.e[k] * (node.sign * node.lambda[k]);
+    return impulse;
+}
+
+void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool leaf) {
+    Node& node = nodes_[index_[index]];
+    load_block(node, balance, leaf);
+    if (node.free) return;
+    RowsElimination<double>& e = node.elimination;
+    for (int k = 0, row = 0; k < 6; ++k) {
+        if (!(node.geometry.lock[k] > 0)) continue;
+        if (!balance) e.wish[row] -= e.softness[row] * node.lambda[k];
+        ++row;
+    }
+    eliminate_rows(e, node.block);
+    auto& row = share_row(tables_.share, node.parent);
+    TreeShare<double> parent = first ? TreeShare<double>::none() : share_of<double>(row);
+    add_rows(parent.block, e);
+    parent.stiffness =
+        parent.stiffness +
+        turning_stiffness<double>(node.other_acting, -impulse_of(node), node.other_follow * h_);
+    put_share(parent, row);
+}
+
+void TreeNodes::substitute(std::uint32_t index, bool balance) {
+    Node& node = nodes_[index_[index]];
+    const Velocity<double> step =
+        node.free ? solve_block(node.block)
+                  : substitute_rows(node.elimination, velocity_of(tables_.step, node.parent));
+    node.own = node.own + Change{step};
+    put_velocity(tables_.step, node.node, step);
+    if (node.free) return;
+    for (int k = 0, row = 0; k < 6; ++k)
+        if (node.geometry.lock[k] > 0)
+            node.lambda[k] = (balance ? 0 : node.lambda[k]) + node.elimination.lambda[row++];
+}
+
+void TreeNodes::store_impulses(JointTable& joints) const {
+    for (const Node& node : nodes_)
+        if (!node.free)
+            std::copy(std::begin(node.lambda), std::end(node.lambda),
+                      joints.joints[node.joint].rows.begin());
+}
+
+}  // namespace plumb

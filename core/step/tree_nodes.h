@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: MIT
+/// Bodies of trees that are solved one by one: those that hang by a joint of another kind than a
+/// plain ball, and roots that hang by nothing. Numbers are double.
+#pragma once
+
+#include "constraints/tree_block.h"
+#include "schedule/contact_rows.h"
+#include "schedule/joint_forest.h"
+#include "schedule/tree_blocks.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+class TreeNodes {
+public:
+    /// `tables` outlives this.
+    TreeNodes(const World& world, const JointForest& forest,
+              const std::vector<std::uint8_t>& side_by_side, TreeTables& tables);
+
+    void begin(const World& world, double h);
+
+    // of one body of the forest; what they do is said in step/tree_solver.h
+
+    double evaluate(std::uint32_t node);  ///< returns the greatest violation [m], [rad]
+    void eliminate(std::uint32_t node, bool balance, bool first, bool leaf);
+    void substitute(std::uint32_t node, bool balance);
+
+    void forget();
+    void store_impulses(JointTable& joints) const;
+
+    template <class Real>
+    void take(const BodyRows<Real>& rows) {
+        for (Node& node : nodes_) node.given = read(rows.change, node.row) - node.own;
+    }
+    template <class Real>
+    void give(const BodyRows<Real>& rows) const {
+        for (const Node& node : nodes_) write(rows.change, node.row, node.given + node.own);
+    }
+
+private:
+    struct Change : Velocity<double> {
+        Change operator+(const Change& o) const { return {{v + o.v, w + o.w}}; }
+        Change operator-(const Change& o) const { return {{v - o.v, w - o.w}}; }
+    };
+
+    /// A body, and the joint that it hangs by unless it is a free root.
+    struct Node {
+        std::uint32_t node, parent;  ///< rows in the tables
+        std::int32_t row;            ///< in the velocity table
+        std::uint32_t body, joint;
+        bool free;
+        double sign;  ///< 1 where the body is the joint's a, else −1
+        double mass;
+        Symmetric3<double> inertia;     ///< world frame, at the start [kg m²]
+        Vector3d arm, other_arm;        ///< of the joint's point, at the start [m]
+        double follow, other_follow;    ///< share of the turn that an impulse goes along with
+        Vector3d apart;                 ///< child's point − parent's, at the start [m]
+        Change start, held;             ///< velocity at the start; of an immovable parent
+        Change given, own;              ///< changes by others, and by this solver
+        Vector3d acting, other_acting;  ///< arms by which the impulse acts [m]
+        JointGeometry<double> geometry;
+        JointRows<double> now;
+        RowsElimination<double> elimination;
+        double lambda[6];  ///< along the joint's rows
+        BodyBlock<double> block;
+    };
+
+    template <class Real>
+    static Change read(const Real* rows, std::int32_t row) {
+        const Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+        return {{{double(r[0]), double(r[1]), double(r[2])},
+                 {double(r[4]), double(r[5]), double(r[6])}}};
+    }
+    template <class Real>
+    static void write(Real* rows, std::int32_t row, const Change& change) {
+        Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+        for (int k = 0; k < 3; ++k) {
+            r[k] = static_cast<Real>(change.v[k]);
+            r[4 + k] = static_cast<Real>(change.w[k]);
+        }
+    }
+
+    void begin_joint(const World& world, Node& node);
+    void begin_rows(const World& world, const Joint& joint, Node& node);
+    static void place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change);
+    void load_block(Node& node, bool balance, bool leaf);
+    static Vector3d impulse_of(const Node& node);
+
+    TreeTables& tables_;
+    std::vector<Node> nodes_;
+    std::vector<std::uint32_t> index_;  ///< [node of the forest] in nodes_
+    double h_ = 0, inverse_h_ = 0;
+};
+
+}  // namespace plumb
