@@ -95,7 +95,8 @@ template <int W>
 }
 
 template <int W>
-inline constexpr BodyKernels kBodyKernels{integrate<W>, integrate_turning<W>, move<W>,
-                                          move_turning<W>};
+constexpr BodyKernels all_body_kernels() {
+    return {integrate<W>, integrate_turning<W>, move<W>, move_turning<W>};
+}
 
 }  // namespace plumb::kernels

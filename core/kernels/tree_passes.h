@@ -242,8 +242,9 @@ template <int N>
 }
 
 template <int W>
-inline constexpr TreeKernels<W> kTreeKernels{
-    begin_tree<kBodyLanes<W>>, evaluate_tree<kBodyLanes<W>>, eliminate_tree<kBodyLanes<W>>,
-    substitute_tree<kBodyLanes<W>>};
+constexpr TreeKernels<W> all_tree_kernels() {
+    constexpr int n = kBodyLanes<W>;
+    return {begin_tree<n>, evaluate_tree<n>, eliminate_tree<n>, substitute_tree<n>};
+}
 
 }  // namespace plumb::kernels

@@ -32,12 +32,14 @@ const JointKernels<double, 8>* kernel_table() {
 
 template <>
 const BodyKernels* body_kernel_table<8>() {
-    return &kBodyKernels<kBodyLanes<8>>;
+    static constexpr auto table = all_body_kernels<kBodyLanes<8>>();
+    return &table;
 }
 
 template <>
 const TreeKernels<8>* kernel_table() {
-    return &kTreeKernels<8>;
+    static constexpr auto table = all_tree_kernels<8>();
+    return &table;
 }
 
 }  // namespace plumb::kernels

@@ -32,12 +32,14 @@ const JointKernels<double, 16>* kernel_table() {
 
 template <>
 const BodyKernels* body_kernel_table<16>() {
-    return &kBodyKernels<kBodyLanes<16>>;
+    static constexpr auto table = all_body_kernels<kBodyLanes<16>>();
+    return &table;
 }
 
 template <>
 const TreeKernels<16>* kernel_table() {
-    return &kTreeKernels<16>;
+    static constexpr auto table = all_tree_kernels<16>();
+    return &table;
 }
 
 }  // namespace plumb::kernels

@@ -54,22 +54,26 @@ const JointKernels<double, 4>* kernel_table() {
 
 template <>
 const BodyKernels* body_kernel_table<1>() {
-    return &kBodyKernels<kBodyLanes<1>>;
+    static constexpr auto table = all_body_kernels<kBodyLanes<1>>();
+    return &table;
 }
 
 template <>
 const BodyKernels* body_kernel_table<4>() {
-    return &kBodyKernels<kBodyLanes<4>>;
+    static constexpr auto table = all_body_kernels<kBodyLanes<4>>();
+    return &table;
 }
 
 template <>
 const TreeKernels<1>* kernel_table() {
-    return &kTreeKernels<1>;
+    static constexpr auto table = all_tree_kernels<1>();
+    return &table;
 }
 
 template <>
 const TreeKernels<4>* kernel_table() {
-    return &kTreeKernels<4>;
+    static constexpr auto table = all_tree_kernels<4>();
+    return &table;
 }
 
 }  // namespace plumb::kernels
