@@ -32,7 +32,7 @@ struct Options {
     std::vector<std::string> colliders;
     std::string drive, answer_only, json, page;
     std::uint64_t every = 1;
-    bool isolate = false, quiet = false, free_run = false;
+    bool isolate = false, quiet = false, free_run = false, judge_raw = false;
 };
 
 std::string listed(const std::vector<std::string>& names) {
@@ -109,8 +109,9 @@ struct Prepared {
 
 ComparisonResult compared(const Options& o, Prepared& p, std::uint64_t steps) {
     Progress progress(steps, o.quiet);
-    return compare_colliders({p.scene, p.sources.all, p.sources.own_process, p.driver, o.every},
-                             *p.simulation, progress);
+    return compare_colliders(
+        {p.scene, p.sources.all, p.sources.own_process, p.driver, o.every, o.judge_raw},
+        *p.simulation, progress);
 }
 
 std::optional<FreeRuns> run_freely(const Options& o, Prepared& p, std::uint64_t steps) {
@@ -185,6 +186,8 @@ Verb add_compare(CLI::App& command) {
     command.add_option("--every", o->every, "compare every Nth step; 1 unless told")
         ->type_name("N")
         ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1} << 40));
+    command.add_flag("--judge-raw", o->judge_raw,
+                     "what the back-ends themselves say (raw) must agree, too");
     command.add_flag("--isolate", o->isolate,
                      "run every collider but the driving one in a process of its own");
     command

@@ -52,6 +52,7 @@ ComparisonResult empty_result(const ComparisonPlan& plan, const World& world) {
             result.pairs.push_back({i, j, ContactComparison(bodies, {single, false}),
                                     ContactComparison(bodies, {single, true})});
         }
+    result.raw_judged = plan.judge_raw;
     return result;
 }
 
@@ -101,7 +102,11 @@ bool ComparisonResult::answered(std::size_t collider) const {
 }
 
 bool ComparisonResult::agrees(const PairFigures& pair) const {
-    return answered(pair.first) && answered(pair.second) && pair.clipped.agrees();
+    return answered(pair.first) && answered(pair.second) && alike(pair);
+}
+
+bool ComparisonResult::alike(const PairFigures& pair) const {
+    return pair.clipped.agrees() && (!raw_judged || pair.raw.agrees());
 }
 
 bool ComparisonResult::agrees() const {

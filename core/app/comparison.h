@@ -48,11 +48,14 @@ struct ComparisonResult {
     std::uint64_t steps = 0;
     double time = 0;  ///< simulated [s]
     bool was_interrupted = false;
+    bool raw_judged = false;  ///< whether what the back-ends themselves say must agree, too
     std::uint64_t diverged_after = 0;  ///< step that left no finite state, and ended it; 0: none
 
     /// Whether a collider gave its whole clipped answer at every pose.
     bool answered(std::size_t collider) const;
-    /// Clipped sets agree, and both are whole.
+    /// The sets that are judged are alike.
+    bool alike(const PairFigures& pair) const;
+    /// And both are whole.
     bool agrees(const PairFigures& pair) const;
     bool agrees() const;  ///< all pairs of colliders
 };
@@ -64,6 +67,7 @@ struct ComparisonPlan {
     std::vector<bool> own_process;  ///< [source]
     std::size_t driver;             ///< index of the source whose collider steps the scene
     std::uint64_t every;            ///< steps from one look to the next
+    bool judge_raw = false;         ///< as ComparisonResult::raw_judged
 };
 
 /// Runs the scene to its end (or an interrupt) and compares. Throws ColliderError when a collider

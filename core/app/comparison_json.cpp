@@ -109,6 +109,7 @@ Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonR
     Json j{{"scene", scene.name},
            {"description", scene.description},
            {"agrees", r.agrees()},
+           {"raw_judged", r.raw_judged},
            {"interrupted", r.was_interrupted},
            {"diverged_after_step", step_or_null(r.diverged_after)},
            {"driver", r.colliders[r.driver].info.name},

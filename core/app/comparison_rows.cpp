@@ -102,7 +102,7 @@ std::vector<Finding> findings_of(const ComparisonResult& result) {
     for (const bool raw : {false, true})
         for (const PairFigures& pair : result.pairs)
             for (Disagreement& d : (raw ? pair.raw : pair.clipped).worst()) {
-                const bool judged = !raw && d.aspect != Aspect::deep_normal;
+                const bool judged = (!raw || result.raw_judged) && d.aspect != Aspect::deep_normal;
                 findings.push_back({pair.first, pair.second, raw, judged, std::move(d)});
             }
     return findings;

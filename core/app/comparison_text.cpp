@@ -79,7 +79,7 @@ std::string figure(double value, const AspectRow& row) {
 }
 
 std::string totals_table(const ComparisonTotals& t, const ComparisonKind& kind, bool meshes,
-                         const std::string& title) {
+                         const std::string& title, bool judged) {
     std::string text = cell("  " + title, 25, false) + cell("tolerance", 11) + cell("wanted", 8) +
                        cell("compared", 10) + cell("within", 10) + cell("median", 12) +
                        cell("99 %", 12) + cell("worst", 12) + "\n";
@@ -89,7 +89,7 @@ std::string totals_table(const ComparisonTotals& t, const ComparisonKind& kind, 
                 cell(std::to_string(row.compared), 10) +
                 cell(row.compared > 0 ? percent(row.within) : "–", 10) +
                 cell(figure(row.median, row), 12) + cell(figure(row.p99, row), 12) +
-                cell(figure(row.worst, row), 12) + (kind.raw ? "" : "  " + row.verdict) + "\n";
+                cell(figure(row.worst, row), 12) + (judged ? "  " + row.verdict : "") + "\n";
     }
     const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
     text += printed(
@@ -99,16 +99,17 @@ std::string totals_table(const ComparisonTotals& t, const ComparisonKind& kind, 
     return text;
 }
 
-std::string comparison_tables(const ContactComparison& c, const ComparisonKind& kind) {
+std::string comparison_tables(const ContactComparison& c, const ComparisonKind& kind, bool judged) {
     const std::string what = kind.raw ? "raw" : "clipped";
     std::string text;
-    if (c.convex().compared() > 0) text += totals_table(c.convex(), kind, false, what);
-    if (c.meshes().compared() > 0) text += totals_table(c.meshes(), kind, true, what + ", meshes");
+    if (c.convex().compared() > 0) text += totals_table(c.convex(), kind, false, what, judged);
+    if (c.meshes().compared() > 0)
+        text += totals_table(c.meshes(), kind, true, what + ", meshes", judged);
     return text.empty() ? "  " + what + ": neither reports any pair\n" : text;
 }
 
 std::string pair_verdict(const ComparisonResult& r, const PairFigures& pair) {
-    if (!pair.clipped.agrees()) return ": THEY DIFFER\n";
+    if (!r.alike(pair)) return ": THEY DIFFER\n";
     for (const std::size_t i : {pair.first, pair.second})
         if (!r.answered(i)) return ": NO VERDICT, " + r.colliders[i].info.name + " failed\n";
     return ": they agree\n";
@@ -118,8 +119,8 @@ std::string pair_section(const ComparisonResult& r, const PairFigures& pair) {
     const SourceInfo &first = r.colliders[pair.first].info, &second = r.colliders[pair.second].info;
     const bool single = first.precision == "single" || second.precision == "single";
     return "\n" + first.name + " and " + second.name + pair_verdict(r, pair) +
-           comparison_tables(pair.clipped, {single, false}) +
-           comparison_tables(pair.raw, {single, true});
+           comparison_tables(pair.clipped, {single, false}, true) +
+           comparison_tables(pair.raw, {single, true}, r.raw_judged);
 }
 
 std::string finding_text(const Scene& scene, const ComparisonResult& r, const Finding& f) {
@@ -177,9 +178,8 @@ std::string troubles(const ComparisonResult& r) {
 
 std::string verdict(const ComparisonResult& r) {
     if (r.agrees()) return "\nThe colliders agree.\n";
-    const bool all_alike = std::all_of(r.pairs.begin(), r.pairs.end(), [](const PairFigures& pair) {
-        return pair.clipped.agrees();
-    });
+    const bool all_alike = std::all_of(r.pairs.begin(), r.pairs.end(),
+                                       [&](const PairFigures& pair) { return r.alike(pair); });
     return all_alike ? "\nNo verdict: not all colliders gave whole answers.\n"
                      : "\nThe colliders differ.\n";
 }

@@ -60,6 +60,9 @@ grep -q "THEY DIFFER" "$work/out" || fail "no verdict for the pair of colliders"
 # Meshes deep in each other: the colliders agree, what their back-ends themselves say does not.
 ends 0 "The colliders agree." "$scenes/coarse_tori.json" --colliders bullet,ode --duration 0.3
 grep -q "torus_.* (mesh of 576 triangles)" "$work/out" || fail "the raw answers on tori do not differ"
+ends 1 "The colliders differ." "$scenes/coarse_tori.json" --colliders bullet,ode --duration 0.3 --judge-raw --json "$work/tori.json"
+grep -q "THEY DIFFER" "$work/out" || fail "raw answers that differ have no verdict"
+[ "$(value "$work/tori.json" /agrees)" = false ] || fail "raw answers that differ agree in the JSON"
 
 # The page carries the comparison, the shapes of its findings, and charts of free runs; nothing of it comes from elsewhere.
 # A run through a process of its own is the same run.
