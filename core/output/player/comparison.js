@@ -101,6 +101,7 @@ export class ComparisonPage {
     pair(pair) {
         const raw = element('details', '', [element('summary', '', 'Raw: what the back-ends themselves say' + (this.data.raw_judged ? '' : ', not judged')),
             ...this.sets(pair.raw, this.data.raw_judged)]);
+        raw.open = this.data.raw_judged;
         return element('section', '', [element('h2', '', [this.name(pair.first), ' and ', this.name(pair.second), ' ',
             badge(pair.agrees ? 'agree' : 'DIFFER')]), ...this.sets(pair.clipped, true), raw]);
     }
