@@ -19,15 +19,16 @@ inline double angle_of(double sine, double cosine) {
     return 16 * tangent * series;
 }
 
-/// ϑ without the whole turns in it, where there are any.
+/// ϑ, whose square is given, without the whole turns in it where that is more than `greatest`.
 template <class T>
-inline Vector3<T> without_whole_turns(const Vector3<T>& theta) {
+inline Vector3<T> without_whole_turns(const Vector3<T>& theta, const T& square,
+                                      const T& greatest) {
     constexpr double kTurn = 6.283185307179586;
     constexpr double kWhole = 6755399441055744.0;  // 1.5 · 2⁵²: a sum with it has no fraction
-    const T angle = sqrt(dot(theta, theta));
+    const T angle = sqrt(square);
     const T turns = (angle * T(1 / kTurn) + T(kWhole)) - T(kWhole);
     const T shorter = (angle - turns * T(kTurn)) / max(angle, T(1));
-    return theta * select_greater(angle, T(kTurn), shorter, T(1));
+    return theta * select_greater(square, greatest, shorter, T(1));
 }
 
 /// exp(ϑ) as a unit quaternion: cos x and ϑ/2 sin(x)/x for x = |ϑ|/2, from their series at x/8 by
@@ -35,12 +36,12 @@ inline Vector3<T> without_whole_turns(const Vector3<T>& theta) {
 /// processor, and with it every run. ϑ [rad]
 template <class T>
 inline UnitQuaternion<T> unit_exponential(const Vector3<T>& theta) {
-    constexpr double kGreatest = 39.5;  // (2π)², where the series still have all digits
+    constexpr double kGreatest = 39.5;  // about (2π)², where the series still have all digits
     constexpr int kHalvings = 3;
     T square = dot(theta, theta);
     Vector3<T> part = theta;
     if (any_greater(square, T(kGreatest))) {
-        part = without_whole_turns<T>(theta);
+        part = without_whole_turns<T>(theta, square, T(kGreatest));
         square = dot(part, part);
     }
     T y = square * T(1.0 / (4 << (2 * kHalvings)));

@@ -78,7 +78,7 @@ std::vector<double> joint_errors(const World& world) {
         else
             for (int k = 0; k < 3; ++k)
                 if (joint.locked[k]) error[k] = pose.axes_b.col(k).dot(apart);
-        errors.push_back(error.norm());
+        errors.push_back(joint.broken ? 0 : error.norm());
     }
     return errors;
 }

@@ -3,11 +3,12 @@
 #pragma once
 
 #include "constraints/drive_rows.h"
+#include "constraints/felt_mass.h"
 #include "schedule/joint_forest.h"
 #include "step/body_columns.h"
 #include "step/coupling_solver.h"
 #include "step/follow_share.h"
-#include "step/joint_state.h"
+#include "step/joint_geometry.h"
 #include "step/lane_blocks.h"
 #include "step/velocity_table.h"
 
@@ -107,16 +108,6 @@ private:
         for (int k = 0; k < 3; ++k) to[k][lane] = static_cast<Real>(v[k]);
     }
 
-    /// How far each side's impulse follows its body in this substep, by the load of the one before.
-    template <class Block>
-    static void fill_follow(const World& world, const Joint& joint, Block& block,
-                            std::uint32_t lane, double h) {
-        block.follow_a[lane] =
-            static_cast<Real>(follow_share(world, joint, joint.a, joint.frame_a.position, h));
-        block.follow_b[lane] =
-            static_cast<Real>(follow_share(world, joint, joint.b, joint.frame_b.position, h));
-    }
-
     /// Where the balls' points are on their bodies, and what they bore.
     void place_ball(const Joint& joint, std::size_t item) {
         BallFrames<W>& frames = frames_[balls_.index(item)];
@@ -135,47 +126,48 @@ private:
     void fill_block(const World& world, const Joint& joint, std::size_t item, double h) {
         JointBlock<Real, W>& block = blocks_.block(item);
         const std::uint32_t lane = blocks_.lane(item);
-        const JointPose pose = joint_pose(world.bodies, joint);
+        const JointGeometry<double> g = joint_geometry(
+            world, joint, follow_share(world, joint, joint.a, joint.frame_a.position, h),
+            follow_share(world, joint, joint.b, joint.frame_b.position, h), h);
         blocks_.fill_masses(item, world.bodies, joint.a, joint.b);
-        put(block.arm_a, lane, pose.point_a - pose.centre_a);
-        put(block.arm_b, lane,
-            joint.b == kNoIndex ? Vector3d::Zero() : Vector3d(pose.point_b - pose.centre_b));
-        put(block.apart, lane, pose.point_a - pose.point_b);
-        for (int k = 0; k < 3; ++k) {
-            put(block.e[k], lane, pose.axes_b.col(k));
-            put(block.u[k], lane, world.bodies.orientation[joint.a] * joint.turns[k].u);
-            put(block.w[k], lane,
-                joint.b == kNoIndex
-                    ? joint.turns[k].w
-                    : Vector3d(world.bodies.orientation[joint.b] * joint.turns[k].w));
-        }
+        put(block.arm_a, lane, g.r_a), put(block.arm_b, lane, g.r_b);
+        put(block.apart, lane, g.apart);
+        for (int k = 0; k < 3; ++k)
+            put(block.e[k], lane, g.e[k]), put(block.u[k], lane, g.u[k]),
+                put(block.w[k], lane, g.w[k]);
         for (std::uint32_t k = 0; k < kJointAxes; ++k) {
-            const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
-            block.lock[k][lane] = joint.locked[k] && !joint.broken;
-            block.softness[k][lane] = static_cast<Real>(alpha / (h * h));
+            block.lock[k][lane] = static_cast<Real>(g.lock[k]);
+            block.softness[k][lane] = static_cast<Real>(g.softness[k]);
             block.lambda[k][lane] = 0;
         }
-        fill_follow(world, joint, block, lane, h);
-        block.length[lane] = static_cast<Real>(joint.locked[kAlongX] ? joint.length : 0);
+        block.follow_a[lane] = static_cast<Real>(g.follow_a);
+        block.follow_b[lane] = static_cast<Real>(g.follow_b);
+        block.length[lane] = static_cast<Real>(g.length);
     }
 
-    /// J M⁻¹ Jᵀ of a row along or about an axis.
-    static double response_of(const Bodies& b, const Joint& joint, const JointCoordinate& q) {
-        const double linear = q.along.squaredNorm();
-        const auto of = [&](std::uint32_t body, const Vector3d& turn) {
-            if (body == kNoIndex) return 0.0;
-            return linear * b.inverse_mass[body] +
-                   turn.dot(Vector3d(b.world_inverse_inertia[body] * turn));
-        };
-        return of(joint.a, q.turn_a) + of(joint.b, q.turn_b);
+    static InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t body) {
+        if (body == kNoIndex) return {0, {0, 0, 0, 0, 0, 0}};
+        return {b.inverse_mass[body], b.world_inverse_inertia[body]};
+    }
+
+    /// What a motor's frequency is of.
+    static double motor_mass(const World& world, const JointDrive& drive, const JointCoordinate& q,
+                             double h) {
+        if (drive.kind != DriveKind::motor || drive.spec.motor.mode != MotorMode::position)
+            return 0;
+        const Joint& joint = world.joints.joints[drive.joint];
+        return felt_mass(joint_geometry(world, joint, 0, 0, h), q,
+                         inverse_mass(world.bodies, joint.a), inverse_mass(world.bodies, joint.b));
     }
 
     void fill_drive(const World& world, const JointDrive& drive, std::size_t item, double h) {
         const Joint& joint = world.joints.joints[drive.joint];
         const JointCoordinate q = joint_coordinate(world, drive.joint, drive.axis);
-        const double k = response_of(world.bodies, joint, q);
+        const double k = row_response(q, inverse_mass(world.bodies, joint.a),
+                                      inverse_mass(world.bodies, joint.b));
         const double rate = joint_rate(world.bodies, joint, q);
-        const DriveRow row = drive_row(drive, q.value, rate, k, world.settings, world.time + h, h);
+        const DriveRow row = drive_row(drive, q.value, rate, motor_mass(world, drive, q, h),
+                                       world.settings, world.time + h, h);
         DriveBlock<Real, W>& block = drives_.block(item);
         const std::uint32_t lane = drives_.lane(item);
         drives_.fill_masses(item, world.bodies, joint.a, joint.b);
@@ -189,7 +181,7 @@ private:
         block.lambda[lane] = 0;
     }
 
-    static DriveRow drive_row(const JointDrive& drive, double q, double rate, double response,
+    static DriveRow drive_row(const JointDrive& drive, double q, double rate, double mass,
                               const Settings& settings, double time, double h) {
         const JointAxisSpec& spec = drive.spec;
         const MotorTarget target = motor_target(spec.motor, time);
@@ -200,8 +192,7 @@ private:
             case DriveKind::motor:
                 if (spec.motor.mode == MotorMode::velocity)
                     return velocity_motor_row(target.value, spec.motor.greatest, h);
-                return position_motor_row(q, target.value, target.speed, spec.motor,
-                                          response > 0 ? 1 / response : 0, h);
+                return position_motor_row(q, target.value, target.speed, spec.motor, mass, h);
             case DriveKind::spring:
                 return spring_row(q, spec.rest, 0, spec.stiffness, spec.damping, h);
             case DriveKind::friction:

@@ -4,7 +4,7 @@
 #include "constraints/tension_rows.h"
 #include "math/rotation.h"
 #include "step/follow_share.h"
-#include "step/joint_state.h"
+#include "step/joint_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,29 +84,8 @@ void TreeNodes::begin_joint(const World& world, Node& node) {
     node.other_follow = follow_share(world, joint, other, node.other_arm, h_);
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
-    begin_rows(world, joint, node);
-}
-
-void TreeNodes::begin_rows(const World& world, const Joint& joint, Node& node) {
-    const JointPose pose = joint_pose(world.bodies, joint);
-    JointGeometry<double>& g = node.geometry;
-    g.r_a = pose.point_a - pose.centre_a;
-    g.r_b = joint.b == kNoIndex ? kZero : Vector3d(pose.point_b - pose.centre_b);
-    g.apart = pose.point_a - pose.point_b;
-    for (int k = 0; k < 3; ++k) {
-        g.e[k] = pose.axes_b.col(k);
-        g.u[k] = world.bodies.orientation[joint.a] * joint.turns[k].u;
-        g.w[k] = joint.turns[k].w;
-        if (joint.b != kNoIndex) g.w[k] = world.bodies.orientation[joint.b] * g.w[k];
-    }
-    for (std::uint32_t k = 0; k < kJointAxes; ++k) {
-        const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
-        g.lock[k] = joint.locked[k] && !joint.broken;
-        g.softness[k] = alpha * inverse_h_ * inverse_h_;
-    }
-    g.follow_a = node.sign > 0 ? node.follow : node.other_follow;
-    g.follow_b = node.sign > 0 ? node.other_follow : node.follow;
-    g.length = joint.locked[kAlongX] ? joint.length : 0;
+    node.geometry = joint_geometry(world, joint, is_a ? node.follow : node.other_follow,
+                                   is_a ? node.other_follow : node.follow, h_);
 }
 
 void TreeNodes::forget() {

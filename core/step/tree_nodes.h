@@ -83,7 +83,6 @@ private:
     }
 
     void begin_joint(const World& world, Node& node);
-    void begin_rows(const World& world, const Joint& joint, Node& node);
     static void place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change);
     void load_block(Node& node, bool balance, bool leaf);
     static Vector3d impulse_of(const Node& node);

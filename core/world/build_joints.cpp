@@ -138,11 +138,12 @@ private:
                 check_axis(spec);
                 draft.drives.push_back({0, axis, kind, spec, 0});
             };
-            if (std::isfinite(spec.lower) || std::isfinite(spec.upper)) add(DriveKind::limit);
             if (spec.motor.mode != MotorMode::none) add(DriveKind::motor);
             if (spec.stiffness > 0 || spec.damping > 0) add(DriveKind::spring);
             if (spec.friction > 0) add(DriveKind::friction);
             if (std::isfinite(spec.greatest_speed)) add(DriveKind::speed);
+            // what comes last has the last word
+            if (std::isfinite(spec.lower) || std::isfinite(spec.upper)) add(DriveKind::limit);
         }
     }
 

@@ -75,6 +75,36 @@ TEST_P(Drives, APositionMotorReachesItsTargetAndKeepsWithinItsTorque) {
     }
 }
 
+/// About a hinge that is far from the centre of mass, too: the motor carries I + m r².
+TEST_P(Drives, AnUndampedPositionMotorSwingsAtItsFrequency) {
+    Scene s = scene(JointKind::hinge);
+    s.settings.substeps = 20;
+    s.joints[0].anchor = {0, 2, 0};
+    JointMotor& motor = s.joints[0].axes[kTurnX].motor;
+    motor.mode = MotorMode::position, motor.target = 0.2;
+    motor.frequency = 1, motor.damping_ratio = 0;
+    Simulation simulation(s, colliders(), "reference");
+    for (int i = 0; i < 120; ++i) {
+        simulation.step();
+        const double law = 0.2 * (1 - std::cos(2 * std::numbers::pi * simulation.time()));
+        EXPECT_NEAR(position(simulation, 0, kTurnX), law, 0.02 * 0.4) << simulation.time();
+    }
+}
+
+TEST_P(Drives, ALimitHoldsAgainstAMotorOfAnyForce) {
+    for (const double greatest : {1e3, 1e6, std::numeric_limits<double>::infinity()}) {
+        Scene s = scene(JointKind::hinge);
+        s.joints[0].anchor = {0, 2, 0};
+        JointAxisSpec& axis = s.joints[0].axes[kTurnX];
+        axis.lower = -0.5, axis.upper = 0.5;
+        axis.motor.mode = MotorMode::velocity, axis.motor.target = 5;
+        axis.motor.greatest = greatest;
+        Simulation simulation(s, colliders(), "reference");
+        run_for(simulation, 2);
+        EXPECT_LT(position(simulation, 0, kTurnX), 0.5 + 1e-3) << greatest;
+    }
+}
+
 TEST_P(Drives, AMotorFollowsItsKeys) {
     Scene s = scene(JointKind::slider);
     JointMotor& motor = s.joints[0].axes[kAlongX].motor;

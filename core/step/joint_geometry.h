@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+/// A joint of any kind at the start of a substep, as its rows need it.
+#pragma once
+
+#include "constraints/joint_rows.h"
+#include "step/joint_state.h"
+
+namespace plumb {
+
+/// `follow_a`, `follow_b`: shares of the bodies' turns that impulses go along with; h: substep [s].
+inline JointGeometry<double> joint_geometry(const World& world, const Joint& joint, double follow_a,
+                                            double follow_b, double h) {
+    const Bodies& b = world.bodies;
+    const JointPose pose = joint_pose(b, joint);
+    JointGeometry<double> g;
+    g.r_a = pose.point_a - pose.centre_a;
+    g.r_b = Vector3d::Zero();
+    if (joint.b != kNoIndex) g.r_b = pose.point_b - pose.centre_b;
+    g.apart = pose.point_a - pose.point_b;
+    for (int k = 0; k < 3; ++k) {
+        g.e[k] = pose.axes_b.col(k);
+        g.u[k] = b.orientation[joint.a] * joint.turns[k].u;
+        g.w[k] = joint.turns[k].w;
+        if (joint.b != kNoIndex) g.w[k] = b.orientation[joint.b] * g.w[k];
+    }
+    for (std::uint32_t k = 0; k < kJointAxes; ++k) {
+        const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
+        g.lock[k] = joint.locked[k] && !joint.broken;
+        g.softness[k] = alpha / (h * h);
+    }
+    g.follow_a = follow_a, g.follow_b = follow_b;
+    g.length = joint.locked[kAlongX] ? joint.length : 0;
+    return g;
+}
+
+}  // namespace plumb
