@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// Couplings (gears, racks, mimics): C = q_b − ratio q_a − offset = 0. A row has up to four bodies,
 /// so they are solved one after another.
+///
+/// What the motion has added to C goes in one substep, so that a gear holds. More than a few
+/// substeps can have added, such as an offset far from where the joints stand, is owed and goes at
+/// Settings::recovery_speed.
 #pragma once
 
 #include "schedule/contact_rows.h"
 #include "step/joint_state.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace plumb {
@@ -17,6 +23,7 @@ public:
     bool empty() const { return rows_.empty(); }
 
     void begin(const World& world, double h) {
+        const bool first = rows_.empty();
         rows_.resize(world.joints.couplings.size());
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             const JointCoupling& coupling = world.joints.couplings[i];
@@ -31,7 +38,8 @@ public:
             const bool whole = !world.joints.joints[coupling.joint_a].broken &&
                                !world.joints.joints[coupling.joint_b].broken;
             row.mass = whole && k > 0 ? 1 / k : 0;
-            row.bias = (b.value - coupling.ratio * a.value - coupling.offset) / h;
+            row.owed = first ? coupling.owed : rows_[i].owed;
+            set_bias(row, world, coupling, a, b, h);
             rows_[i] = row;
         }
     }
@@ -47,7 +55,10 @@ public:
     }
 
     void store_impulses(JointTable& table) const {
-        for (std::size_t i = 0; i < rows_.size(); ++i) table.couplings[i].impulse = rows_[i].lambda;
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            table.couplings[i].impulse = rows_[i].lambda;
+            table.couplings[i].owed = rows_[i].owed;
+        }
     }
 
 private:
@@ -60,7 +71,16 @@ private:
     struct Row {
         std::array<Side, 4> sides;
         double mass = 0, bias = 0, lambda = 0;
+        double owed = 0;  ///< of C [m], [rad]
     };
+
+    /// What iterations leave adds up over so many substeps at most.
+    static constexpr double kMadeAtOnce = 4;
+
+    /// What is left of an error when so much of it is taken away.
+    static double without(double error, double taken) {
+        return error - std::clamp(error, -taken, taken);
+    }
 
     /// A body that stands on both sides, as the frame that carries two wheels does, has one entry.
     static void add_side(Row& row, const World& world, std::uint32_t body, const Vector3d& along,
@@ -80,6 +100,20 @@ private:
                           const JointCoordinate& q, double factor) {
         add_side(row, world, joint.a, factor * q.along, factor * q.turn_a);
         add_side(row, world, joint.b, -factor * q.along, -factor * q.turn_b);
+    }
+
+    static void set_bias(Row& row, const World& world, const JointCoupling& coupling,
+                         const JointCoordinate& a, const JointCoordinate& b, double h) {
+        const std::vector<Joint>& joints = world.joints.joints;
+        const double speed =
+            std::abs(joint_rate(world.bodies, joints[coupling.joint_b], b)) +
+            std::abs(coupling.ratio * joint_rate(world.bodies, joints[coupling.joint_a], a));
+        const double recovered = h * world.settings.recovery_speed;
+        row.owed = without(row.owed, recovered);
+        const double made = b.value - coupling.ratio * a.value - coupling.offset - row.owed;
+        const double excess = without(made, recovered + kMadeAtOnce * h * speed);
+        row.owed += excess;
+        row.bias = (made - excess) / h;
     }
 
     static double rate_of(const Side& side, const BodyRows<Real>& bodies) {

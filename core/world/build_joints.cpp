@@ -205,6 +205,7 @@ JointCoupling make_coupling(const World& world, const CouplingSpec& spec,
             spec.axis_b,
             spec.ratio,
             spec.offset.value_or(offset),
+            0,
             0};
 }
 

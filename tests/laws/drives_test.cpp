@@ -226,43 +226,6 @@ TEST_P(Drives, AGreatestSpeedIsKept) {
     }
 }
 
-/// Two hinged wheels tied by q_b = r q_a, the torque τ on the first: α_a = τ / (I_a + r² I_b).
-TEST_P(Drives, AGearSharesTorqueByItsRatio) {
-    for (const double ratio : {-2.0, 0.5, 3.0}) {
-        Scene s = scene(JointKind::hinge);
-        add_body(s, box(0.4, 0.4, 0.4), {3, 0, 0});
-        s.joints.push_back(s.joints[0]);
-        s.joints[1].body_a = 1, s.joints[1].anchor = {3, 0, 0};
-        CouplingSpec gear;
-        gear.joint_a = 0, gear.joint_b = 1, gear.ratio = ratio;
-        s.couplings.push_back(gear);
-        s.bodies[0].torque = {100, 0, 0};
-        Simulation simulation(s, colliders(), "reference");
-        run_for(simulation, 2);
-        const double inertia_b = 512 * 0.64 / 6;
-        const double alpha = 100 / (kInertia + ratio * ratio * inertia_b);
-        EXPECT_NEAR(simulation.joint_motion(0, kTurnX).velocity, 2 * alpha, 0.005 * 2 * alpha);
-        EXPECT_NEAR(position(simulation, 1, kTurnX), ratio * position(simulation, 0, kTurnX), 1e-5);
-    }
-}
-
-TEST_P(Drives, ARackFollowsItsPinion) {
-    Scene s = scene(JointKind::hinge);
-    add_body(s, box(0.4, 0.4, 0.4), {3, 0, 0});
-    s.joints.push_back(s.joints[0]);
-    s.joints[1].kind = JointKind::slider;
-    s.joints[1].body_a = 1, s.joints[1].anchor = {3, 0, 0};
-    CouplingSpec rack;
-    rack.joint_a = 0, rack.joint_b = 1, rack.axis_b = kAlongX, rack.ratio = 0.25;  // [m/rad]
-    s.couplings.push_back(rack);
-    s.bodies[0].torque = {100, 0, 0};
-    Simulation simulation(s, colliders(), "reference");
-    run_for(simulation, 2);
-    const double alpha = 100 / (kInertia + 0.25 * 0.25 * 512);
-    EXPECT_NEAR(simulation.joint_motion(0, kTurnX).velocity, 2 * alpha, 0.005 * 2 * alpha);
-    EXPECT_NEAR(position(simulation, 1, kAlongX), 0.25 * position(simulation, 0, kTurnX), 1e-5);
-}
-
 /// A compliant joint stretches by α times its load, whatever the iterations and substeps.
 TEST_P(Drives, ComplianceIsThatOfTheSceneAtAnySettings) {
     for (const auto& [substeps, iterations] : {std::pair{1u, 5u}, {1u, 40u}, {4u, 2u}, {20u, 1u}}) {
