@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// What a user may set of bodies and joints between two steps.
 #include "host/simulation_parts.h"
+#include "scene/joint_faults.h"
 #include "world/edit_world.h"
 
 #include <algorithm>
@@ -77,7 +78,8 @@ void Simulation::set_force(std::uint32_t body, const Eigen::Vector3d& force,
 
 void Simulation::set_motor_target(std::uint32_t joint, std::uint32_t axis, double target) {
     const std::uint32_t index = parts_->joint_index(joint);
-    if (!std::isfinite(target)) throw std::invalid_argument("a motor's target must be finite");
+    if (!(std::abs(target) <= kFurthestTarget))
+        throw std::invalid_argument("a motor's target must be finite and within ±1e9");
     for (JointDrive& drive : parts_->world.joints.drives)
         if (drive.joint == index && drive.axis == axis && drive.kind == DriveKind::motor) {
             drive.spec.motor.keys.clear();

@@ -5,6 +5,7 @@
 
 #include "reader/drafts.h"
 #include "reader/joint_kinds.h"
+#include "scene/joint_faults.h"
 
 namespace plumb::reader {
 
@@ -80,8 +81,8 @@ CouplingSpec read_coupling(SceneDraft& scene, const Node& node, const std::strin
         draft.spec.axis_a = only_axis(draft, 0, joints);
         draft.spec.axis_b = only_axis(draft, 1, joints);
     }
-    if (draft.spec.joint_a == draft.spec.joint_b && draft.spec.axis_a == draft.spec.axis_b)
-        joints.fail("an axis cannot be coupled to itself");
+    if (const std::optional<JointFault> fault = find_fault(draft.spec))
+        node.at(fault->key).fail(fault->sentence);
     return std::move(draft.spec);
 }
 

@@ -116,10 +116,6 @@ void read_mobile(SceneDraft& draft, const Node& node);
 /// Adds a joint under its name; fails at `node` when the name is in use.
 void add_joint(SceneDraft& draft, JointSpec spec, const Node& node);
 
-/// Whether an axis that the joint's kind leaves free moves in this joint: "locked" of a six_axis
-/// joint stops it, and a distance joint moves only between limits or on a spring.
-bool is_free(const JointSpec& joint, JointAxis axis);
-
 /// {"axis", "degrees"}, {"quaternion"} or {"euler_degrees"}.
 struct Rotation {
     Eigen::Quaterniond read(const Node& node) const;

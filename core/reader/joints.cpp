@@ -2,11 +2,13 @@
 /// "joints".
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "reader/drafts.h"
 #include "reader/frames.h"
 #include "reader/joint_drives.h"
 #include "reader/joint_kinds.h"
+#include "scene/joint_faults.h"
 
 namespace plumb::reader {
 
@@ -36,7 +38,11 @@ void read_linked_bodies(JointDraft& draft, const Node& node) {
 void read_locked(JointDraft& draft, const Node& node) {
     if (!node.json().is_array()) node.fail_wanting("a list of axes");
     const Choice<JointAxis> axis{joint_axes()};
-    for (std::size_t i = 0; i < node.size(); ++i) draft.spec.locked[axis.read(node.at(i))] = true;
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        bool& locked = draft.spec.locked[axis.read(node.at(i))];
+        if (locked) node.at(i).fail("this axis stands in the list twice; once is enough");
+        locked = true;
+    }
 }
 
 SchemaJson axes_schema() {
@@ -79,9 +85,12 @@ const Table<JointDraft>& placement_table() {
                  "x axis of the joint's frame, of any length but 0"),
         field<J>("second_axis", Vector3{kCoordinate}, &J::second_axis,
                  "y axis, made perpendicular to axis; left out: any that is"),
-        special<J>(
-            "locked", {{"type", "array"}, {"items", Choice<JointAxis>{joint_axes()}.schema()}},
-            read_locked, "of a six_axis joint: the axes along and about which it does not move"),
+        special<J>("locked",
+                   {{"type", "array"},
+                    {"items", Choice<JointAxis>{joint_axes()}.schema()},
+                    {"uniqueItems", true}},
+                   read_locked,
+                   "of a six_axis joint: the axes along and about which it does not move"),
     };
     return table;
 }
@@ -165,23 +174,6 @@ void set_main_axis(JointDraft& draft, const Node& node) {
     draft.spec.axes[axis] = draft.main;
 }
 
-/// A swing has a size and no direction.
-void check_swing(JointDraft& draft, const Node& node) {
-    if (draft.spec.kind != JointKind::cone_twist || !node.has("axes") ||
-        !node.at("axes").has("swing"))
-        return;
-    const Node swing = node.at("axes").at("swing");
-    JointAxisSpec& spec = draft.spec.axes[kTurnY];
-    if (swing.has("motor"))
-        swing.at("motor").fail("a swing has no direction that a motor could take");
-    if (!swing.has("limits")) return;
-    if (spec.upper < 0 || spec.lower > 0 || std::isinf(spec.upper))
-        swing.at("limits").fail(
-            "a swing begins at 0 and is never negative, so its limits are "
-            "[0, greatest]");
-    spec.lower = -std::numeric_limits<double>::infinity();
-}
-
 /// The coordinate of a distance joint is the distance itself, so a spring's rest is not 0.
 void set_distance(JointDraft& draft, const Node& node) {
     if (draft.spec.kind != JointKind::distance) return;
@@ -189,10 +181,7 @@ void set_distance(JointDraft& draft, const Node& node) {
     const double length = (draft.spec.anchor - *draft.spec.anchor_b).norm();
     const Node keys = node.has("axes") && node.at("axes").has("x") ? node.at("axes").at("x") : node;
     if (keys.has("spring") && !keys.at("spring").has("rest")) axis.rest = length;
-    if (is_free(draft.spec, kAlongX)) {
-        if (axis.upper < 0) keys.at("limits").fail("a distance is never negative");
-        return;
-    }
+    if (is_free(draft.spec, kAlongX)) return;
     for (const char* key : {"motor", "spring", "friction", "max_speed"}) {
         if (keys.has(key))
             keys.at(key).fail(
@@ -203,6 +192,22 @@ void set_distance(JointDraft& draft, const Node& node) {
         node.at("anchor_b").fail("a rod needs two anchors that are apart");
 }
 
+/// The part of a joint that a fault is about, as near as it can be told.
+Node place_of(const JointFault& fault, const JointDraft& draft, const Node& joint) {
+    Node place = joint;
+    for (const auto& [name, axis] : traits_of(draft.spec.kind).axes)
+        if (axis == fault.axis && joint.has("axes") && joint.at("axes").has(name))
+            place = joint.at("axes").at(name);
+    std::istringstream parts(fault.key);
+    for (std::string part; std::getline(parts, part, '/');) {
+        if (place.has(part))
+            place = place.at(part);
+        else if (place.json().is_array())
+            place = place.at(std::stoul(part));
+    }
+    return place;
+}
+
 JointSpec read_joint(SceneDraft& scene, const Node& node, const std::string& name) {
     JointDraft draft{&scene, {}, {}, {}, {}, {}};
     draft.spec.name = name;
@@ -210,19 +215,13 @@ JointSpec read_joint(SceneDraft& scene, const Node& node, const std::string& nam
     check_keys(draft, node);
     set_frame(draft, node);
     set_main_axis(draft, node);
-    check_swing(draft, node);
     set_distance(draft, node);
+    if (const std::optional<JointFault> fault = find_fault(draft.spec))
+        place_of(*fault, draft, node).fail(fault->sentence);
     return std::move(draft.spec);
 }
 
 }  // namespace
-
-bool is_free(const JointSpec& joint, JointAxis axis) {
-    const JointAxisSpec& x = joint.axes[kAlongX];
-    if (joint.kind == JointKind::distance)
-        return std::isfinite(x.lower) || std::isfinite(x.upper) || x.stiffness > 0;
-    return !joint.locked[axis];
-}
 
 const Table<JointDraft>& joint_table() {
     using J = JointDraft;

@@ -35,7 +35,9 @@ struct Settings {
                                    ///< kept and not detected again [m]; 0 = always detect
     double stiffness = 0.2;  ///< s of §6: share of an old overlap removed a substep; an iteration,
                              ///< of five, where shared_push is off
-    double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out [m/s]
+    double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out, and at
+                                  ///< which what joints are beyond a limit or off a coupling goes
+                                  ///< [m/s], [rad/s]
     double collision_depth =
         1e-4;  ///< ε: a pair collides when it approaches faster than √(2 g ε) [m]
     double anchor_stiffness =

@@ -2,34 +2,24 @@
 #include "world/build_joints.h"
 
 #include "scene/error.h"
+#include "scene/joint_faults.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 
 namespace plumb {
 namespace {
 
-using Axes = std::array<bool, kJointAxes>;
-
-/// The rows that each kind takes away, in the order of JointKind.
-constexpr Axes kLocked[] = {
-    {true, true, true, false, false, false},     // ball
-    {false, true, true, false, false, false},    // point_on_line
-    {true, false, false, false, false, false},   // point_on_plane
-    {false, false, false, true, true, true},     // orientation
-    {false, false, false, false, true, true},    // parallel
-    {false, false, false, false, false, true},   // perpendicular
-    {true, true, true, true, true, true},        // fixed
-    {true, true, true, false, true, true},       // hinge
-    {true, true, true, false, false, true},      // universal
-    {false, true, true, true, true, true},       // slider
-    {false, true, true, false, true, true},      // cylindrical
-    {true, false, false, false, true, true},     // planar
-    {true, false, false, false, false, false},   // distance, along the line between the anchors
-    {true, true, true, false, false, false},     // cone_twist
-    {false, false, false, false, false, false},  // six_axis: as the scene says
-};
+/// "turn_x".
+const char* axis_name(JointKind kind, std::uint32_t axis) {
+    static constexpr const char* names[] = {"x", "y", "z", "turn_x", "turn_y", "turn_z"};
+    if (kind == JointKind::cone_twist && axis == kTurnX) return "twist";
+    if (kind == JointKind::cone_twist && axis == kTurnY) return "swing";
+    return names[axis];
+}
 
 class Builder {
 public:
@@ -37,15 +27,13 @@ public:
         : world_(world), spec_(spec), pointer_(pointer) {}
 
     JointDraft make() {
+        check_spec();
         check_bodies();
-        check_numbers();
         JointDraft draft;
         Joint& joint = draft.joint;
         joint.kind = spec_.kind;
         joint.a = spec_.body_a, joint.b = spec_.body_b;
-        joint.locked = spec_.kind == JointKind::six_axis
-                           ? spec_.locked
-                           : kLocked[static_cast<std::size_t>(spec_.kind)];
+        joint.locked = locked_axes(spec_);
         joint.frame_a = in_body(joint.a, spec_.anchor);
         joint.frame_b = in_body(joint.b, spec_.anchor_b.value_or(spec_.anchor));
         joint.compliance = spec_.compliance, joint.angular_compliance = spec_.angular_compliance;
@@ -74,16 +62,13 @@ private:
             refuse("/bodies", "at least one of the linked bodies must be dynamic");
     }
 
-    void check_numbers() const {
-        if (!spec_.anchor.allFinite() || (spec_.anchor_b && !spec_.anchor_b->allFinite()))
-            refuse("/anchor", "must be finite numbers");
-        if (!spec_.frame.coeffs().allFinite() || std::abs(spec_.frame.norm() - 1) > 1e-6)
-            refuse("/axis", "the joint's frame must be a unit quaternion");
-        if (!(spec_.compliance >= 0) || !(spec_.angular_compliance >= 0) ||
-            !std::isfinite(spec_.compliance + spec_.angular_compliance))
-            refuse("/compliance", "must be 0 or above");
-        if (!(spec_.breaking_force > 0)) refuse("/breaking_force", "must be above 0");
-        if (!(spec_.breaking_torque > 0)) refuse("/breaking_torque", "must be above 0");
+    void check_spec() const {
+        const std::optional<JointFault> fault = find_fault(spec_);
+        if (!fault) return;
+        const std::string axis = fault->axis < kJointAxes
+                                     ? std::string("/axes/") + axis_name(spec_.kind, fault->axis)
+                                     : "";
+        refuse(axis + (fault->key.empty() ? "" : "/" + fault->key), fault->sentence);
     }
 
     Placement in_body(std::uint32_t body, const Vector3d& anchor) const {
@@ -92,14 +77,10 @@ private:
         return {back * (anchor - world_.bodies.position[body]), (back * spec_.frame).normalized()};
     }
 
-    /// A distance that has limits is held by them, as a rope is.
     void set_length(Joint& joint) const {
         if (spec_.kind != JointKind::distance) return;
         joint.length = (spec_.anchor - spec_.anchor_b.value_or(spec_.anchor)).norm();
-        const JointAxisSpec& axis = spec_.axes[kAlongX];
-        if (std::isfinite(axis.lower) || std::isfinite(axis.upper) || axis.stiffness > 0)
-            joint.locked[kAlongX] = false;
-        else if (!(joint.length > 1e-9))
+        if (joint.locked[kAlongX] && !(joint.length > 1e-9))
             refuse("/anchor_b", "a distance joint needs two anchors that are apart");
     }
 
@@ -129,13 +110,11 @@ private:
 
     void add_drives(JointDraft& draft) const {
         for (std::uint32_t axis = 0; axis < kJointAxes; ++axis) {
-            const JointAxisSpec& spec = spec_.axes[axis];
-            auto add = [&](DriveKind kind) {
-                if (draft.joint.locked[axis])
-                    refuse("",
-                           "this kind of joint is locked along an axis that has a limit, a "
-                           "motor, a spring, friction or a greatest speed");
-                check_axis(spec);
+            JointAxisSpec spec = spec_.axes[axis];
+            // A size that cannot be less than 0 needs nothing that holds it there.
+            if (is_never_negative(spec_.kind, axis) && spec.lower == 0)
+                spec.lower = -std::numeric_limits<double>::infinity();
+            const auto add = [&](DriveKind kind) {
                 draft.drives.push_back({0, axis, kind, spec, 0});
             };
             if (spec.motor.mode != MotorMode::none) add(DriveKind::motor);
@@ -145,18 +124,6 @@ private:
             // what comes last has the last word
             if (std::isfinite(spec.lower) || std::isfinite(spec.upper)) add(DriveKind::limit);
         }
-    }
-
-    void check_axis(const JointAxisSpec& axis) const {
-        if (!(axis.lower <= axis.upper))
-            refuse("/limits", "the lower limit must not be above the upper one");
-        if (!(axis.greatest_speed >= 0)) refuse("/max_speed", "must be 0 or above");
-        if (!(axis.motor.greatest >= 0)) refuse("/motor/max", "must be 0 or above");
-        if (!(axis.motor.frequency > 0) || !(axis.motor.damping_ratio >= 0))
-            refuse("/motor", "the frequency must be above 0 and the damping ratio 0 or above");
-        if (!std::isfinite(axis.motor.target + axis.rest + axis.stiffness + axis.damping) ||
-            axis.stiffness < 0 || axis.damping < 0 || !(axis.friction >= 0))
-            refuse("", "springs, dampers and friction must be finite and 0 or above");
     }
 
     const World& world_;
@@ -185,17 +152,18 @@ void append_joint(World& world, JointDraft draft) {
 
 JointCoupling make_coupling(const World& world, const CouplingSpec& spec,
                             const std::string& pointer) {
+    if (const std::optional<JointFault> fault = find_fault(spec))
+        throw SceneError("", pointer + "/" + fault->key, fault->sentence);
     const JointTable& table = world.joints;
     for (const auto& [joint, axis] :
          {std::pair{spec.joint_a, spec.axis_a}, {spec.joint_b, spec.axis_b}}) {
         if (joint >= table.size() || axis >= kJointAxes)
             throw SceneError("", pointer + "/joints", "a coupling ties two joints of the scene");
-        if (table.joints[joint].locked[axis])
+        const Joint& tied = table.joints[joint];
+        if (tied.locked[axis] || !has_coordinate(tied.kind, axis))
             throw SceneError("", pointer + "/joints",
                              "a coupling ties axes that the joints leave free");
     }
-    if (!std::isfinite(spec.ratio) || spec.ratio == 0)
-        throw SceneError("", pointer + "/ratio", "must be a finite number other than 0");
     const double offset =
         start_coordinate(world, spec.joint_b) - spec.ratio * start_coordinate(world, spec.joint_a);
     return {0,

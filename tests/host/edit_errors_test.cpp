@@ -14,6 +14,7 @@ namespace {
 
 const Vector kNone = Vector::Zero();
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 /// Tries an edit that must fail on a heap under way, and compares what follows with a heap on which
 /// nothing was tried.
@@ -80,13 +81,42 @@ TEST(BadEdits, OfJoints) {
                      "lower limit");
     expect_bad_joint([](JointSpec& j) { j.kind = JointKind::distance; }, "two anchors");
     expect_bad_joint([](JointSpec& j) { j.breaking_force = 0; }, "above 0");
-    expect_no_trace<SceneError>(
-        [](Simulation& s) {
-            CouplingSpec coupling;
-            coupling.joint_a = 3, coupling.joint_b = 1, coupling.axis_a = kAlongX;
-            s.add_coupling(coupling);
+    expect_bad_joint([](JointSpec& j) { j.kind = JointKind(99); }, "no such kind");
+    expect_bad_joint([](JointSpec& j) { j.axes[kTurnX].lower = kNan; }, "turn_x/limits: ");
+    expect_bad_joint([](JointSpec& j) { j.axes[kTurnX].friction = kNan; }, "turn_x/friction: ");
+    expect_bad_joint([](JointSpec& j) { j.axes[kTurnX].stiffness = -1; }, "spring/stiffness: ");
+    expect_bad_joint(
+        [](JointSpec& j) {
+            j.kind = JointKind::cone_twist;
+            j.axes[kTurnY].lower = -1, j.axes[kTurnY].upper = 1;
         },
-        "leave free");
+        "swing/limits: a swing begins at 0");
+    expect_bad_joint(
+        [](JointSpec& j) {
+            j.axes[kTurnX].motor.mode = MotorMode::velocity;
+            j.axes[kTurnX].motor.keys = {{0, 1}, {2, 3}, {2, 4}};
+        },
+        "motor/velocity/2/0: must be later");
+}
+
+TEST(BadEdits, OfCouplings) {
+    const auto bad = [](const std::function<void(CouplingSpec&)>& spoil, const std::string& words) {
+        expect_no_trace<SceneError>(
+            [&](Simulation& s) {
+                CouplingSpec coupling;
+                coupling.joint_a = 3, coupling.joint_b = 1;
+                spoil(coupling);
+                s.add_coupling(coupling);
+            },
+            words);
+    };
+    bad([](CouplingSpec& c) { c.axis_a = kAlongX; }, "leave free");
+    bad([](CouplingSpec& c) { c.axis_b = 6; }, "two joints of the scene");
+    bad([](CouplingSpec& c) { c.joint_b = 3; }, "cannot be coupled to itself");
+    bad([](CouplingSpec& c) { c.ratio = 0; }, "other than 0");
+    bad([](CouplingSpec& c) { c.ratio = kNan; }, "ratio: must be a finite");
+    bad([](CouplingSpec& c) { c.offset = kNan; }, "offset: must be a finite");
+    bad([](CouplingSpec& c) { c.offset = kInfinite; }, "offset: must be a finite");
 }
 
 TEST(BadEdits, OfWhatThereIsNot) {
@@ -136,6 +166,8 @@ TEST(BadEdits, OfNumbers) {
     bad([&](Simulation& s) { s.set_velocity(0, {1, 0, 0}, {0, 0, 0}); }, "fixed");
     bad([&](Simulation& s) { s.set_force(0, {1, 0, 0}, {0, 0, 0}); }, "dynamic");
     bad([&](Simulation& s) { s.set_motor_target(3, kTurnX, kInfinite); }, "finite");
+    bad([&](Simulation& s) { s.set_motor_target(3, kTurnX, kNan); }, "finite");
+    bad([&](Simulation& s) { s.set_motor_target(3, kTurnX, 1e300); }, "within");
     bad([&](Simulation& s) { s.set_motor_target(0, kTurnX, 1); }, "no motor");
     bad([&](Simulation& s) { s.add_material({"", -1, 0, 0, 0, 0}); }, "0 or above");
     bad([&](Simulation& s) { s.add_material({"", 1, 0, 2, 0, 0}); }, "1 or below");

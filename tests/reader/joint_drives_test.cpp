@@ -72,6 +72,8 @@ TEST(JointDrives, RefuseMotorsThatMakeNoSense) {
                  "a number or a list of [time, value]");
     expect_error(motor(R"("velocity": [])"), at + "/velocity", "at least one");
     expect_error(motor(R"("velocity": [[0, 1], [0, 2]])"), at + "/velocity/1/0", "later");
+    expect_error(hinge(R"("axes": {"turn_x": {"motor": {"position": [[0, 1], [2, 2], [1, 3]]}}})"),
+                 "/joints/0/axes/turn_x/motor/position/2/0", "later");
     expect_error(motor(R"("velocity": [[-1, 1]])"), at + "/velocity/0/0", "from 0");
     expect_error(motor(R"("velocity": [1, 2])"), at + "/velocity/0", "a time and a value");
     expect_error(motor(R"("velocity": 1, "frequency": 2)"), at + "/frequency", "\"position\"");
@@ -126,6 +128,10 @@ TEST(JointDrives, OfADistanceMeasureTheDistance) {
     expect_error(distance(R"("axes": {"x": {"motor": {"velocity": 1}}})"), "/joints/0/axes/x/motor",
                  rod);
     expect_error(distance(R"("limits": [-2, -1])"), "/joints/0/limits", "never negative");
+    expect_error(distance(R"("limits": [-1, 5])"), "/joints/0/limits", "[least, greatest]");
+    expect_error(distance(R"("limits": [-1, null])"), "/joints/0/limits", "0 or above, or null");
+    expect_error(distance(R"("axes": {"x": {"limits": [null, -1]}})"), "/joints/0/axes/x/limits",
+                 "never negative");
     expect_error(distance(R"("collide": true)", "[0, 0, 0]"), "/joints/0/anchor_b",
                  "two anchors that are apart");
 }
@@ -135,10 +141,15 @@ TEST(JointDrives, OfASwingHaveNoDirection) {
         joint_of(cone(R"({"twist": {"limits": [-0.5, 0.25]}, "swing": {"limits": [0, 0.75]}})"));
     EXPECT_EQ(joint.axes[kTurnX].lower, -0.5);
     EXPECT_EQ(joint.axes[kTurnX].upper, 0.25);
-    EXPECT_EQ(joint.axes[kTurnY].lower, -kInfinity);
+    EXPECT_EQ(joint.axes[kTurnY].lower, 0);
     EXPECT_EQ(joint.axes[kTurnY].upper, 0.75);
     const std::string at = "/joints/0/axes/swing/limits";
     EXPECT_EQ(joint_of(cone(R"({"swing": {"limits": [null, 1]}})")).axes[kTurnY].upper, 1);
+    EXPECT_EQ(joint_of(cone(R"({"swing": {"limits": [0, 3.1416]}})")).axes[kTurnY].upper, 3.1416);
+    expect_error(cone(R"({"swing": {"limits": [-1, 1]}})"), at, "to either side by 1 is [0, 1]");
+    expect_error(cone(R"({"swing": {"limits": [-2, -1]}})"), at, "never negative");
+    expect_error(cone(R"({"swing": {"limits": [0, 3.2]}})"), at, "at most half a turn");
+    expect_error(cone(R"({"swing": {"limits": [-1, null]}})"), at, "[0, greatest]");
     expect_error(cone(R"({"swing": {"limits": [0.1, 1]}})"), at, "[0, greatest]");
     expect_error(cone(R"({"swing": {"limits": [null, -1]}})"), at, "[0, greatest]");
     expect_error(cone(R"({"swing": {"limits": [0, null]}})"), at, "[0, greatest]");

@@ -262,6 +262,7 @@ TEST(Joints, OfSixAxesLockWhatIsListed) {
     EXPECT_EQ(joint.locked, (std::array<bool, 6>{false, false, true, true, false, false}));
     EXPECT_EQ(joint.axes[kAlongX].friction, 2);
     expect_error(six(R"("locked": ["w"])"), "/joints/0/locked/0", "Allowed: x, y, z, turn_x");
+    expect_error(six(R"("locked": ["z", "x", "z"])"), "/joints/0/locked/2", "twice");
     expect_error(six(R"("locked": "x")"), "/joints/0/locked", "a list of axes");
     expect_error(six(R"("locked": ["z"], "axes": {"z": {"friction": 2}})"), "/joints/0/axes/z",
                  "\"locked\" has \"z\"");
