@@ -15,16 +15,8 @@ inline void add_tension_rows(RowsElimination<T>& e, const Vector3<T>& along,
                              const Vector3<T>& child, const Vector3<T>& parent, T pull, T length,
                              T h) {
     const Vector3<T> first = along.unitOrthogonal();
-    for (const Vector3<T>& t : {first, Vector3<T>(cross(along, first))}) {
-        const Vector3<T> on_child = cross(child, t), on_parent = cross(parent, t);
-        for (int i = 0; i < 3; ++i) {
-            e.child[e.n][i] = t[i], e.child[e.n][3 + i] = on_child[i];
-            e.parent[e.n][i] = -t[i], e.parent[e.n][3 + i] = -on_parent[i];
-        }
-        e.softness[e.n] = length / (h * pull);
-        e.wish[e.n] = T(0);
-        ++e.n;
-    }
+    for (const Vector3<T>& t : {first, Vector3<T>(cross(along, first))})
+        append_row<T>(e, t, cross(child, t), cross(parent, t), T(1), length / (h * pull), T(0));
 }
 
 }  // namespace plumb

@@ -212,7 +212,21 @@ inline void as_matrix(T (&m)[6][6], T (&rhs)[6], const BodyBlock<T>& body) {
     }
 }
 
-/// Fills J_c, J_p, s and d; `sign` is 1 where the child is body a, else −1.
+/// Adds one row: `along` on v_a and −v_b, `on_a` on ω_a, −`on_b` on ω_b. `sign` is 1 where the
+/// child is body a, else −1.
+template <class T>
+inline void append_row(RowsElimination<T>& e, const Vector3<T>& along, const Vector3<T>& on_a,
+                       const Vector3<T>& on_b, T sign, T softness, T wish) {
+    const Vector3<T>&on_child = sign > T(0) ? on_a : on_b, &on_parent = sign > T(0) ? on_b : on_a;
+    for (int i = 0; i < 3; ++i) {
+        e.child[e.n][i] = sign * along[i], e.child[e.n][3 + i] = sign * on_child[i];
+        e.parent[e.n][i] = -sign * along[i], e.parent[e.n][3 + i] = -sign * on_parent[i];
+    }
+    e.softness[e.n] = softness, e.wish[e.n] = wish;
+    ++e.n;
+}
+
+/// What a joint takes away, as rows.
 template <class T>
 inline void take_rows(RowsElimination<T>& e, const JointRows<T>& rows,
                       const JointGeometry<T>& joint, T sign, T inverse_h) {
@@ -220,15 +234,8 @@ inline void take_rows(RowsElimination<T>& e, const JointRows<T>& rows,
     for (int k = 0; k < 6; ++k) {
         if (!(joint.lock[k] > T(0))) continue;
         const Vector3<T> along = k < 3 ? rows.e[k] : Vector3<T>(Vector3<T>::Zero());
-        const Vector3<T>&on_child = sign > T(0) ? rows.g_a[k] : rows.g_b[k],
-              &on_parent = sign > T(0) ? rows.g_b[k] : rows.g_a[k];
-        for (int i = 0; i < 3; ++i) {
-            e.child[e.n][i] = sign * along[i], e.child[e.n][3 + i] = sign * on_child[i];
-            e.parent[e.n][i] = -sign * along[i], e.parent[e.n][3 + i] = -sign * on_parent[i];
-        }
-        e.softness[e.n] = joint.softness[k];
-        e.wish[e.n] = -rows.c[k] * inverse_h;
-        ++e.n;
+        append_row<T>(e, along, rows.g_a[k], rows.g_b[k], sign, joint.softness[k],
+                      -rows.c[k] * inverse_h);
     }
 }
 

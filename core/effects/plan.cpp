@@ -74,13 +74,15 @@ Wish joint_trees(const World& w) {
     if (w.joints.size() == 0) return {false, "no joints"};
     if (w.settings.joints == JointMethod::iterate) return {false, "joints are iterated"};
     const JointForest forest = find_forest(w);
-    const bool driven = !w.joints.drives.empty() || !w.joints.couplings.empty();
-    if (w.settings.joints == JointMethod::auto_ && driven)
-        return {false, "limits, motors, springs and couplings share their joints' iterations"};
-    const std::string loops = std::to_string(forest.loops) + " close loops";
-    if (w.settings.joints == JointMethod::auto_ && 10 * forest.loops > forest.edges + forest.loops)
-        return {false, "more than one joint in ten closes a loop: " + loops};
-    return counted(forest.edges, "joints form trees, " + loops, "no joint takes away a row");
+    const std::size_t iterated = w.joints.size() - forest.edges - forest.loops;
+    const std::string left_out =
+        "bodies that hang together are iterated where more than one joint in ten closes a loop, or "
+        "a coupling ties two joints";
+    return counted(
+        forest.edges,
+        "joints form trees, " + std::to_string(forest.loops) + " close loops" +
+            (iterated > 0 ? ", " + std::to_string(iterated) + " are iterated: " + left_out : ""),
+        w.settings.joints == JointMethod::auto_ ? left_out : "no joint takes away a row");
 }
 Wish kinematics(const World& w) {
     return counted(static_cast<std::size_t>(w.kinematic_count),

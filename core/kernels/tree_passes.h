@@ -8,6 +8,8 @@
 #include "kernels/tree_kernels.h"
 #include "math/rotation.h"
 
+#include <limits>
+
 namespace plumb::kernels {
 
 template <int N, class T = Number<double, N>>
@@ -70,7 +72,8 @@ inline void begin_bodies(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
     store(balls.mass, T(1) / bodies.number(b.inverse_mass));
     store_symmetric<N>(balls.inertia, rotated_diagonal<T>(axes, bodies.vector(b.inertia)));
     store_velocity<N>(balls.start, {bodies.vector(b.velocity), bodies.vector(b.angular_velocity)});
-    for (int k = 0; k < 6; ++k) store(balls.own[k], T(0)), store(balls.given[k], T(0));
+    for (int k = 0; k < 6; ++k)
+        store(balls.own[k], T(0)), store(balls.given[k], T(0)), store(balls.written[k], T(0));
 }
 
 /// Where the joint's points are. A parent that cannot be moved takes its point along by `shift`.
@@ -121,6 +124,14 @@ inline void place_impulse(TreeBalls<N>& balls, const Vector3<T>& change,
                  Vector3<T>(other_acting + (apart + opened * other_follow) * is_a));
 }
 
+/// Of a gap's components; infinite where it is not a number.
+template <int N, class T = Number<double, N>>
+inline T greatest_size(const Vector3<T>& gap) {
+    const T size = max(max(gap[0], -gap[0]), max(max(gap[1], -gap[1]), max(gap[2], -gap[2])));
+    const T number = (gap[0] + gap[1] + gap[2]) * T(0);
+    return select_greater(T(1), number, size, T(std::numeric_limits<double>::infinity()));
+}
+
 template <int N>
 inline Number<double, N> evaluate_block(TreeBalls<N>& balls, const TreeColumns& tables, double h) {
     using T = Number<double, N>;
@@ -139,8 +150,9 @@ inline Number<double, N> evaluate_block(TreeBalls<N>& balls, const TreeColumns& 
         load_vector(balls.apart) + change + moved - other_change - load_vector(balls.shift);
     store_vector(balls.gap, gap);
     place_impulse<N>(balls, change, other_change, gap);
-    const T size = max(max(gap[0], -gap[0]), max(max(gap[1], -gap[1]), max(gap[2], -gap[2])));
-    return size * load(balls.used);
+    const T violation = select_greater(load(balls.used), T(0), greatest_size<N>(gap), T(0));
+    store(balls.violation, violation);
+    return violation;
 }
 
 template <int N>
@@ -231,10 +243,15 @@ template <int N>
         const Vector3<T> point = velocity_at<T>(parent, load_vector(balls.other_acting)) -
                                  load_vector(balls.gap) * T(1 / h);
         const BallElimination<T> e = kept_elimination<N>(balls);
-        const Velocity<T> step = substitute_ball<T>(e, load_vector(balls.acting), point);
+        Velocity<T> step = substitute_ball<T>(e, load_vector(balls.acting), point);
         const Vector3<T> impulse = e.mass * point - e.free;
-        const T before = T(balance ? 0 : 1);
-        store_vector(balls.impulse, Vector3<T>(load_vector(balls.impulse) * before + impulse));
+        const T active = load(balls.active);
+        for (int k = 0; k < 3; ++k) {
+            const T before = load(balls.impulse[k]), kept = balance ? T(0) : before;
+            store(balls.impulse[k], select_greater(active, T(0), kept + impulse[k], before));
+            step.v[k] = select_greater(active, T(0), step.v[k], T(0));
+            step.w[k] = select_greater(active, T(0), step.w[k], T(0));
+        }
         const Velocity<T> own = load_velocity<N>(balls.own);
         store_velocity<N>(balls.own, {own.v + step.v, own.w + step.w});
         write_velocity<N>(ItemGroup<N>(balls.node), tables.step, step);

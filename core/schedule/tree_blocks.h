@@ -50,6 +50,7 @@ struct alignas(64) TreeBalls {
     alignas(64) double point[3][N];    // of the joint, body frames or the world's [m]
     double other_point[3][N];
     double used[N], held[N];  // 1 where a body sits; 1 where it hangs from the world
+    double active[N];         // 1 where the tree is still to be solved
     double load[N];           // impulse that was stored last [N s]
     double sign[N];           // 1 where the body is the joint's a, else −1
     // at the start of a substep
@@ -61,12 +62,14 @@ struct alignas(64) TreeBalls {
     double own[6][N];                   // change by this solver
     // at the preview
     double gap[3][N];                         // child's point − parent's [m]
+    double violation[N];                      // its greatest component [m]
     double acting[3][N], other_acting[3][N];  // arms by which the impulse acts [m]
     double impulse[3][N];                     // on the child [N s]
     // eliminated, as in BallElimination
     double felt[6][N], free[3][N], across[9][N], turn[6][N], torque[3][N];
-    // what others changed of the velocity; a part of `start`
-    double given[6][N];
+    // what others changed of the velocity, a part of `start`; and the sum with `own` when that was
+    // handed on
+    double given[6][N], written[6][N];
 };
 
 }  // namespace plumb

@@ -2,13 +2,11 @@
 /// Joints of one precision and lane width: from the world's tables to blocks, iterations, and back.
 #pragma once
 
-#include "constraints/drive_rows.h"
-#include "constraints/felt_mass.h"
 #include "schedule/joint_forest.h"
 #include "step/body_columns.h"
 #include "step/coupling_solver.h"
+#include "step/drive_state.h"
 #include "step/follow_share.h"
-#include "step/joint_geometry.h"
 #include "step/lane_blocks.h"
 #include "step/velocity_table.h"
 
@@ -19,7 +17,7 @@ namespace plumb {
 template <class Real, int W>
 class JointSolver {
 public:
-    /// `elsewhere` [joint]: 1 where a joint's rows are solved by another solver.
+    /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another.
     JointSolver(const World& world, const std::vector<std::uint8_t>& elsewhere, Workers& workers)
         : kernels_(joint_kernels<Real, W>()), workers_(workers) {
         lay_out(world, elsewhere);
@@ -37,8 +35,8 @@ public:
                              frames_.size());
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
             fill_block(world, joints[block_joints_[i]], i, h);
-        for (std::size_t i = 0; i < world.joints.drives.size(); ++i)
-            fill_drive(world, world.joints.drives[i], i, h);
+        for (std::size_t i = 0; i < driven_.size(); ++i)
+            fill_drive(world, world.joints.drives[driven_[i]], i, h);
         couplings_.begin(world, h);
     }
 
@@ -66,8 +64,8 @@ public:
             for (int k = 0; k < 6; ++k)
                 table.joints[block_joints_[i]].rows[k] =
                     double(blocks_.block(i).lambda[k][blocks_.lane(i)]);
-        for (std::size_t i = 0; i < table.drives.size(); ++i)
-            table.drives[i].impulse = double(drives_.block(i).lambda[drives_.lane(i)]);
+        for (std::size_t i = 0; i < driven_.size(); ++i)
+            table.drives[driven_[i]].impulse = double(drives_.block(i).lambda[drives_.lane(i)]);
         couplings_.store_impulses(table);
     }
 
@@ -95,7 +93,12 @@ private:
                 blocks.push_back(all[i]);
             }
         }
-        for (const JointDrive& drive : world.joints.drives) drives.push_back(all[drive.joint]);
+        for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i) {
+            const std::uint32_t joint = world.joints.drives[i].joint;
+            if (elsewhere[joint]) continue;
+            driven_.push_back(i);
+            drives.push_back(all[joint]);
+        }
         balls_.lay_out(balls, world);
         blocks_.lay_out(blocks, world);
         drives_.lay_out(drives, world);
@@ -145,29 +148,13 @@ private:
         block.length[lane] = static_cast<Real>(g.length);
     }
 
-    static InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t body) {
-        if (body == kNoIndex) return {0, {0, 0, 0, 0, 0, 0}};
-        return {b.inverse_mass[body], b.world_inverse_inertia[body]};
-    }
-
-    /// What a motor's frequency is of.
-    static double motor_mass(const World& world, const JointDrive& drive, const JointCoordinate& q,
-                             double h) {
-        if (drive.kind != DriveKind::motor || drive.spec.motor.mode != MotorMode::position)
-            return 0;
-        const Joint& joint = world.joints.joints[drive.joint];
-        return felt_mass(joint_geometry(world, joint, 0, 0, h), q,
-                         inverse_mass(world.bodies, joint.a), inverse_mass(world.bodies, joint.b));
-    }
-
     void fill_drive(const World& world, const JointDrive& drive, std::size_t item, double h) {
         const Joint& joint = world.joints.joints[drive.joint];
         const JointCoordinate q = joint_coordinate(world, drive.joint, drive.axis);
         const double k = row_response(q, inverse_mass(world.bodies, joint.a),
                                       inverse_mass(world.bodies, joint.b));
-        const double rate = joint_rate(world.bodies, joint, q);
-        const DriveRow row = drive_row(drive, q.value, rate, motor_mass(world, drive, q, h),
-                                       world.settings, world.time + h, h);
+        const double mass = goes_to_a_place(drive) ? driven_mass(world, joint, q, h) : 0;
+        const DriveRow row = drive_row(world, drive, q, mass, h);
         DriveBlock<Real, W>& block = drives_.block(item);
         const std::uint32_t lane = drives_.lane(item);
         drives_.fill_masses(item, world.bodies, joint.a, joint.b);
@@ -181,31 +168,10 @@ private:
         block.lambda[lane] = 0;
     }
 
-    static DriveRow drive_row(const JointDrive& drive, double q, double rate, double mass,
-                              const Settings& settings, double time, double h) {
-        const JointAxisSpec& spec = drive.spec;
-        const MotorTarget target = motor_target(spec.motor, time);
-        switch (drive.kind) {
-            case DriveKind::limit:
-                return limit_row(q, spec.lower, spec.upper, settings.stiffness,
-                                 settings.recovery_speed, h);
-            case DriveKind::motor:
-                if (spec.motor.mode == MotorMode::velocity)
-                    return velocity_motor_row(target.value, spec.motor.greatest, h);
-                return position_motor_row(q, target.value, target.speed, spec.motor, mass, h);
-            case DriveKind::spring:
-                return spring_row(q, spec.rest, 0, spec.stiffness, spec.damping, h);
-            case DriveKind::friction:
-                return friction_row(spec.friction, h);
-            case DriveKind::speed:
-                return speed_row(rate, spec.greatest_speed);
-        }
-        return {};
-    }
-
     const JointKernels<Real, W>& kernels_;
     Workers& workers_;
     std::vector<std::uint32_t> ball_joints_, block_joints_;  ///< index into JointTable::joints
+    std::vector<std::uint32_t> driven_;                      ///< index into JointTable::drives
     LaneBlocks<BallBlock<Real, W>, Real, W> balls_;
     std::vector<BallFrames<W>> frames_;  ///< [block of balls_]
     LaneBlocks<JointBlock<Real, W>, Real, W> blocks_;

@@ -102,10 +102,11 @@ public:
             for (std::uint32_t i = 0; i < settings_.position_iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
                 if (joints_) joints_->position_iteration(table_.rows(), pass.h, worker);
+                if (trees_) {
+                    if (worker == 0) trees_->solve(table_.rows(), false);
+                    workers_.barrier();
+                }
                 if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
-                if (!trees_) continue;
-                if (worker == 0) trees_->solve(table_.rows(), false);
-                workers_.barrier();
             }
         });
         sweeps_ += settings_.position_iterations;

@@ -32,6 +32,9 @@ double (&share_row(std::vector<double>& table, std::uint32_t node))[kShareNumber
     return *reinterpret_cast<double(*)[kShareNumbers]>(row_at<kShareNumbers>(table, node));
 }
 
+/// What is not a number is the greatest.
+double greater(double a, double b) { return b > a || std::isnan(b) ? b : a; }
+
 }  // namespace
 
 TreeNodes::TreeNodes(const World& world, const JointForest& forest,
@@ -52,7 +55,23 @@ TreeNodes::TreeNodes(const World& world, const JointForest& forest,
         const Joint& joint = world.joints.joints[node.joint];
         node.sign = joint.a == node.body ? 1 : -1;
         std::copy(joint.rows.begin(), joint.rows.end(), node.lambda);
+        add_axes(world, node);
     }
+}
+
+/// Drives are sorted by joint, then axis.
+void TreeNodes::add_axes(const World& world, Node& node) {
+    const auto& drives = world.joints.drives;
+    const auto before = [](const JointDrive& d, std::uint32_t joint) { return d.joint < joint; };
+    const auto found = std::lower_bound(drives.begin(), drives.end(), node.joint, before);
+    std::vector<std::uint32_t> starts;
+    auto at = static_cast<std::uint32_t>(found - drives.begin());
+    for (; at < drives.size() && drives[at].joint == node.joint; ++at)
+        if (starts.empty() || drives[at].axis != drives[at - 1].axis) starts.push_back(at);
+    const bool alone = starts.size() == 1;
+    starts.push_back(at);
+    for (std::size_t i = 0; i + 1 < starts.size(); ++i)
+        node.axes.emplace_back(world.joints, starts[i], starts[i + 1], alone);
 }
 
 void TreeNodes::begin(const World& world, double h) {
@@ -63,7 +82,7 @@ void TreeNodes::begin(const World& world, double h) {
         node.inertia =
             rotated_diagonal(b.orientation[node.body].toRotationMatrix(), b.inertia[node.body]);
         node.start = {{b.velocity[node.body], b.angular_velocity[node.body]}};
-        node.own = node.given = node.held = {{kZero, kZero}};
+        node.own = node.given = node.written = node.held = {{kZero, kZero}};
         if (!node.free) begin_joint(world, node);
     }
 }
@@ -86,16 +105,17 @@ void TreeNodes::begin_joint(const World& world, Node& node) {
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = joint_geometry(world, joint, is_a ? node.follow : node.other_follow,
                                    is_a ? node.other_follow : node.follow, h_);
+    for (DrivenAxis& axis : node.axes) axis.begin(world, h_);
 }
 
-void TreeNodes::forget() {
-    for (Node& node : nodes_) {
-        node.own = {{kZero, kZero}};
-        std::fill(std::begin(node.lambda), std::end(node.lambda), 0.0);
-    }
+void TreeNodes::forget(std::uint32_t index) {
+    Node& node = nodes_[index_[index]];
+    node.own = {{kZero, kZero}};
+    std::fill(std::begin(node.lambda), std::end(node.lambda), 0.0);
+    for (DrivenAxis& axis : node.axes) axis.forget();
 }
 
-double TreeNodes::evaluate(std::uint32_t index) {
+double TreeNodes::evaluate(std::uint32_t index, bool settle) {
     Node& node = nodes_[index_[index]];
     const Change own = node.start + node.given + node.own;
     const UnitQuaternion<double> turn = unit_exponential<double>(h_ * own.w);
@@ -106,32 +126,42 @@ double TreeNodes::evaluate(std::uint32_t index) {
     if (node.free) return 0;
     Velocity<double> other = node.held;
     if (node.parent != tables_.ground) other = velocity_of(tables_.velocity, node.parent);
-    node.now = node.sign > 0 ? joint_rows<double>(node.geometry, own, other, h_)
-                             : joint_rows<double>(node.geometry, other, own, h_);
+    const Velocity<double>&child = own, &a = node.sign > 0 ? child : other,
+          &b = node.sign > 0 ? other : child;
+    node.now = joint_rows<double>(node.geometry, a, b, h_);
     take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
     const Vector3d change = turn.change(node.arm),
                    other_change = unit_exponential<double>(h_ * other.w).change(node.other_arm);
-    place_impulse(node, change, other_change);
+    place_impulse(node, change, other_change, h_ * (own.v - other.v) + change - other_change);
     if (node.geometry.length > 0 && node.lambda[0] < 0)
         add_tension_rows<double>(node.elimination, node.now.e[0], node.arm + change,
                                  node.other_arm + other_change, -node.lambda[0],
                                  node.geometry.length, h_);
+    double worst = violation_of(node);
+    for (DrivenAxis& axis : node.axes) worst = greater(worst, axis.evaluate(a, b, settle));
+    return worst;
+}
+
+/// Of the rows that the joint takes away [m], [rad].
+double TreeNodes::violation_of(const Node& node) const {
     double worst = 0;
     for (int k = 0; k < 6; ++k)
         if (node.geometry.lock[k] > 0)
-            worst = std::max(
+            worst = greater(
                 worst, std::abs(node.now.c[k] + h_ * node.geometry.softness[k] * node.lambda[k]));
     return worst;
 }
 
-/// Both bodies feel the impulse at one point, that of the joint's a.
-void TreeNodes::place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change) {
+/// Both bodies feel the impulse at one point, that of the joint's a. `opened`: by how much the
+/// points have moved apart [m].
+void TreeNodes::place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change,
+                              const Vector3d& opened) {
     node.acting = node.arm + node.follow * change;
     node.other_acting = node.other_arm + node.other_follow * other_change;
     if (node.sign > 0)
-        node.other_acting += node.apart;
+        node.other_acting += node.apart + node.other_follow * opened;
     else
-        node.acting -= node.apart;
+        node.acting -= node.apart + node.follow * opened;
 }
 
 /// With all that hangs on the body.
@@ -163,10 +193,16 @@ void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool le
         if (!balance) e.wish[row] -= e.softness[row] * node.lambda[k];
         ++row;
     }
+    node.first_axis_row = e.n;
+    for (const DrivenAxis& axis : node.axes) {
+        axis.add_row(e, node.sign, balance);
+        axis.push_child(node.block, node.sign, balance);
+    }
     eliminate_rows(e, node.block);
     auto& row = share_row(tables_.share, node.parent);
     TreeShare<double> parent = first ? TreeShare<double>::none() : share_of<double>(row);
     add_rows(parent.block, e);
+    for (const DrivenAxis& axis : node.axes) axis.push_parent(parent.block, node.sign, balance);
     parent.stiffness =
         parent.stiffness +
         turning_stiffness<double>(node.other_acting, -impulse_of(node), node.other_follow * h_);
@@ -184,13 +220,17 @@ void TreeNodes::substitute(std::uint32_t index, bool balance) {
     for (int k = 0, row = 0; k < 6; ++k)
         if (node.geometry.lock[k] > 0)
             node.lambda[k] = (balance ? 0 : node.lambda[k]) + node.elimination.lambda[row++];
+    int row = node.first_axis_row;
+    for (DrivenAxis& axis : node.axes) axis.take_impulse(node.elimination, row, balance);
 }
 
-void TreeNodes::store_impulses(JointTable& joints) const {
-    for (const Node& node : nodes_)
-        if (!node.free)
-            std::copy(std::begin(node.lambda), std::end(node.lambda),
-                      joints.joints[node.joint].rows.begin());
+void TreeNodes::store_impulses(JointTable& joints) {
+    for (Node& node : nodes_) {
+        if (node.free) continue;
+        std::copy(std::begin(node.lambda), std::end(node.lambda),
+                  joints.joints[node.joint].rows.begin());
+        for (DrivenAxis& axis : node.axes) axis.store_impulses(joints);
+    }
 }
 
 }  // namespace plumb

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 /// Bodies of trees that are solved one by one: those that hang by a joint of another kind than a
-/// plain ball, and roots that hang by nothing. Numbers are double.
+/// plain ball or by one that is driven, and roots that hang by nothing. Numbers are double.
 #pragma once
 
 #include "constraints/tree_block.h"
 #include "schedule/contact_rows.h"
 #include "schedule/joint_forest.h"
 #include "schedule/tree_blocks.h"
+#include "step/driven_axis.h"
 #include "world/world.h"
 
 #include <vector>
@@ -23,20 +24,24 @@ public:
 
     // of one body of the forest; what they do is said in step/tree_solver.h
 
-    double evaluate(std::uint32_t node);  ///< returns the greatest violation [m], [rad]
+    double evaluate(std::uint32_t node, bool settle);  ///< returns the greatest violation
     void eliminate(std::uint32_t node, bool balance, bool first, bool leaf);
     void substitute(std::uint32_t node, bool balance);
 
-    void forget();
-    void store_impulses(JointTable& joints) const;
+    void forget(std::uint32_t node);
+    void store_impulses(JointTable& joints);
 
     template <class Real>
     void take(const BodyRows<Real>& rows) {
-        for (Node& node : nodes_) node.given = read(rows.change, node.row) - node.own;
+        for (Node& node : nodes_)
+            node.given = node.given + (read(rows.change, node.row) - node.written);
     }
     template <class Real>
-    void give(const BodyRows<Real>& rows) const {
-        for (const Node& node : nodes_) write(rows.change, node.row, node.given + node.own);
+    void give(const BodyRows<Real>& rows) {
+        for (Node& node : nodes_) {
+            write(rows.change, node.row, node.given + node.own);
+            node.written = read(rows.change, node.row);
+        }
     }
 
 private:
@@ -58,12 +63,15 @@ private:
         double follow, other_follow;    ///< share of the turn that an impulse goes along with
         Vector3d apart;                 ///< child's point − parent's, at the start [m]
         Change start, held;             ///< velocity at the start; of an immovable parent
-        Change given, own;              ///< changes by others, and by this solver
+        Change given, own, written;     ///< changes by others, by this solver, and their sum when
+                                        ///< it was handed on
         Vector3d acting, other_acting;  ///< arms by which the impulse acts [m]
         JointGeometry<double> geometry;
         JointRows<double> now;
         RowsElimination<double> elimination;
-        double lambda[6];  ///< along the joint's rows
+        double lambda[6];              ///< along the joint's rows
+        std::vector<DrivenAxis> axes;  ///< that the joint leaves free
+        int first_axis_row;            ///< of theirs in `elimination`
         BodyBlock<double> block;
     };
 
@@ -82,8 +90,11 @@ private:
         }
     }
 
+    static void add_axes(const World& world, Node& node);
     void begin_joint(const World& world, Node& node);
-    static void place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change);
+    static void place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change,
+                              const Vector3d& opened);
+    double violation_of(const Node& node) const;
     void load_block(Node& node, bool balance, bool leaf);
     static Vector3d impulse_of(const Node& node);
 

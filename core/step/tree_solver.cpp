@@ -4,10 +4,12 @@
 namespace plumb {
 namespace {
 
-std::vector<std::uint8_t> plain_balls(const World& world, const JointForest& forest) {
-    std::vector<std::uint8_t> plain;
+std::vector<std::uint8_t> undriven_balls(const World& world, const JointForest& forest) {
+    std::vector<std::uint8_t> plain, driven(world.joints.size(), 0);
+    for (const JointDrive& drive : world.joints.drives) driven[drive.joint] = 1;
     for (const ForestNode& node : forest.nodes)
-        plain.push_back(node.parent != kFree && world.joints.joints[node.joint].is_plain_ball());
+        plain.push_back(node.parent != kFree && !driven[node.joint] &&
+                        world.joints.joints[node.joint].is_plain_ball());
     return plain;
 }
 
@@ -17,8 +19,9 @@ template <int W>
 TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest)
     : tolerance_(world.settings.joint_tolerance),
       tables_(forest.nodes.size()),
-      nodes_(world, forest, plain_balls(world, forest), tables_) {
-    lay_out(world, forest, plain_balls(world, forest));
+      nodes_(world, forest, undriven_balls(world, forest), tables_),
+      progress_(forest) {
+    lay_out(world, forest, undriven_balls(world, forest));
 }
 
 template <int W>
@@ -41,7 +44,7 @@ void TreeSolver<W>::add_blocks(const World& world, const JointForest& forest,
             const bool used = i + static_cast<std::size_t>(lane) < group.size();
             const std::uint32_t node = group[used ? i + static_cast<std::size_t>(lane) : i];
             place(world, forest.nodes[node], node, balls, lane);
-            balls.used[lane] = used;
+            balls.used[lane] = balls.active[lane] = used;
             if (!used) balls.node[lane] = tables_.idle, balls.parent[lane] = tables_.ground;
             joint_of_.push_back(forest.nodes[node].joint);
         }
@@ -80,9 +83,9 @@ void TreeSolver<W>::take(const BodyRows<Real>& rows) {
         for (int lane = 0; lane < N; ++lane) {
             const Real* row = rows.change + std::ptrdiff_t(balls.row[lane]) * kBodyRowSize;
             for (int k = 0; k < 6; ++k) {
-                const double given = double(row[k < 3 ? k : k + 1]) - balls.own[k][lane];
-                balls.start[k][lane] += given - balls.given[k][lane];
-                balls.given[k][lane] = given;
+                const double change = double(row[k < 3 ? k : k + 1]) - balls.written[k][lane];
+                balls.start[k][lane] += change;
+                balls.given[k][lane] += change;
             }
         }
     nodes_.take(rows);
@@ -90,14 +93,16 @@ void TreeSolver<W>::take(const BodyRows<Real>& rows) {
 
 template <int W>
 template <class Real>
-void TreeSolver<W>::give(const BodyRows<Real>& rows) const {
-    for (const TreeBalls<N>& balls : balls_)
+void TreeSolver<W>::give(const BodyRows<Real>& rows) {
+    for (TreeBalls<N>& balls : balls_)
         for (int lane = 0; lane < N; ++lane) {
             if (!(balls.used[lane] > 0)) continue;
             Real* row = rows.change + std::ptrdiff_t(balls.row[lane]) * kBodyRowSize;
-            for (int k = 0; k < 6; ++k)
-                row[k < 3 ? k : k + 1] =
-                    static_cast<Real>(balls.given[k][lane] + balls.own[k][lane]);
+            for (int k = 0; k < 6; ++k) {
+                Real& change = row[k < 3 ? k : k + 1];
+                change = static_cast<Real>(balls.given[k][lane] + balls.own[k][lane]);
+                balls.written[k][lane] = double(change);
+            }
         }
     nodes_.give(rows);
 }
@@ -112,10 +117,12 @@ void TreeSolver<W>::solve(const BodyRows<Real>& rows, bool alone) {
 
 template <int W>
 void TreeSolver<W>::solve() {
+    progress_.start();
     for (int step = 0; step < kMostSteps; ++step) {
-        const bool converged = evaluate() <= tolerance_;
-        if (converged && !fresh_) return;
+        evaluate(step >= kSettleSteps);
+        if (!fresh_ && !progress_.leave_those_within(tolerance_)) return;
         fresh_ = false;
+        mark_active();
         const bool balance = step < kBalancedSteps;
         if (step == kBalancedSteps) forget();
         eliminate(balance);
@@ -126,26 +133,46 @@ void TreeSolver<W>::solve() {
 /// Back to v*, where a search that led nowhere began.
 template <int W>
 void TreeSolver<W>::forget() {
-    for (TreeBalls<N>& balls : balls_) {
-        for (auto& own : balls.own) std::fill(std::begin(own), std::end(own), 0.0);
-        for (auto& impulse : balls.impulse) std::fill(std::begin(impulse), std::end(impulse), 0.0);
-    }
-    nodes_.forget();
-    evaluate();
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane) {
+            if (!(balls.active[lane] > 0)) continue;
+            for (auto& own : balls.own) own[lane] = 0;
+            for (auto& impulse : balls.impulse) impulse[lane] = 0;
+        }
+    for (const Span& span : spans_)
+        for (const std::uint32_t node : span.singles)
+            if (progress_.is_active(node)) nodes_.forget(node);
+    evaluate(true);
 }
 
 /// Poses at the preview, how far they are off, and how stiff the joints' impulses make the turns.
-/// Returns the greatest violation of a row [m], [rad].
 template <int W>
-double TreeSolver<W>::evaluate() {
-    double worst = 0;
+void TreeSolver<W>::evaluate(bool settle) {
+    progress_.look_again();
     for (const Span& span : spans_) {
-        worst = std::max(worst,
-                         kernels_.evaluate(balls_.data() + span.first, span.count, columns(), h_));
+        note(span, kernels_.evaluate(balls_.data() + span.first, span.count, columns(), h_));
         for (const std::uint32_t node : span.singles)
-            worst = std::max(worst, nodes_.evaluate(node));
+            if (progress_.is_active(node)) progress_.note(node, nodes_.evaluate(node, settle));
     }
-    return worst;
+}
+
+/// How far bodies that are solved side by side are off.
+template <int W>
+void TreeSolver<W>::note(const Span& span, double greatest) {
+    if (span.count == 0) return;
+    if (progress_.trees() == 1) return progress_.note(0, greatest);
+    for (std::size_t i = span.first; i < span.first + span.count; ++i)
+        for (int lane = 0; lane < N; ++lane)
+            if (balls_[i].used[lane] > 0)
+                progress_.note(balls_[i].node[lane], balls_[i].violation[lane]);
+}
+
+template <int W>
+void TreeSolver<W>::mark_active() {
+    if (progress_.trees() == 1) return;
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane)
+            balls.active[lane] = balls.used[lane] > 0 && progress_.is_active(balls.node[lane]);
 }
 
 /// From the leaves to the roots. `balance`: λ is found anew, so that M (v − v*) = Jᵀ λ holds with
@@ -156,7 +183,8 @@ void TreeSolver<W>::eliminate(bool balance) {
         kernels_.eliminate(balls_.data() + span->first, span->count, columns(), h_, balance,
                            span->comes_first, span->leaves);
         for (const std::uint32_t node : span->singles)
-            nodes_.eliminate(node, balance, span->comes_first, span->leaves);
+            if (progress_.is_active(node))
+                nodes_.eliminate(node, balance, span->comes_first, span->leaves);
     }
 }
 
@@ -165,7 +193,8 @@ template <int W>
 void TreeSolver<W>::substitute(bool balance) {
     for (const Span& span : spans_) {
         kernels_.substitute(balls_.data() + span.first, span.count, columns(), h_, balance);
-        for (const std::uint32_t node : span.singles) nodes_.substitute(node, balance);
+        for (const std::uint32_t node : span.singles)
+            if (progress_.is_active(node)) nodes_.substitute(node, balance);
     }
 }
 

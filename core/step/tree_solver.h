@@ -9,14 +9,17 @@
 /// carries a heavy load) stay calm; Newton's matrix holds, beside M, how the joints' torques turn
 /// with the bodies. Numbers are double, whatever the rows' precision.
 ///
-/// Bodies on plain balls are solved several side by side, level by level; those on other joints,
-/// and roots that hang by nothing, one by one (tree_nodes.h).
+/// Bodies on plain balls are solved several side by side, level by level; those on other or driven
+/// joints, and roots that hang by nothing, one by one (tree_nodes.h). What drives a joint is part
+/// of the system: each step takes the piece of its staircase (constraints/axis_drive.h) on which
+/// the last one ended, which makes the steps a semi-smooth Newton method.
 #pragma once
 
 #include "kernels/tree_kernels.h"
 #include "schedule/tree_levels.h"
 #include "step/body_columns.h"
 #include "step/tree_nodes.h"
+#include "step/tree_progress.h"
 
 #include <algorithm>
 #include <vector>
@@ -48,6 +51,8 @@ private:
     /// Newton steps at the most; the first of them hold the balance of momentum at the end of the
     /// substep, and if that does not succeed the others only close the joints.
     static constexpr int kMostSteps = 20, kBalancedSteps = 10;
+    /// From this step on, a drive that was found at its bounds stays there.
+    static constexpr int kSettleSteps = 7;
 
     /// A group of bodies: blocks, or those that are solved one by one.
     struct Span {
@@ -65,11 +70,13 @@ private:
     template <class Real>
     void take(const BodyRows<Real>& rows);
     template <class Real>
-    void give(const BodyRows<Real>& rows) const;
+    void give(const BodyRows<Real>& rows);
 
     void solve();
     void forget();
-    double evaluate();
+    void evaluate(bool settle);
+    void note(const Span& span, double greatest);
+    void mark_active();
     void eliminate(bool balance);
     void substitute(bool balance);
 
@@ -83,6 +90,7 @@ private:
     bool fresh_ = true;  ///< no step was made in this substep
     TreeTables tables_;
     TreeNodes nodes_;
+    TreeProgress progress_;
     std::vector<TreeBalls<N>> balls_;
     std::vector<std::uint32_t> joint_of_;  ///< [block of balls_ × N + lane]
     std::vector<Span> spans_;              ///< roots first

@@ -5,19 +5,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <tuple>
 
 namespace plumb::test {
 namespace {
 
 constexpr double kGravity = 9.81;
 
-class Drives : public testing::TestWithParam<Precision> {
+using Case = std::tuple<JointMethod, Precision>;
+
+class Drives : public testing::TestWithParam<Case> {
 protected:
     /// Without gravity; body 0 is a cube of 1 m and 1000 kg at the origin, on joint 0 to the world.
     Scene scene(JointKind kind) const {
         Scene s;
         use_fine_steps(s.settings);
-        s.settings.precision = GetParam();
+        std::tie(s.settings.joints, s.settings.precision) = GetParam();
         s.settings.gravity.setZero();
         add_body(s, box(0.5, 0.5, 0.5), Vector::Zero());
         JointSpec joint;
@@ -28,10 +32,15 @@ protected:
     }
     static constexpr double kInertia = 1000.0 / 6;
 };
-INSTANTIATE_TEST_SUITE_P(, Drives, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+std::string case_name(const testing::TestParamInfo<Case>& which) {
+    const auto [joints, precision] = which.param;
+    return std::string(joints == JointMethod::tree ? "tree" : "iterated") +
+           (precision == Precision::single ? "_single" : "_double");
+}
+INSTANTIATE_TEST_SUITE_P(, Drives,
+                         testing::Combine(testing::Values(JointMethod::tree, JointMethod::iterate),
+                                          testing::Values(Precision::single, Precision::double_)),
+                         case_name);
 
 double position(const Simulation& s, std::uint32_t joint, std::uint32_t axis) {
     return s.joint_motion(joint, axis).position;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Joints that form trees are closed to 1e-6 m whatever hangs on them, at 1/100 s and without
 /// substeps, and what is lost on the way is energy alone.
+#include "schedule/joint_trees.h"
 #include "math/rotation.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -193,6 +194,29 @@ TEST(JointTreesPlan, AutoTakesTreesAndLeavesLoops) {
     EXPECT_TRUE(runs(JointMethod::tree));
     s.joints.clear();
     EXPECT_FALSE(runs(JointMethod::tree));
+}
+
+TEST(JointTreesPlan, ACouplingConcernsTheBodiesThatHangTogetherWithIt) {
+    Scene s = mobile(3, Precision::single);
+    JointSpec hinge;
+    hinge.kind = JointKind::hinge;
+    hinge.axes[kTurnX].lower = -0.3;
+    for (const std::uint32_t body : {7u, 8u}) {
+        add_body(s, box(0.1, 0.2, 0.3), {50.0 + body, 0, 0});
+        hinge.body_a = body, hinge.anchor = {50.0 + body, 1, 0};
+        s.joints.push_back(hinge);
+    }
+    EXPECT_EQ(find_forest(build_world(s)).edges, 9u) << "what drives a joint is part of its tree";
+    CouplingSpec gear;
+    gear.joint_a = 7, gear.joint_b = 8;
+    s.couplings.push_back(gear);
+    const JointForest apart = find_forest(build_world(s));
+    EXPECT_EQ(apart.edges, 7u);
+    EXPECT_EQ(apart.in_tree[7], 0);
+    s.joints[7].body_b = 6;  // now they hang together
+    EXPECT_EQ(find_forest(build_world(s)).edges, 0u);
+    s.settings.joints = JointMethod::tree;
+    EXPECT_EQ(find_forest(build_world(s)).edges, 9u);
 }
 
 }  // namespace

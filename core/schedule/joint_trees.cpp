@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/joint_trees.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+namespace plumb {
+namespace {
+
+/// A joint's bodies as rows of the velocity table, and how many rows it takes away.
+BodyPair joined_pair(const World& world, std::uint32_t index) {
+    const Joint& joint = world.joints.joints[index];
+    const auto row_of = [&](std::uint32_t body) {
+        return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
+    };
+    const auto rows = std::count(joint.locked.begin(), joint.locked.end(), true);
+    return {row_of(joint.a), row_of(joint.b), index,
+            joint.broken ? 0 : static_cast<std::uint32_t>(rows)};
+}
+
+/// Sets of dynamic bodies that joints link.
+class Assemblies {
+public:
+    Assemblies(const std::vector<BodyPair>& joints, std::int32_t dynamic_count)
+        : of_(static_cast<std::size_t>(dynamic_count)) {
+        std::iota(of_.begin(), of_.end(), 0);
+        for (const BodyPair& j : joints)
+            if (j.row_a < dynamic_count && j.row_b < dynamic_count)
+                of_[root(j.row_a)] = root(j.row_b);
+    }
+
+    /// That of a joint, named by one of its bodies. One of a joint's bodies is dynamic.
+    std::int32_t of(const BodyPair& joint) { return root(std::min(joint.row_a, joint.row_b)); }
+    std::int32_t root(std::int32_t row) {
+        while (of_[row] != row) row = of_[row] = of_[of_[row]];
+        return row;
+    }
+
+private:
+    std::vector<std::int32_t> of_;
+};
+
+/// What speaks against solving an assembly as a tree.
+struct Census {
+    std::uint32_t bodies = 0, joints = 0;
+    bool held = false, coupled = false;
+
+    bool suits_trees() const {
+        const std::uint32_t edges = bodies - (held ? 0 : 1);
+        return !coupled && 10 * (joints - std::min(joints, edges)) <= joints;
+    }
+};
+
+std::vector<Census> take_census(const World& world, const std::vector<BodyPair>& joints,
+                                Assemblies& assemblies) {
+    std::vector<Census> census(static_cast<std::size_t>(world.dynamic_count));
+    for (std::int32_t row = 0; row < world.dynamic_count; ++row)
+        ++census[assemblies.root(row)].bodies;
+    for (const BodyPair& j : joints) {
+        Census& c = census[assemblies.of(j)];
+        c.joints += j.count > 0;
+        c.held |= j.count > 0 && std::max(j.row_a, j.row_b) >= world.dynamic_count;
+    }
+    for (const JointCoupling& c : world.joints.couplings)
+        for (const std::uint32_t joint : {c.joint_a, c.joint_b})
+            census[assemblies.of(joints[joint])].coupled = true;
+    return census;
+}
+
+void leave_out_what_is_iterated(const World& world, std::vector<BodyPair>& joints) {
+    Assemblies assemblies(joints, world.dynamic_count);
+    const std::vector<Census> census = take_census(world, joints, assemblies);
+    for (BodyPair& j : joints)
+        if (!census[assemblies.of(j)].suits_trees()) j.count = 0;
+}
+
+}  // namespace
+
+JointForest find_forest(const World& world) {
+    std::vector<BodyPair> joints;
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i) joints.push_back(joined_pair(world, i));
+    if (world.settings.joints == JointMethod::auto_) leave_out_what_is_iterated(world, joints);
+    return grow_joint_forest(joints, world.dynamic_count);
+}
+
+}  // namespace plumb

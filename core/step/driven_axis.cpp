@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+#include "step/driven_axis.h"
+
+#include "step/drive_state.h"
+
+#include <cmath>
+#include <limits>
+
+namespace plumb {
+namespace {
+
+/// An impulse beyond its bounds by less than this share of it is within them.
+constexpr double kRounding = 1e-9;
+
+/// No axis is taken to be heavier than its two bodies by more than this.
+constexpr double kLeastShare = 1e-6;
+
+void push(BodyBlock<double>& body, const Vector3d& along, const Vector3d& turn, double impulse) {
+    body.f += impulse * along;
+    body.t += impulse * turn;
+}
+
+}  // namespace
+
+DrivenAxis::DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last,
+                       bool alone)
+    : first_(first), last_(last), alone_(alone) {
+    for (std::uint32_t i = first; i < last; ++i) impulse_ += joints.drives[i].impulse;
+}
+
+void DrivenAxis::begin(const World& world, double h) {
+    const JointDrive& leader = world.joints.drives[first_];
+    q_ = joint_coordinate(world, leader.joint, leader.axis);
+    const double mass = driven_mass(world, world.joints.joints[leader.joint], q_, h);
+    response_ = bare_ = mass > 0 ? 1 / mass : 0;
+    drive_ = {};
+    for (std::uint32_t i = first_; i < last_; ++i)
+        drive_.add(drive_row(world, world.joints.drives[i], q_, mass, h));
+    h_ = h;
+    // what it bore before tells best on which piece it is
+    constexpr double any = 1e30;
+    answer_ = response_ > 0 ? answer_of(drive_, 0, impulse_, any) : AxisAnswer{};
+    impulse_ = impulse_before_ = 0;
+    rate_ = std::numeric_limits<double>::quiet_NaN();
+}
+
+double DrivenAxis::evaluate(const Velocity<double>& a, const Velocity<double>& b, bool settle) {
+    if (!(response_ > 0)) return 0;
+    const double rate = q_.along.dot(a.v - b.v) + q_.turn_a.dot(a.w) - q_.turn_b.dot(b.w);
+    const bool first = std::isnan(rate_);
+    if (alone_) learn_response(rate);
+    rate_ = rate;
+    if (first) return 0;
+    const AxisAnswer next = answer_of(drive_, rate_, impulse_, response_);
+    const bool less = std::abs(next.impulse) < std::abs(impulse_);
+    if (!settle || (is_row() && (next.is_row() || less))) answer_ = next;
+    if (is_row()) return h_ * std::abs(wish(false)) * response_ / (response_ + softness());
+    const bool known = std::abs(answer_.impulse - impulse_) <= kRounding * std::abs(impulse_);
+    return known ? 0 : std::numeric_limits<double>::infinity();
+}
+
+/// All that hangs together moves with the axis, which makes it heavier than its two bodies: as the
+/// last Newton step has shown.
+void DrivenAxis::learn_response(double rate) {
+    const double shown = (rate - rate_) / (impulse_ - impulse_before_);
+    if (shown > 0) response_ = std::clamp(shown, kLeastShare * bare_, bare_);
+    impulse_before_ = impulse_;
+}
+
+void DrivenAxis::add_row(RowsElimination<double>& e, double sign, bool balance) const {
+    if (is_row())
+        append_row<double>(e, q_.along, q_.turn_a, q_.turn_b, sign, softness(), wish(balance));
+}
+
+/// What the row asks its rate to change by.
+double DrivenAxis::wish(bool balance) const {
+    return answer_.rate + softness() * (answer_.impulse - (balance ? 0 : impulse_)) - rate_;
+}
+
+void DrivenAxis::push_child(BodyBlock<double>& child, double sign, bool balance) const {
+    if (!is_row()) push(child, q_.along, sign > 0 ? q_.turn_a : q_.turn_b, sign * missing(balance));
+}
+void DrivenAxis::push_parent(BodyBlock<double>& parent, double sign, bool balance) const {
+    if (!is_row())
+        push(parent, q_.along, sign > 0 ? q_.turn_b : q_.turn_a, -sign * missing(balance));
+}
+
+void DrivenAxis::take_impulse(const RowsElimination<double>& e, int& row, bool balance) {
+    if (is_row())
+        impulse_ = (balance ? 0 : impulse_) + e.lambda[row++];
+    else
+        impulse_ = answer_.impulse;
+}
+
+void DrivenAxis::store_impulses(JointTable& joints) {
+    double shares[AxisDrive::kMostRows] = {};
+    AxisAnswer last = answer_;
+    last.impulse = impulse_;
+    share_impulse(drive_, last, shares);
+    for (std::uint32_t i = first_, row = 0; i < last_; ++i)
+        joints.drives[i].impulse = shares[row++];
+}
+
+}  // namespace plumb

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// Which trees of a forest are still to be solved. Each ends its Newton steps for itself, so that
+/// no tree feels another, and rests while others go on.
+#pragma once
+
+#include "schedule/joint_forest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace plumb {
+
+class TreeProgress {
+public:
+    explicit TreeProgress(const JointForest& forest) {
+        std::uint32_t trees = 0;
+        for (const ForestNode& node : forest.nodes)
+            tree_.push_back(node.parent < 0 ? trees++ : tree_[node.parent]);
+        active_.assign(trees, 1);
+        violation_.assign(trees, 0);
+    }
+
+    std::size_t trees() const { return active_.size(); }
+    bool is_active(std::uint32_t node) const { return active_[tree_[node]] != 0; }
+
+    void start() { std::fill(active_.begin(), active_.end(), 1); }
+    void look_again() { std::fill(violation_.begin(), violation_.end(), 0.0); }
+
+    /// How far a node is off [m], [rad]; what is not a number is far off.
+    void note(std::uint32_t node, double violation) {
+        double& worst = violation_[tree_[node]];
+        constexpr double far_off = std::numeric_limits<double>::infinity();
+        worst = std::max(worst, std::isnan(violation) ? far_off : violation);
+    }
+
+    /// Returns whether any tree is left.
+    bool leave_those_within(double tolerance) {
+        bool left = false;
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            active_[i] = active_[i] && violation_[i] > tolerance;
+            left |= active_[i] != 0;
+        }
+        return left;
+    }
+
+private:
+    std::vector<std::uint32_t> tree_;   ///< [node]
+    std::vector<std::uint8_t> active_;  ///< [tree]
+    std::vector<double> violation_;     ///< [tree]
+};
+
+}  // namespace plumb
