@@ -87,10 +87,11 @@ template <int W>
         const Vector3<T> change = q.before.inverse() * group.vector(b.turn_change);
         const Vector3<T> momentum =
             group.vector(b.angular_momentum) + q.before * Vector3<T>(inertia.cwiseProduct(change));
-        const Vector3<T> rate =
-            group.vector(b.inverse_inertia).cwiseProduct(q.after.inverse() * momentum);
-        group.write(b.angular_momentum, momentum);
-        group.write(b.angular_velocity, q.after * rate);
+        const Vector3<T> inverse = group.vector(b.inverse_inertia);
+        const Vector3<T> after = q.after.inverse() * momentum;
+        const T kept = energy_correction<T>(q.before.inverse() * momentum, after, inverse, T(h));
+        group.write(b.angular_momentum, momentum * kept);
+        group.write(b.angular_velocity, q.after * Vector3<T>(inverse.cwiseProduct(after) * kept));
     }
 }
 

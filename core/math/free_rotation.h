@@ -24,13 +24,21 @@ inline Vector3<T> solve_diagonal_and_cross(const Vector3<T>& d, const Vector3<T>
     return x * (T(1) / determinant);
 }
 
+/// 1 where a turn in one step is too far for the laws of free rotation to be followed, else 0.
+template <class T>
+inline T turns_too_far(const Vector3<T>& rate, const T& h) {
+    return select_greater(dot(rate, rate) * (h * h), T(1), T(1), T(0));
+}
+
 /// ω in the body's frame; `momentum`: L there [kg m²/s]; `inertia`: principal moments [kg m²].
-/// Lanes that have converged stay as they are, so that each has the bits of a number alone.
+/// Lanes that have converged stay as they are, so that each has the bits of a number alone. Where
+/// a body turns too far for that, ω stays.
 template <class T>
 inline Vector3<T> middle_rate(const Vector3<T>& momentum, const Vector3<T>& inertia,
                               const Vector3<T>& inverse_inertia, const T& h) {
     constexpr int kMostRounds = 12;
-    Vector3<T> rate = inverse_inertia.cwiseProduct(momentum);
+    const Vector3<T> start = inverse_inertia.cwiseProduct(momentum);
+    Vector3<T> rate = start;
     T moving = T(1);
     for (int round = 0; round < kMostRounds && any_greater(moving, T(0)); ++round) {
         const Vector3<T> seen = unit_exponential<T>(Vector3<T>(rate * (h * T(-0.5)))) * momentum;
@@ -40,7 +48,21 @@ inline Vector3<T> middle_rate(const Vector3<T>& momentum, const Vector3<T>& iner
         rate += change * moving;
         moving = select_greater(dot(change, change), dot(rate, rate) * T(1e-20), moving, T(0));
     }
+    const T lost = max(moving, turns_too_far<T>(start, h));
+    for (int k = 0; k < 3; ++k) rate[k] = select_greater(lost, T(0), start[k], rate[k]);
     return rate;
+}
+
+/// What keeps the energy of a body that turned too far: the factor of its momentum, which was at
+/// `before` in the body's frame and is at `after`. 1 for others.
+template <class T>
+inline T energy_correction(const Vector3<T>& before, const Vector3<T>& after,
+                           const Vector3<T>& inverse_inertia, const T& h) {
+    const Vector3<T> rate = inverse_inertia.cwiseProduct(before);
+    const T too_far = turns_too_far<T>(rate, h);
+    if (!any_greater(too_far, T(0))) return T(1);
+    const T energy = dot(after, Vector3<T>(inverse_inertia.cwiseProduct(after)));
+    return select_greater(too_far, T(0), sqrt(dot(before, rate) / energy), T(1));
 }
 
 }  // namespace plumb

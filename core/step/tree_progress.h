@@ -19,13 +19,15 @@ public:
         for (const ForestNode& node : forest.nodes)
             tree_.push_back(node.parent < 0 ? trees++ : tree_[node.parent]);
         active_.assign(trees, 1);
-        violation_.assign(trees, 0);
+        violation_.assign(trees, 0), first_.assign(trees, 0);
     }
 
     std::size_t trees() const { return active_.size(); }
     bool is_active(std::uint32_t node) const { return active_[tree_[node]] != 0; }
 
     void start() { std::fill(active_.begin(), active_.end(), 1); }
+    /// What the trees were off before any step.
+    void remember_start() { first_ = violation_; }
     void look_again() { std::fill(violation_.begin(), violation_.end(), 0.0); }
 
     /// How far a node is off [m], [rad]; what is not a number is far off.
@@ -45,10 +47,20 @@ public:
         return left;
     }
 
+    /// Leaves those that are no worse off than before any step; the same return.
+    bool leave_those_no_worse() {
+        bool left = false;
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            active_[i] = active_[i] && violation_[i] > first_[i];
+            left |= active_[i] != 0;
+        }
+        return left;
+    }
+
 private:
-    std::vector<std::uint32_t> tree_;   ///< [node]
-    std::vector<std::uint8_t> active_;  ///< [tree]
-    std::vector<double> violation_;     ///< [tree]
+    std::vector<std::uint32_t> tree_;        ///< [node]
+    std::vector<std::uint8_t> active_;       ///< [tree]
+    std::vector<double> violation_, first_;  ///< [tree]
 };
 
 }  // namespace plumb

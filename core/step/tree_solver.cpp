@@ -120,6 +120,7 @@ void TreeSolver<W>::solve() {
     progress_.start();
     for (int step = 0; step < kMostSteps; ++step) {
         evaluate(step >= kSettleSteps);
+        if (fresh_) progress_.remember_start();
         if (!fresh_ && !progress_.leave_those_within(tolerance_)) return;
         fresh_ = false;
         mark_active();
@@ -128,6 +129,10 @@ void TreeSolver<W>::solve() {
         eliminate(balance);
         substitute(balance);
     }
+    evaluate(true);
+    if (!progress_.leave_those_no_worse()) return;
+    mark_active();
+    forget();
 }
 
 /// Back to v*, where a search that led nowhere began.

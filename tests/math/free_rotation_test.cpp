@@ -57,6 +57,23 @@ TEST(MiddleRate, TurnsAFreeBodyAtSecondOrder) {
     EXPECT_NEAR(std::log2(coarse / fine), 2, 0.1);
 }
 
+TEST(MiddleRate, KeepsARateThatTurnsTooFarAndItsEnergy) {
+    Random random(10);
+    for (int i = 0; i < 200; ++i) {
+        const Vector3d inertia = moments(random), inverse = inertia.cwiseInverse();
+        const Vector3d rate = random.number(110, 1e4) * random.direction();
+        const Vector3d before = inertia.cwiseProduct(rate);
+        EXPECT_LT((middle_rate<double>(before, inertia, inverse, 0.01) - rate).norm(),
+                  1e-12 * rate.norm());
+        const Vector3d turned = random.rotation() * before;
+        const Vector3d after = energy_correction<double>(before, turned, inverse, 0.01) * turned;
+        const double energy = before.dot(rate);
+        EXPECT_NEAR(after.dot(inverse.cwiseProduct(after)), energy, 1e-12 * energy);
+        const Vector3d slow = before * (0.9 / (0.01 * rate.norm()));
+        EXPECT_EQ(energy_correction<double>(slow, turned, inverse, 0.01), 1);
+    }
+}
+
 TEST(MiddleRate, GivesEachLaneTheBitsOfANumberAlone) {
     using T = Lanes<double, 4>;
     Random random(9);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "math/root.h"
 
-#include <cmath>
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace plumb {
 namespace {
