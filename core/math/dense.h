@@ -2,6 +2,8 @@
 /// Small dense symmetric systems over any number type.
 #pragma once
 
+#include "math/pivot.h"
+
 namespace plumb {
 
 /// Solves K x = c in place by LDLᵀ; K is symmetric and positive definite, and only its lower
@@ -9,11 +11,13 @@ namespace plumb {
 template <class T, int N>
 inline void solve_ldlt(T (&k)[N][N], T (&c)[N]) {
     for (int j = 0; j < N; ++j) {
+        const T entry = k[j][j];
         for (int p = 0; p < j; ++p) {
             const T scaled = k[j][p] * k[p][p];
             k[j][j] = k[j][j] - k[j][p] * scaled;
             for (int i = j + 1; i < N; ++i) k[i][j] = k[i][j] - k[i][p] * scaled;
         }
+        k[j][j] = held_pivot<T>(k[j][j], entry);
         const T inverse = T(1) / k[j][j];
         for (int i = j + 1; i < N; ++i) k[i][j] = k[i][j] * inverse;
     }
@@ -31,11 +35,12 @@ template <class T, int N>
 inline void factor_ldlt(T (&k)[N][N], int n) {
     for (int j = 0; j < n; ++j) {
         T scaled[N] = {};
+        const T entry = k[j][j];
         for (int p = 0; p < j; ++p) {
             scaled[p] = k[j][p] / k[p][p];
             k[j][j] = k[j][j] - k[j][p] * scaled[p];
         }
-        k[j][j] = T(1) / k[j][j];
+        k[j][j] = T(1) / held_pivot<T>(k[j][j], entry);
         for (int i = j + 1; i < n; ++i) {
             for (int p = 0; p < j; ++p) k[i][j] = k[i][j] - k[i][p] * scaled[p];
             k[i][j] = k[i][j] * k[j][j];

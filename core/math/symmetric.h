@@ -3,6 +3,7 @@
 /// Eq. 6.
 #pragma once
 
+#include "math/pivot.h"
 #include "math/types.h"
 
 namespace plumb {
@@ -25,10 +26,10 @@ template <class T>
 inline Vector3<T> solve_ldlt(const Symmetric3<T>& k, const Vector3<T>& c) {
     const T l10 = k.xy / k.xx;
     const T l20 = k.xz / k.xx;
-    const T d1 = k.yy - l10 * k.xy;
+    const T d1 = held_pivot<T>(k.yy - l10 * k.xy, k.yy);
     const T off = k.yz - l20 * k.xy;
     const T l21 = off / d1;
-    const T d2 = (k.zz - l20 * k.xz) - l21 * off;
+    const T d2 = held_pivot<T>((k.zz - l20 * k.xz) - l21 * off, k.zz);
     const T y1 = c[1] - l10 * c[0];
     const T y2 = (c[2] - l20 * c[0]) - l21 * y1;
     const T x2 = y2 / d2;

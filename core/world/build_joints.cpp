@@ -4,8 +4,10 @@
 #include "scene/error.h"
 #include "scene/joint_faults.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 #include <optional>
 #include <string>
@@ -19,6 +21,21 @@ const char* axis_name(JointKind kind, std::uint32_t axis) {
     if (kind == JointKind::cone_twist && axis == kTurnX) return "twist";
     if (kind == JointKind::cone_twist && axis == kTurnY) return "swing";
     return names[axis];
+}
+
+/// How far a point may be from a body's centre of mass, in radii of gyration. Of the point's
+/// inertia the body's mass is then 1e-10, of which double has six digits and single none, so
+/// iterations in single still hold the point to a millionth of the arm.
+constexpr double kLongestLever = 1e5;
+
+/// An arm [m] in radii of gyration about the axis by which the body yields most: √(m λ) for the
+/// greatest λ of [r]ᵀ I⁻¹ [r].
+double lever_of(const Vector3d& arm, double mass, const Vector3d& inertia) {
+    Matrix3d turn;
+    turn << 0, -arm.z(), arm.y(), arm.z(), 0, -arm.x(), -arm.y(), arm.x(), 0;
+    const Matrix3d yield = turn.transpose() * inertia.cwiseInverse().asDiagonal() * turn;
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(yield, Eigen::EigenvaluesOnly);
+    return std::sqrt(mass * std::max(solver.eigenvalues()[2], 0.0));
 }
 
 class Builder {
@@ -36,6 +53,8 @@ public:
         joint.locked = locked_axes(spec_);
         joint.frame_a = in_body(joint.a, spec_.anchor);
         joint.frame_b = in_body(joint.b, spec_.anchor_b.value_or(spec_.anchor));
+        check_lever(joint, joint.a, joint.frame_a.position);
+        check_lever(joint, joint.b, joint.frame_b.position);
         joint.compliance = spec_.compliance, joint.angular_compliance = spec_.angular_compliance;
         joint.breaking_force = spec_.breaking_force, joint.breaking_torque = spec_.breaking_torque;
         set_length(joint);
@@ -75,6 +94,23 @@ private:
         if (body == kNoIndex) return {anchor, spec_.frame};
         const Quaterniond back = world_.bodies.orientation[body].conjugate();
         return {back * (anchor - world_.bodies.position[body]), (back * spec_.frame).normalized()};
+    }
+
+    /// A joint that holds a point far outside of a body feels little of its mass beside its
+    /// inertia.
+    void check_lever(const Joint& joint, std::uint32_t body, const Vector3d& arm) const {
+        const bool holds = joint.locked[kAlongX] || joint.locked[kAlongY] || joint.locked[kAlongZ];
+        if (body == kNoIndex || world_.bodies.motion[body] != Motion::dynamic || !holds) return;
+        const double lever = lever_of(arm, world_.bodies.mass[body], world_.bodies.inertia[body]);
+        if (lever <= kLongestLever) return;
+        char numbers[64];
+        std::snprintf(numbers, sizeof numbers, "%.3g m away, %.3g times", arm.norm(), lever);
+        refuse(body == joint.b && spec_.anchor_b ? "/anchor_b" : "/anchor",
+               (spec_.name.empty() ? "the joint's" : "joint \"" + spec_.name + "\": its") +
+                   " anchor is too far from the centre of mass of its " +
+                   (body == joint.a ? "first" : "second") + " body: " + numbers +
+                   " the body's radius of gyration, where at most 1e5 times is allowed; put it "
+                   "nearer, or give the body a greater inertia");
     }
 
     void set_length(Joint& joint) const {
