@@ -6,7 +6,8 @@
 /// both bodies feel the impulse at one point of the start's poses. But a load P/h on an arm r turns
 /// a body like a pendulum of ω² = |P| |r| / (h I), and a force that stays where it was is an
 /// explicit step of that pendulum: stable for h ω < 2 only. At the end (1) it is an implicit step,
-/// which bears any load and loses some energy.
+/// which bears any load and loses some energy and angular momentum: the two bodies then feel the
+/// impulse at points a little apart.
 #pragma once
 
 #include "math/lanes.h"

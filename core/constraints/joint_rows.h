@@ -10,9 +10,9 @@
 /// both bodies feel opposite impulses at one point. Rotation is not linear: C is taken anew at each
 /// iteration, from the turn of the whole substep. The impulses act where the joint was at the start
 /// of the substep, which keeps momentum to rounding and energy to second order, or follow it to its
-/// end, which bears any load but loses some of both (joint_follow.h says when). A row with
-/// compliance α has C + α λ/h = 0 for the impulse λ of the whole substep, which puts α/h² on the
-/// diagonal.
+/// end, which bears any load but loses some angular momentum and energy (joint_follow.h says when).
+/// A row with compliance α has C + α λ/h = 0 for the impulse λ of the whole substep, which puts
+/// α/h² on the diagonal.
 #pragma once
 
 #include "constraints/connector.h"

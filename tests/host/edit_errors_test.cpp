@@ -81,6 +81,7 @@ TEST(BadEdits, OfJoints) {
                      "lower limit");
     expect_bad_joint([](JointSpec& j) { j.kind = JointKind::distance; }, "two anchors");
     expect_bad_joint([](JointSpec& j) { j.breaking_force = 0; }, "above 0");
+    expect_bad_joint([](JointSpec& j) { j.anchor.x() = 1e6; }, "too far from the centre of mass");
     expect_bad_joint([](JointSpec& j) { j.kind = JointKind(99); }, "no such kind");
     expect_bad_joint([](JointSpec& j) { j.axes[kTurnX].lower = kNan; }, "turn_x/limits: ");
     expect_bad_joint([](JointSpec& j) { j.axes[kTurnX].friction = kNan; }, "turn_x/friction: ");
