@@ -81,15 +81,15 @@ const Table<Settings>& settings_table() {
                                      {"implicit", Gyroscopic::implicit},
                                      {"explicit", Gyroscopic::explicit_}}},
                  &S::gyroscopic, "how the gyroscopic term is integrated"),
-        field<S>(
-            "joints",
-            Choice<JointMethod>{{{"auto", JointMethod::auto_},
-                                 {"tree", JointMethod::tree},
-                                 {"iterate", JointMethod::iterate}}},
-            &S::joints,
-            "joints that form trees are solved exactly, or all by iterations; auto: those of "
-            "bodies that hang together exactly, unless more than one in ten closes a loop or a "
-            "coupling ties two of them"),
+        field<S>("joints",
+                 Choice<JointMethod>{{{"auto", JointMethod::auto_},
+                                      {"tree", JointMethod::tree},
+                                      {"iterate", JointMethod::iterate}}},
+                 &S::joints,
+                 "joints that form trees are solved exactly, or all by iterations; auto: those of "
+                 "bodies that hang together exactly, unless more than one in ten closes a loop, a "
+                 "coupling ties two of them, or they are a figure: at most 32 bodies that nothing "
+                 "holds and no motor drives, but limits, springs or friction"),
         field<S>("joint_tolerance", Number{{1e-12, 1}}, &S::joint_tolerance,
                  "up to which trees of joints are closed [m], [rad]"),
         field<S>("warm_start", Flag{}, &S::warm_start,

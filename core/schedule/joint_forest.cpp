@@ -103,4 +103,30 @@ JointForest grow_joint_forest(const std::vector<BodyPair>& joints, std::int32_t 
     return forest;
 }
 
+std::vector<JointForest> share_out_trees(const JointForest& forest, std::uint32_t parts) {
+    const auto is_root = [](const ForestNode& node) { return node.parent < 0; };
+    std::vector<std::size_t> size, tree;  // [tree], [node]
+    for (const ForestNode& node : forest.nodes) {
+        tree.push_back(is_root(node) ? size.size() : tree[node.parent]);
+        if (is_root(node)) size.push_back(0);
+        ++size[tree.back()];
+    }
+    std::vector<std::size_t> load(std::min<std::size_t>(parts, size.size()), 0), part_of;
+    for (const std::size_t nodes : size) {
+        const auto lightest = std::min_element(load.begin(), load.end());
+        *lightest += nodes;
+        part_of.push_back(static_cast<std::size_t>(lightest - load.begin()));
+    }
+    std::vector<JointForest> shares(load.size());
+    std::vector<std::int32_t> place;  // [node] in its share
+    for (std::size_t i = 0; i < forest.nodes.size(); ++i) {
+        auto& nodes = shares[part_of[tree[i]]].nodes;
+        place.push_back(static_cast<std::int32_t>(nodes.size()));
+        ForestNode node = forest.nodes[i];
+        if (!is_root(node)) node.parent = place[node.parent];
+        nodes.push_back(node);
+    }
+    return shares;
+}
+
 }  // namespace plumb

@@ -22,9 +22,8 @@ void push(BodyBlock<double>& body, const Vector3d& along, const Vector3d& turn, 
 
 }  // namespace
 
-DrivenAxis::DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last,
-                       bool alone)
-    : first_(first), last_(last), alone_(alone) {
+DrivenAxis::DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last)
+    : first_(first), last_(last) {
     for (std::uint32_t i = first; i < last; ++i) impulse_ += joints.drives[i].impulse;
 }
 
@@ -41,16 +40,16 @@ void DrivenAxis::begin(const World& world, double h) {
     constexpr double any = 1e30;
     answer_ = response_ > 0 ? answer_of(drive_, 0, impulse_, any) : AxisAnswer{};
     impulse_ = impulse_before_ = 0;
-    rate_ = std::numeric_limits<double>::quiet_NaN();
+    looks_ = 0;
 }
 
 double DrivenAxis::evaluate(const Velocity<double>& a, const Velocity<double>& b, bool settle) {
     if (!(response_ > 0)) return 0;
     const double rate = q_.along.dot(a.v - b.v) + q_.turn_a.dot(a.w) - q_.turn_b.dot(b.w);
-    const bool first = std::isnan(rate_);
-    if (alone_) learn_response(rate);
+    if (++looks_ > 2) learn_response(rate);
+    impulse_before_ = impulse_;
     rate_ = rate;
-    if (first) return 0;
+    if (looks_ == 1) return 0;
     const AxisAnswer next = answer_of(drive_, rate_, impulse_, response_);
     const bool less = std::abs(next.impulse) < std::abs(impulse_);
     if (!settle || (is_row() && (next.is_row() || less))) answer_ = next;
@@ -59,12 +58,12 @@ double DrivenAxis::evaluate(const Velocity<double>& a, const Velocity<double>& b
     return known ? 0 : std::numeric_limits<double>::infinity();
 }
 
-/// All that hangs together moves with the axis, which makes it heavier than its two bodies: as the
-/// last Newton step has shown.
+/// All that hangs together moves with the axis, which makes it heavier than its two bodies. How
+/// heavy the last Newton step has shown; without that, axes that are bounded may go round between
+/// the same few pieces for ever.
 void DrivenAxis::learn_response(double rate) {
     const double shown = (rate - rate_) / (impulse_ - impulse_before_);
     if (shown > 0) response_ = std::clamp(shown, kLeastShare * bare_, bare_);
-    impulse_before_ = impulse_;
 }
 
 void DrivenAxis::add_row(RowsElimination<double>& e, double sign, bool balance) const {

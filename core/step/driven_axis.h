@@ -13,9 +13,8 @@ namespace plumb {
 
 class DrivenAxis {
 public:
-    /// Drives [first, last) of JointTable::drives, which act on one axis of one joint. `alone`: its
-    /// joint has no other.
-    DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last, bool alone);
+    /// Drives [first, last) of JointTable::drives, which act on one axis of one joint.
+    DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last);
 
     /// Coordinate and rows at the start of a substep of length h [s].
     void begin(const World& world, double h);
@@ -47,7 +46,7 @@ private:
 
     std::uint32_t first_, last_;
     double h_ = 0;
-    bool alone_;
+    int looks_ = 0;  ///< evaluations in this substep
     AxisDrive drive_;
     JointCoordinate q_;
     double bare_ = 0;      ///< K of the two bodies while the joint holds; 0 where nothing can move

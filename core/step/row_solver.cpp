@@ -8,6 +8,8 @@
 #include "step/joint_solver.h"
 #include "step/tree_solver.h"
 
+#include <algorithm>
+#include <deque>
 #include <optional>
 #include <string>
 
@@ -74,7 +76,10 @@ public:
         if (!contacts_.empty()) clamped = contacts_.begin(world, table_.rows(), pass_);
         if (shocks_) shock_->begin(world, table_.rows(), pass_);
         if (joints_) joints_->begin(world, h);
-        if (trees_) trees_->begin(world, h);
+        if (!trees_.empty())
+            workers_.run([&](std::uint32_t worker) {
+                if (worker < trees_.size()) trees_[worker].begin(world, h);
+            });
         return clamped;
     }
 
@@ -93,19 +98,17 @@ public:
 
     void solve_positions() override {
         if (contacts_.empty() && !joints_) return;
-        if (trees_ && joints_->empty() && contacts_.empty()) {
-            if (settings_.position_iterations > 0) trees_->solve(table_.rows(), true);
-            return;
-        }
-        workers_.run([this](std::uint32_t worker) {
+        const bool alone = contacts_.empty() && joints_->empty();
+        const std::uint32_t iterations =
+            alone ? std::min(settings_.position_iterations, 1u) : settings_.position_iterations;
+        workers_.run([this, alone, iterations](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
-            for (std::uint32_t i = 0; i < settings_.position_iterations; ++i) {
+            for (std::uint32_t i = 0; i < iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
-                if (joints_) joints_->position_iteration(table_.rows(), pass.h, worker);
-                if (trees_) {
-                    if (worker == 0) trees_->solve(table_.rows(), false);
-                    workers_.barrier();
-                }
+                if (joints_ && !joints_->empty())
+                    joints_->position_iteration(table_.rows(), pass.h, worker);
+                if (worker < trees_.size()) trees_[worker].solve(table_.rows(), alone);
+                if (!trees_.empty()) workers_.barrier();
                 if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
             }
         });
@@ -134,7 +137,7 @@ public:
         for (Joint& joint : world.joints.joints) joint.rows_before = joint.rows;
         for (JointDrive& drive : world.joints.drives) drive.impulse_before = drive.impulse;
         if (joints_) joints_->store_impulses(world);
-        if (trees_) trees_->store_impulses(world.joints);
+        for (TreeSolver<W>& trees : trees_) trees.store_impulses(world.joints);
     }
 
 private:
@@ -143,7 +146,8 @@ private:
         std::vector<std::uint8_t> in_tree(world.joints.size(), 0);
         if (trees) {
             const JointForest forest = find_forest(world);
-            trees_.emplace(world, forest);
+            for (const JointForest& share : share_out_trees(forest, workers_.count()))
+                trees_.emplace_back(world, share);
             in_tree = forest.in_tree;
         }
         joints_.emplace(world, in_tree, workers_);
@@ -164,7 +168,7 @@ private:
     ContactSolver<Real, W> contacts_;
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<JointSolver<Real, W>> joints_;
-    std::optional<TreeSolver<W>> trees_;
+    std::deque<TreeSolver<W>> trees_;  ///< [worker], or fewer
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t sweeps_ = 0;

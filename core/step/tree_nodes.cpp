@@ -64,14 +64,14 @@ void TreeNodes::add_axes(const World& world, Node& node) {
     const auto& drives = world.joints.drives;
     const auto before = [](const JointDrive& d, std::uint32_t joint) { return d.joint < joint; };
     const auto found = std::lower_bound(drives.begin(), drives.end(), node.joint, before);
-    std::vector<std::uint32_t> starts;
     auto at = static_cast<std::uint32_t>(found - drives.begin());
-    for (; at < drives.size() && drives[at].joint == node.joint; ++at)
-        if (starts.empty() || drives[at].axis != drives[at - 1].axis) starts.push_back(at);
-    const bool alone = starts.size() == 1;
-    starts.push_back(at);
-    for (std::size_t i = 0; i + 1 < starts.size(); ++i)
-        node.axes.emplace_back(world.joints, starts[i], starts[i + 1], alone);
+    while (at < drives.size() && drives[at].joint == node.joint) {
+        const std::uint32_t first = at;
+        while (at < drives.size() && drives[at].joint == node.joint &&
+               drives[at].axis == drives[first].axis)
+            ++at;
+        node.axes.emplace_back(world.joints, first, at);
+    }
 }
 
 void TreeNodes::begin(const World& world, double h) {

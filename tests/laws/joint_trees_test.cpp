@@ -196,6 +196,26 @@ TEST(JointTreesPlan, AutoTakesTreesAndLeavesLoops) {
     EXPECT_FALSE(runs(JointMethod::tree));
 }
 
+TEST(JointTreesPlan, FiguresWithoutMotorsAreIterated) {
+    Scene s;
+    for (std::uint32_t i = 0; i < 3; ++i) add_body(s, box(0.1, 0.1, 0.1), {0.3 * i, 0, 0});
+    JointSpec hinge;
+    hinge.kind = JointKind::hinge;
+    for (const std::uint32_t i : {1u, 2u}) {
+        hinge.body_a = i, hinge.body_b = i - 1, hinge.anchor = {0.3 * i - 0.15, 0, 0};
+        s.joints.push_back(hinge);
+    }
+    const auto edges = [&] { return find_forest(build_world(s)).edges; };
+    EXPECT_EQ(edges(), 2u) << "nothing drives it";
+    s.joints[0].axes[kTurnX].upper = 0.5, s.joints[1].axes[kTurnX].friction = 1;
+    EXPECT_EQ(edges(), 0u);
+    s.joints[0].axes[kTurnX].motor.mode = MotorMode::position;
+    EXPECT_EQ(edges(), 2u) << "a motor";
+    s.joints[0].axes[kTurnX].motor.mode = MotorMode::none;
+    s.bodies[0].motion = Motion::fixed;
+    EXPECT_EQ(edges(), 2u) << "it is held";
+}
+
 TEST(JointTreesPlan, ACouplingConcernsTheBodiesThatHangTogetherWithIt) {
     Scene s = mobile(3, Precision::single);
     JointSpec hinge;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -78,6 +79,42 @@ TEST(JointForest, ListsParentsBeforeTheirChildren) {
         ASSERT_LT(static_cast<std::size_t>(node.parent), i);
         EXPECT_EQ(forest.nodes[static_cast<std::size_t>(node.parent)].row, other);
     }
+}
+
+TEST(JointForest, IsSharedOutByWholeTrees) {
+    for (std::uint32_t count : {0u, 5u, 20u, 30u}) {
+        const std::vector<BodyPair> joints = random_joints(count);
+        const JointForest forest = grow_joint_forest(joints, kDynamic);
+        std::map<std::int32_t, ForestNode> whole, shared;  // by row
+        for (const ForestNode& node : forest.nodes) whole[node.row] = node;
+        const std::vector<JointForest> shares = share_out_trees(forest, 3);
+        EXPECT_LE(shares.size(), 3u);
+        for (const JointForest& share : shares) {
+            EXPECT_FALSE(share.nodes.empty());
+            for (std::size_t i = 0; i < share.nodes.size(); ++i) {
+                const ForestNode& node = share.nodes[i];
+                ASSERT_LT(node.parent, static_cast<std::int32_t>(i));
+                EXPECT_TRUE(shared.emplace(node.row, node).second);
+                const ForestNode& before = whole.at(node.row);
+                EXPECT_EQ(node.joint, before.joint);
+                if (before.parent < 0)
+                    EXPECT_EQ(node.parent, before.parent);
+                else
+                    EXPECT_EQ(share.nodes[std::size_t(node.parent)].row,
+                              forest.nodes[std::size_t(before.parent)].row);
+            }
+        }
+        EXPECT_EQ(shared.size(), whole.size());
+    }
+}
+
+TEST(JointForest, SharesTreesOutEvenly) {
+    std::vector<BodyPair> joints;  // twenty chains of three bodies
+    for (std::int32_t i = 0; i < kDynamic; ++i)
+        joints.push_back({i, i % 3 == 0 ? kDynamic : i - 1, std::uint32_t(i), 3});
+    const auto shares = share_out_trees(grow_joint_forest(joints, kDynamic), 4);
+    ASSERT_EQ(shares.size(), 4u);
+    for (const JointForest& share : shares) EXPECT_EQ(share.nodes.size(), 15u);
 }
 
 }  // namespace
