@@ -19,6 +19,14 @@
 
 namespace plumb {
 
+/// The part of an old error that is left for later steps, where one may close it by `reach` [m],
+/// [rad]: from 0 to 1.
+template <class T>
+inline T owed_share(const T& squared, const T& reach) {
+    const T size = sqrt(squared);
+    return select_greater(size, reach, T(1) - reach / max(size, T(1e-300)), T(0));
+}
+
 /// M̂ = [a b; bᵀ d] over (v, ω), and the right-hand side (f, t).
 template <class T>
 struct BodyBlock {

@@ -61,12 +61,13 @@ template <int W>
 template <int W, class T = Number<double, W>>
 struct Moved {
     UnitQuaternion<T> before, after;
+    Vector3<T> rate;
 
     Moved(const BodyColumns& b, const ItemGroup<W>& group, double h)
         : before(group.rotation(b.orientation)) {
         const Vector3<T> x = group.vector(b.position), v = group.vector(b.velocity);
-        const Vector3<T> turn = group.vector(b.angular_velocity) * T(h);
-        after = (unit_exponential<T>(turn) * before).normalized();
+        rate = group.vector(b.angular_velocity);
+        after = (unit_exponential<T>(Vector3<T>(rate * T(h))) * before).normalized();
         group.write(b.position, Vector3<T>(x + v * T(h)));
         group.write(b.orientation, after);
     }
@@ -89,7 +90,12 @@ template <int W>
             group.vector(b.angular_momentum) + q.before * Vector3<T>(inertia.cwiseProduct(change));
         const Vector3<T> inverse = group.vector(b.inverse_inertia);
         const Vector3<T> after = q.after.inverse() * momentum;
-        const T kept = energy_correction<T>(q.before.inverse() * momentum, after, inverse, T(h));
+        const T too_far = turns_too_far<T>(q.rate, T(h));
+        T kept = T(1);
+        if (any_greater(too_far, T(0)))
+            kept = select_greater(
+                too_far, T(0), energy_correction<T>(q.before.inverse() * momentum, after, inverse),
+                kept);
         group.write(b.angular_momentum, momentum * kept);
         group.write(b.angular_velocity, q.after * Vector3<T>(inverse.cwiseProduct(after) * kept));
     }

@@ -65,21 +65,25 @@ struct TreeSide {
 };
 
 template <int N>
-inline void begin_bodies(TreeBalls<N>& balls, const BodyStates& b, const ItemGroup<N>& bodies) {
+inline void begin_bodies(TreeBalls<N>& balls, const BodyStates& b, const ItemGroup<N>& bodies,
+                         const double (&lift)[3]) {
     using T = Number<double, N>;
     Vector3<T> axes[3];
     bodies.rotation(b.orientation).columns(axes);
     store(balls.mass, T(1) / bodies.number(b.inverse_mass));
     store_symmetric<N>(balls.inertia, rotated_diagonal<T>(axes, bodies.vector(b.inertia)));
     store_velocity<N>(balls.start, {bodies.vector(b.velocity), bodies.vector(b.angular_velocity)});
-    for (int k = 0; k < 6; ++k)
-        store(balls.own[k], T(0)), store(balls.given[k], T(0)), store(balls.written[k], T(0));
+    const T hung = load(balls.hung);
+    for (int k = 0; k < 6; ++k) {
+        store(balls.own[k], k < 3 ? T(hung * T(lift[k])) : T(0));
+        store(balls.given[k], T(0)), store(balls.written[k], T(0));
+    }
 }
 
 /// Where the joint's points are. A parent that cannot be moved takes its point along by `shift`.
 template <int N>
 inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGroup<N>& bodies,
-                         double h) {
+                         double h, double reach) {
     using T = Number<double, N>;
     const Vector3<T> local = load_vector(balls.other_point);
     const T impulse = load(balls.load);
@@ -89,7 +93,9 @@ inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
     const TreeSide<N> other(b, others, local, impulse, h);
     const Vector3<T> other_arm = other.arm * linked;
     store_vector(balls.arm, own.arm), store_vector(balls.other_arm, other_arm);
-    store_vector(balls.apart, Vector3<T>(own.point - (other.point * linked + local * held)));
+    const Vector3<T> apart = own.point - (other.point * linked + local * held);
+    store_vector(balls.apart, apart);
+    store_vector(balls.owed, Vector3<T>(apart * owed_share<T>(dot(apart, apart), T(reach))));
     store(balls.follow, own.follow), store(balls.other_follow, T(other.follow * linked));
     const T scripted = select_greater(others.number(b.inverse_mass), T(0), T(0), linked);
     const UnitQuaternion<T> turn =
@@ -100,11 +106,11 @@ inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
 
 template <int N>
 [[gnu::flatten]] void begin_tree(TreeBalls<N>* blocks, std::size_t count, const BodyStates& bodies,
-                                 double h) {
+                                 double h, const double (&lift)[3], double reach) {
     for (std::size_t i = 0; i < count; ++i) {
         const ItemGroup<N> group(blocks[i].body);
-        begin_bodies<N>(blocks[i], bodies, group);
-        begin_points<N>(blocks[i], bodies, group, h);
+        begin_bodies<N>(blocks[i], bodies, group, lift);
+        begin_points<N>(blocks[i], bodies, group, h, reach);
     }
 }
 
@@ -148,9 +154,10 @@ inline Number<double, N> evaluate_block(TreeBalls<N>& balls, const TreeColumns& 
     const Vector3<T> moved = (v - other.v) * T(h);
     const Vector3<T> gap =
         load_vector(balls.apart) + change + moved - other_change - load_vector(balls.shift);
-    store_vector(balls.gap, gap);
     place_impulse<N>(balls, change, other_change, gap);
-    const T violation = select_greater(load(balls.used), T(0), greatest_size<N>(gap), T(0));
+    const Vector3<T> open = gap - load_vector(balls.owed);
+    store_vector(balls.gap, open);
+    const T violation = select_greater(load(balls.used), T(0), greatest_size<N>(open), T(0));
     store(balls.violation, violation);
     return violation;
 }

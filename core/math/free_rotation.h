@@ -39,30 +39,29 @@ inline Vector3<T> middle_rate(const Vector3<T>& momentum, const Vector3<T>& iner
     constexpr int kMostRounds = 12;
     const Vector3<T> start = inverse_inertia.cwiseProduct(momentum);
     Vector3<T> rate = start;
-    T moving = T(1);
+    T moving = T(1), before = dot(rate, rate);
     for (int round = 0; round < kMostRounds && any_greater(moving, T(0)); ++round) {
         const Vector3<T> seen = unit_exponential<T>(Vector3<T>(rate * (h * T(-0.5)))) * momentum;
         const Vector3<T> error = seen - inertia.cwiseProduct(rate);
         const Vector3<T> change =
             solve_diagonal_and_cross<T>(inertia, Vector3<T>(seen * (h * T(-0.5))), error);
         rate += change * moving;
-        moving = select_greater(dot(change, change), dot(rate, rate) * T(1e-20), moving, T(0));
+        const T size = dot(change, change);  // the next one is less by the share of the last two
+        moving = select_greater(size * size, dot(rate, rate) * before * T(1e-20), moving, T(0));
+        before = size;
     }
     const T lost = max(moving, turns_too_far<T>(start, h));
     for (int k = 0; k < 3; ++k) rate[k] = select_greater(lost, T(0), start[k], rate[k]);
     return rate;
 }
 
-/// What keeps the energy of a body that turned too far: the factor of its momentum, which was at
-/// `before` in the body's frame and is at `after`. 1 for others.
+/// What keeps the energy of a body that turns too far: the factor of its momentum, which was at
+/// `before` in the body's frame and is at `after`.
 template <class T>
 inline T energy_correction(const Vector3<T>& before, const Vector3<T>& after,
-                           const Vector3<T>& inverse_inertia, const T& h) {
-    const Vector3<T> rate = inverse_inertia.cwiseProduct(before);
-    const T too_far = turns_too_far<T>(rate, h);
-    if (!any_greater(too_far, T(0))) return T(1);
-    const T energy = dot(after, Vector3<T>(inverse_inertia.cwiseProduct(after)));
-    return select_greater(too_far, T(0), sqrt(dot(before, rate) / energy), T(1));
+                           const Vector3<T>& inverse_inertia) {
+    return sqrt(dot(before, Vector3<T>(inverse_inertia.cwiseProduct(before))) /
+                dot(after, Vector3<T>(inverse_inertia.cwiseProduct(after))));
 }
 
 }  // namespace plumb

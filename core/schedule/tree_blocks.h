@@ -51,6 +51,7 @@ struct alignas(64) TreeBalls {
     double other_point[3][N];
     double used[N], held[N];  // 1 where a body sits; 1 where it hangs from the world
     double active[N];         // 1 where the tree is still to be solved
+    double hung[N];           // 1 where its root hangs by something
     double load[N];           // impulse that was stored last [N s]
     double sign[N];           // 1 where the body is the joint's a, else −1
     // at the start of a substep
@@ -58,10 +59,11 @@ struct alignas(64) TreeBalls {
     double arm[3][N], other_arm[3][N], apart[3][N];  // child's point − parent's [m]
     double follow[N], other_follow[N];  // share of the turn that an impulse goes along with
     double shift[3][N];                 // of a point on an immovable parent, over the substep [m]
+    double owed[3][N];                  // part of `apart` that is left for later [m]
     double start[6][N];                 // velocity with forces and what others changed of it
     double own[6][N];                   // change by this solver
     // at the preview
-    double gap[3][N];                         // child's point − parent's [m]
+    double gap[3][N];                         // child's point − parent's, without `owed` [m]
     double violation[N];                      // its greatest component [m]
     double acting[3][N], other_acting[3][N];  // arms by which the impulse acts [m]
     double impulse[3][N];                     // on the child [N s]

@@ -38,7 +38,8 @@ double greater(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 }  // namespace
 
 TreeNodes::TreeNodes(const World& world, const JointForest& forest,
-                     const std::vector<std::uint8_t>& side_by_side, TreeTables& tables)
+                     const std::vector<std::uint8_t>& side_by_side, const TreeProgress& progress,
+                     TreeTables& tables)
     : tables_(tables), index_(forest.nodes.size(), 0) {
     std::vector<std::uint32_t> body_of(static_cast<std::size_t>(world.dynamic_count));
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
@@ -50,12 +51,14 @@ TreeNodes::TreeNodes(const World& world, const JointForest& forest,
         Node& node = nodes_.emplace_back();
         node.node = i, node.row = from.row, node.body = body_of[from.row];
         node.joint = from.joint, node.free = from.parent == kFree;
+        node.hung = progress.hangs(i);
         node.parent = from.parent >= 0 ? static_cast<std::uint32_t>(from.parent) : tables.ground;
         if (node.free) continue;
         const Joint& joint = world.joints.joints[node.joint];
         node.sign = joint.a == node.body ? 1 : -1;
         std::copy(joint.rows.begin(), joint.rows.end(), node.lambda);
         add_axes(world, node);
+        driven_ |= !node.axes.empty();
     }
 }
 
@@ -74,7 +77,7 @@ void TreeNodes::add_axes(const World& world, Node& node) {
     }
 }
 
-void TreeNodes::begin(const World& world, double h) {
+void TreeNodes::begin(const World& world, double h, const Vector3d& lift) {
     h_ = h, inverse_h_ = 1 / h;
     const Bodies& b = world.bodies;
     for (Node& node : nodes_) {
@@ -82,7 +85,8 @@ void TreeNodes::begin(const World& world, double h) {
         node.inertia =
             rotated_diagonal(b.orientation[node.body].toRotationMatrix(), b.inertia[node.body]);
         node.start = {{b.velocity[node.body], b.angular_velocity[node.body]}};
-        node.own = node.given = node.written = node.held = {{kZero, kZero}};
+        node.given = node.written = node.held = {{kZero, kZero}};
+        node.own = {{node.hung ? lift : kZero, kZero}};
         if (!node.free) begin_joint(world, node);
     }
 }
@@ -105,7 +109,23 @@ void TreeNodes::begin_joint(const World& world, Node& node) {
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = joint_geometry(world, joint, is_a ? node.follow : node.other_follow,
                                    is_a ? node.other_follow : node.follow, h_);
+    owe(node, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, h_);
+}
+
+/// What is to be closed of old errors in this substep is bounded, as old overlap is. What a
+/// compliant row has stretched is no error.
+void TreeNodes::owe(Node& node, double reach) {
+    const Velocity<double> rest{kZero, kZero};
+    const JointRows<double> rows = joint_rows<double>(node.geometry, rest, rest, h_);
+    double squared[2] = {0, 0};
+    const auto is_stiff = [&](int k) {
+        return node.geometry.lock[k] > 0 && !(node.geometry.softness[k] > 0);
+    };
+    for (int k = 0; k < 6; ++k)
+        if (is_stiff(k)) squared[k / 3] += rows.c[k] * rows.c[k];
+    for (int k = 0; k < 6; ++k)
+        node.owed[k] = is_stiff(k) ? rows.c[k] * owed_share<double>(squared[k / 3], reach) : 0;
 }
 
 void TreeNodes::forget(std::uint32_t index) {
@@ -129,6 +149,7 @@ double TreeNodes::evaluate(std::uint32_t index, bool settle) {
     const Velocity<double>&child = own, &a = node.sign > 0 ? child : other,
           &b = node.sign > 0 ? other : child;
     node.now = joint_rows<double>(node.geometry, a, b, h_);
+    for (int k = 0; k < 6; ++k) node.now.c[k] -= node.owed[k];
     take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
     const Vector3d change = turn.change(node.arm),
                    other_change = unit_exponential<double>(h_ * other.w).change(node.other_arm);

@@ -8,6 +8,7 @@
 #include "schedule/joint_forest.h"
 #include "schedule/tree_blocks.h"
 #include "step/driven_axis.h"
+#include "step/tree_progress.h"
 #include "world/world.h"
 
 #include <vector>
@@ -18,9 +19,13 @@ class TreeNodes {
 public:
     /// `tables` outlives this.
     TreeNodes(const World& world, const JointForest& forest,
-              const std::vector<std::uint8_t>& side_by_side, TreeTables& tables);
+              const std::vector<std::uint8_t>& side_by_side, const TreeProgress& progress,
+              TreeTables& tables);
 
-    void begin(const World& world, double h);
+    void begin(const World& world, double h, const Vector3d& lift);
+
+    /// Whether anything drives a joint.
+    bool is_driven() const { return driven_; }
 
     // of one body of the forest; what they do is said in step/tree_solver.h
 
@@ -55,8 +60,8 @@ private:
         std::uint32_t node, parent;  ///< rows in the tables
         std::int32_t row;            ///< in the velocity table
         std::uint32_t body, joint;
-        bool free;
-        double sign;  ///< 1 where the body is the joint's a, else −1
+        bool free, hung;  ///< a root that hangs by nothing; the tree's root hangs by something
+        double sign;      ///< 1 where the body is the joint's a, else −1
         double mass;
         Symmetric3<double> inertia;     ///< world frame, at the start [kg m²]
         Vector3d arm, other_arm;        ///< of the joint's point, at the start [m]
@@ -69,6 +74,7 @@ private:
         JointGeometry<double> geometry;
         JointRows<double> now;
         RowsElimination<double> elimination;
+        double owed[6];                ///< old error of the rows that is left for later [m], [rad]
         double lambda[6];              ///< along the joint's rows
         std::vector<DrivenAxis> axes;  ///< that the joint leaves free
         int first_axis_row;            ///< of theirs in `elimination`
@@ -92,6 +98,7 @@ private:
 
     static void add_axes(const World& world, Node& node);
     void begin_joint(const World& world, Node& node);
+    void owe(Node& node, double reach);
     static void place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change,
                               const Vector3d& opened);
     double violation_of(const Node& node) const;
@@ -101,6 +108,7 @@ private:
     TreeTables& tables_;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> index_;  ///< [node of the forest] in nodes_
+    bool driven_ = false;
     double h_ = 0, inverse_h_ = 0;
 };
 

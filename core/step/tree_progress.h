@@ -16,19 +16,29 @@ class TreeProgress {
 public:
     explicit TreeProgress(const JointForest& forest) {
         std::uint32_t trees = 0;
-        for (const ForestNode& node : forest.nodes)
+        for (const ForestNode& node : forest.nodes) {
             tree_.push_back(node.parent < 0 ? trees++ : tree_[node.parent]);
+            if (node.parent < 0) hung_.push_back(node.parent == kHeld);
+        }
         active_.assign(trees, 1);
-        violation_.assign(trees, 0), first_.assign(trees, 0);
+        violation_.assign(trees, 0), before_ = first_ = violation_;
     }
 
     std::size_t trees() const { return active_.size(); }
+    /// Whether the root of a node's tree hangs by something.
+    bool hangs(std::uint32_t node) const { return hung_[tree_[node]] != 0; }
     bool is_active(std::uint32_t node) const { return active_[tree_[node]] != 0; }
 
-    void start() { std::fill(active_.begin(), active_.end(), 1); }
+    void start() {
+        std::fill(active_.begin(), active_.end(), 1);
+        std::fill(violation_.begin(), violation_.end(), 0.0);
+    }
     /// What the trees were off before any step.
     void remember_start() { first_ = violation_; }
-    void look_again() { std::fill(violation_.begin(), violation_.end(), 0.0); }
+    void look_again() {
+        std::swap(violation_, before_);
+        std::fill(violation_.begin(), violation_.end(), 0.0);
+    }
 
     /// How far a node is off [m], [rad]; what is not a number is far off.
     void note(std::uint32_t node, double violation) {
@@ -47,6 +57,15 @@ public:
         return left;
     }
 
+    /// Whether one more step brings all that are left well within the tolerance, if it shrinks what
+    /// they are off as the last one did; Newton steps do better than that.
+    bool needs_one_step(double tolerance) const {
+        for (std::size_t i = 0; i < active_.size(); ++i)
+            if (active_[i] && !(violation_[i] * violation_[i] < 0.1 * tolerance * before_[i]))
+                return false;
+        return true;
+    }
+
     /// Leaves those that are no worse off than before any step; the same return.
     bool leave_those_no_worse() {
         bool left = false;
@@ -58,9 +77,9 @@ public:
     }
 
 private:
-    std::vector<std::uint32_t> tree_;        ///< [node]
-    std::vector<std::uint8_t> active_;       ///< [tree]
-    std::vector<double> violation_, first_;  ///< [tree]
+    std::vector<std::uint32_t> tree_;                 ///< [node]
+    std::vector<std::uint8_t> active_, hung_;         ///< [tree]
+    std::vector<double> violation_, before_, first_;  ///< [tree]
 };
 
 }  // namespace plumb

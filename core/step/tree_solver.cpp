@@ -19,8 +19,8 @@ template <int W>
 TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest)
     : tolerance_(world.settings.joint_tolerance),
       tables_(forest.nodes.size()),
-      nodes_(world, forest, undriven_balls(world, forest), tables_),
-      progress_(forest) {
+      progress_(forest),
+      nodes_(world, forest, undriven_balls(world, forest), progress_, tables_) {
     lay_out(world, forest, undriven_balls(world, forest));
 }
 
@@ -53,7 +53,7 @@ void TreeSolver<W>::add_blocks(const World& world, const JointForest& forest,
 
 template <int W>
 void TreeSolver<W>::place(const World& world, const ForestNode& from, std::uint32_t node,
-                          TreeBalls<N>& balls, int lane) {
+                          TreeBalls<N>& balls, int lane) const {
     const Joint& joint = world.joints.joints[from.joint];
     const bool is_a =
         world.bodies.motion[joint.a] == Motion::dynamic && world.bodies.row[joint.a] == from.row;
@@ -64,6 +64,7 @@ void TreeSolver<W>::place(const World& world, const ForestNode& from, std::uint3
     balls.body[lane] = body;
     balls.other[lane] = other == kNoIndex ? body : other;
     balls.row[lane] = from.row;
+    balls.hung[lane] = progress_.hangs(node);
     balls.held[lane] = other == kNoIndex;
     balls.sign[lane] = is_a ? 1 : -1;
     const Placement& own_frame = is_a ? joint.frame_a : joint.frame_b;
@@ -125,9 +126,11 @@ void TreeSolver<W>::solve() {
         fresh_ = false;
         mark_active();
         const bool balance = step < kBalancedSteps;
+        const bool last = !nodes_.is_driven() && progress_.needs_one_step(tolerance_);
         if (step == kBalancedSteps) forget();
         eliminate(balance);
         substitute(balance);
+        if (last) return;
     }
     evaluate(true);
     if (!progress_.leave_those_no_worse()) return;

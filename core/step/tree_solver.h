@@ -19,7 +19,6 @@
 #include "schedule/tree_levels.h"
 #include "step/body_columns.h"
 #include "step/tree_nodes.h"
-#include "step/tree_progress.h"
 
 #include <algorithm>
 #include <vector>
@@ -31,11 +30,14 @@ class TreeSolver {
 public:
     TreeSolver(const World& world, const JointForest& forest);
 
-    /// Arms, gaps, masses and velocities at the start of a substep of length h [s].
+    /// Arms, gaps, masses and velocities at the start of a substep of length h [s]. Newton's steps
+    /// start where joints that hang by something undo gravity: most of what hangs is near its rest.
     void begin(const World& world, double h) {
         h_ = h, fresh_ = true;
-        kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h);
-        nodes_.begin(world, h);
+        const Vector3d lift = -h * world.settings.gravity;
+        kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h,
+                       {lift[0], lift[1], lift[2]}, h * world.settings.recovery_speed);
+        nodes_.begin(world, h, lift);
     }
 
     /// Newton steps until no row is violated by more than Settings::joint_tolerance. `alone`:
@@ -66,7 +68,7 @@ private:
     void add_blocks(const World& world, const JointForest& forest,
                     const std::vector<std::uint32_t>& group);
     void place(const World& world, const ForestNode& from, std::uint32_t node, TreeBalls<N>& balls,
-               int lane);
+               int lane) const;
     template <class Real>
     void take(const BodyRows<Real>& rows);
     template <class Real>
@@ -89,8 +91,8 @@ private:
     double tolerance_, h_ = 0;
     bool fresh_ = true;  ///< no step was made in this substep
     TreeTables tables_;
-    TreeNodes nodes_;
     TreeProgress progress_;
+    TreeNodes nodes_;
     std::vector<TreeBalls<N>> balls_;
     std::vector<std::uint32_t> joint_of_;  ///< [block of balls_ × N + lane]
     std::vector<Span> spans_;              ///< roots first

@@ -66,11 +66,11 @@ TEST(MiddleRate, KeepsARateThatTurnsTooFarAndItsEnergy) {
         EXPECT_LT((middle_rate<double>(before, inertia, inverse, 0.01) - rate).norm(),
                   1e-12 * rate.norm());
         const Vector3d turned = random.rotation() * before;
-        const Vector3d after = energy_correction<double>(before, turned, inverse, 0.01) * turned;
+        const Vector3d after = energy_correction<double>(before, turned, inverse) * turned;
         const double energy = before.dot(rate);
         EXPECT_NEAR(after.dot(inverse.cwiseProduct(after)), energy, 1e-12 * energy);
-        const Vector3d slow = before * (0.9 / (0.01 * rate.norm()));
-        EXPECT_EQ(energy_correction<double>(slow, turned, inverse, 0.01), 1);
+        EXPECT_EQ(turns_too_far<double>(rate, 0.01), 1);
+        EXPECT_EQ(turns_too_far<double>(Vector3d(rate * (99 / rate.norm())), 0.01), 0);
     }
 }
 
