@@ -55,15 +55,19 @@ public:
     void store_impulses(World& world) {
         JointTable& table = world.joints;
         for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
-            auto& rows = table.joints[ball_joints_[i]].rows;
+            Joint& joint = table.joints[ball_joints_[i]];
+            auto& rows = joint.rows;
+            joint.rows_before = rows;
             const std::uint32_t lane = balls_.lane(i);
             for (int k = 0; k < 3; ++k) rows[k] = double(balls_.block(i).impulse[k][lane]);
             frames_[balls_.index(i)].load[lane] = Vector3d(rows[0], rows[1], rows[2]).norm();
         }
-        for (std::size_t i = 0; i < block_joints_.size(); ++i)
+        for (std::size_t i = 0; i < block_joints_.size(); ++i) {
+            Joint& joint = table.joints[block_joints_[i]];
+            joint.rows_before = joint.rows;
             for (int k = 0; k < 6; ++k)
-                table.joints[block_joints_[i]].rows[k] =
-                    double(blocks_.block(i).lambda[k][blocks_.lane(i)]);
+                joint.rows[k] = double(blocks_.block(i).lambda[k][blocks_.lane(i)]);
+        }
         for (std::size_t i = 0; i < driven_.size(); ++i)
             table.drives[driven_[i]].impulse = double(drives_.block(i).lambda[drives_.lane(i)]);
         couplings_.store_impulses(table);

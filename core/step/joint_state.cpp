@@ -84,10 +84,17 @@ JointLoad joint_load(const World& world, std::uint32_t index) {
     return {per_second * load.force, per_second * load.torque};
 }
 
-void count_turns(World& world) {
+std::vector<std::uint32_t> turning_joints(const World& world) {
+    std::vector<std::uint32_t> turning;
     for (std::uint32_t i = 0; i < world.joints.size(); ++i)
-        if (const std::uint32_t axis = single_turn(world.joints.joints[i]); axis < kJointAxes)
-            world.joints.turn[i] = joint_coordinate(world, i, axis).value;
+        if (single_turn(world.joints.joints[i]) < kJointAxes) turning.push_back(i);
+    return turning;
+}
+
+void count_turns(World& world, const std::vector<std::uint32_t>& turning) {
+    for (const std::uint32_t i : turning)
+        world.joints.turn[i] =
+            joint_coordinate(world, i, single_turn(world.joints.joints[i])).value;
 }
 
 }  // namespace plumb

@@ -5,6 +5,8 @@
 #include "constraints/joint_axis.h"
 #include "world/world.h"
 
+#include <vector>
+
 namespace plumb {
 
 JointPose joint_pose(const Bodies& bodies, const Joint& joint);
@@ -27,7 +29,10 @@ struct JointLoad {
 };
 JointLoad joint_load(const World& world, std::uint32_t joint);
 
-/// Follows the angles about single free axes through whole turns; called once a substep.
-void count_turns(World& world);
+/// Joints that leave one rotation free, by index; their angles are counted through whole turns.
+std::vector<std::uint32_t> turning_joints(const World& world);
+
+/// Follows the angles of turning joints; called once a substep.
+void count_turns(World& world, const std::vector<std::uint32_t>& turning);
 
 }  // namespace plumb

@@ -134,7 +134,6 @@ public:
     void store_impulses(World& world) override { contacts_.store_impulses(world.contacts); }
 
     void store_joint_impulses(World& world) override {
-        for (Joint& joint : world.joints.joints) joint.rows_before = joint.rows;
         for (JointDrive& drive : world.joints.drives) drive.impulse_before = drive.impulse;
         if (joints_) joints_->store_impulses(world);
         for (TreeSolver<W>& trees : trees_) trees.store_impulses(world.joints);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "step/step.h"
 
-#include "step/joint_state.h"
-
 #include <cmath>
 
 namespace plumb {
@@ -43,7 +41,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::kinematics))
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
-        if (plan.runs(Effect::joints)) timed(Stage::begin, [&] { count_turns(world); });
+        if (plan.runs(Effect::joints))
+            timed(Stage::begin, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, stepper.motion, h); });

@@ -5,6 +5,7 @@
 #include "effects/ledger.h"
 #include "effects/plan.h"
 #include "schedule/workers.h"
+#include "step/joint_state.h"
 #include "step/report.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
@@ -14,6 +15,7 @@
 
 #include <memory>
 #include <utility>
+#include <vector>
 
 namespace plumb {
 
@@ -23,6 +25,7 @@ struct Stepper {
         : plan(make_plan(world)),
           workers(world.settings.threads),
           motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
+          turning(turning_joints(world)),
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints or rows. What a
@@ -31,6 +34,7 @@ struct Stepper {
     void renew(const World& world) {
         const Plan before = std::exchange(plan, make_plan(world));
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
+        turning = turning_joints(world);
         if (plan.runs(Effect::joints) || !plan.runs_as(before))
             solver = make_row_solver(world, plan, workers);
     }
@@ -38,6 +42,7 @@ struct Stepper {
     Plan plan;
     Workers workers;
     MotionLists motion;
+    std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     Ledger ledger;  ///< of the last step

@@ -248,8 +248,9 @@ void TreeNodes::substitute(std::uint32_t index, bool balance) {
 void TreeNodes::store_impulses(JointTable& joints) {
     for (Node& node : nodes_) {
         if (node.free) continue;
-        std::copy(std::begin(node.lambda), std::end(node.lambda),
-                  joints.joints[node.joint].rows.begin());
+        Joint& joint = joints.joints[node.joint];
+        joint.rows_before = joint.rows;
+        std::copy(std::begin(node.lambda), std::end(node.lambda), joint.rows.begin());
         for (DrivenAxis& axis : node.axes) axis.store_impulses(joints);
     }
 }

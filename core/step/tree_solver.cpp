@@ -213,6 +213,7 @@ void TreeSolver<W>::store_impulses(JointTable& joints) {
             TreeBalls<N>& balls = balls_[i];
             if (!(balls.used[lane] > 0)) continue;
             Joint& joint = joints.joints[joint_of_[i * N + static_cast<std::size_t>(lane)]];
+            joint.rows_before = joint.rows;
             joint.rows = {};
             for (int k = 0; k < 3; ++k) joint.rows[k] = balls.sign[lane] * balls.impulse[k][lane];
             balls.load[lane] = Vector3d(joint.rows[0], joint.rows[1], joint.rows[2]).norm();
