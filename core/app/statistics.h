@@ -53,7 +53,8 @@ public:
     std::array<std::uint64_t, kStageCount> stage_calls{};
     double contact_sum = 0;
     std::uint32_t contact_max = 0;
-    std::uint64_t clamped_recoveries = 0, rejected_contacts = 0, collider_failures = 0;
+    std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, rejected_contacts = 0,
+                  collider_failures = 0;
     std::array<std::uint64_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::string first_failure;                               ///< what the collider said
 

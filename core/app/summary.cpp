@@ -130,6 +130,7 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
           Stage::positions, Stage::remember}},
         {Effect::contact_reuse, {Stage::reuse}},
         {Effect::restitution, {Stage::restitution}},
+        {Effect::exact_islands, {Stage::islands}},
         {Effect::kinematics, {Stage::kinematics}},
         {Effect::shock_propagation, {Stage::shock}}};
     return stages;
@@ -215,6 +216,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
         {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
     j["fallen_through"] = fallen_through(scene, world);
     j["clamps"] = {{"recovery", s.clamped_recoveries},
+                   {"unsolved_islands", s.unsolved_islands},
                    {"rejected_contacts", s.rejected_contacts},
                    {"collider_failures", s.collider_failures}};
     j["state_hash"] = hex(state_hash(world));

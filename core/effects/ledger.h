@@ -20,14 +20,15 @@ enum class Stage : std::uint32_t {
     begin,        ///< gaps, drifts and velocities at the start of the substep
     velocities,   ///< velocity pass
     positions,    ///< position pass
+    islands,      ///< islands solved exactly
     shock,        ///< shock propagation
     move,         ///< new poses
     remember,     ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 13;
+inline constexpr std::size_t kStageCount = 14;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
     "detect", "reuse",      "match",     "schedule", "kinematics", "restitution", "integrate",
-    "begin",  "velocities", "positions", "shock",    "move",       "remember"};
+    "begin",  "velocities", "positions", "islands",  "shock",      "move",        "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

@@ -64,6 +64,17 @@ Wish sticking_anchors(const World& w) {
     if (!(w.settings.anchor_stiffness > 0)) return {false, "anchor_stiffness is 0"};
     return {true, "friction that sticks remembers where (anchor_stiffness > 0)"};
 }
+Wish exact_islands(const World& w) {
+    if (!contacts(w).wanted) return {false, "there are no contacts"};
+    const std::uint32_t most = w.settings.exact_islands;
+    if (most == 0) return {false, "exact_islands is 0"};
+    if (!w.settings.shared_push)
+        return {false, "the passes' pushes are apart, as in the paper (shared_push)"};
+    if (std::count(w.settings.require.begin(), w.settings.require.end(), "shock_propagation") > 0)
+        return {false, "shock propagation carries all that touches"};
+    return {true, "up to " + std::to_string(most) +
+                      " bodies that touch are solved as one system (exact_islands)"};
+}
 Wish gyroscopic(const World& w) {
     return counted(count_bodies(w, [&](std::size_t i) { return !w.bodies.isotropic[i]; }),
                    "dynamic bodies have unequal moments of inertia",
@@ -106,6 +117,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"restitution", restitution},
     {"sticking_anchors", sticking_anchors},
     {"gyroscopic", gyroscopic},
+    {"exact_islands", exact_islands},
     {"joints", joints},
     {"joint_trees", joint_trees},
     {"kinematics", kinematics},

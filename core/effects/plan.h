@@ -25,12 +25,13 @@ enum class Effect : std::uint32_t {
     restitution,
     sticking_anchors,
     gyroscopic,
+    exact_islands,
     joints,
     joint_trees,
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 11;
+inline constexpr std::size_t kEffectCount = 12;
 
 struct Decision {
     std::string_view name;

@@ -14,6 +14,8 @@ using Vector3 = Eigen::Matrix<T, 3, 1>;
 using Vector3d = Eigen::Vector3d;
 using Matrix3d = Eigen::Matrix3d;
 using Quaterniond = Eigen::Quaterniond;
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// a · b and a × b with one fixed order of operations, the same for scalars and lanes.
 template <class T>

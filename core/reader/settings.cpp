@@ -90,6 +90,9 @@ const Table<Settings>& settings_table() {
                  "bodies that hang together exactly, unless more than one in ten closes a loop, a "
                  "coupling ties two of them, or they are a figure: at most 32 bodies that nothing "
                  "holds and no motor drives, but limits, springs or friction"),
+        field<S>("exact_islands", W{{0, 100000}}, &S::exact_islands,
+                 "islands of at most so many bodies that touch are solved exactly, whatever the "
+                 "iterations; 0: all are swept"),
         field<S>("joint_tolerance", Number{{1e-12, 1}}, &S::joint_tolerance,
                  "up to which trees of joints are closed [m], [rad]"),
         field<S>("warm_start", Flag{}, &S::warm_start,

@@ -9,6 +9,7 @@
 #include "schedule/workers.h"
 #include "step/contact_pairs.h"
 #include "step/fill_mass.h"
+#include "step/island_group.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
 
@@ -33,8 +34,10 @@ public:
     bool empty() const { return pairs_.empty(); }
 
     /// Rows for the pairs; `levels` (may be null) makes the lower body of a pair immovable.
-    void load(const World& world, const std::vector<std::uint32_t>* levels) {
+    /// `exact` (may be null) takes those that it solves.
+    void load(const World& world, const std::vector<std::uint32_t>* levels, IslandGroup* exact) {
         find_pairs(world, levels, pairs_);
+        if (exact) exact->load(world, pairs_);
         colouring_.colour(pairs_, world.dynamic_count);
         batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
         fill_geometry(world, levels);

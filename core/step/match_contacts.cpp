@@ -56,6 +56,7 @@ void hand_on_impulses(ContactTable& c, const PairRuns& run, const std::vector<st
             c.memory[nearest(c.found, run.now, run.now_end, common_point(c.found_before[j]))];
         heir.normal_impulse += c.memory_before[j].normal_impulse;
         heir.friction_impulse += c.memory_before[j].friction_impulse;
+        heir.turning_impulse += c.memory_before[j].turning_impulse;
         heir.matched = true;
     }
 }

@@ -49,14 +49,15 @@ public:
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         if (plan.runs(Effect::joints)) take_joints(world, plan.runs(Effect::joint_trees));
         if (shocks_) shock_.emplace(plan, workers);
+        if (plan.runs(Effect::exact_islands)) islands_.emplace(workers);
     }
 
     void load_contacts(const World& world) override {
-        contacts_.load(world, nullptr);
+        contacts_.load(world, nullptr, islands_ ? &*islands_ : nullptr);
         if (warm_start_) contacts_.load_impulses(world);
         if (!shocks_) return;
         find_levels(world, levels_);
-        shock_->load(world, &levels_);
+        shock_->load(world, &levels_, nullptr);
     }
 
     std::uint32_t begin_substep(const World& world, double h) override {
@@ -74,6 +75,7 @@ public:
         sweeps_ = substeps_++;
         std::uint32_t clamped = 0;
         if (!contacts_.empty()) clamped = contacts_.begin(world, table_.rows(), pass_);
+        if (islands_) clamped += islands_->begin(world, h, static_cast<double>(pass_.recovery));
         if (shocks_) shock_->begin(world, table_.rows(), pass_);
         if (joints_) joints_->begin(world, h);
         if (!trees_.empty())
@@ -115,6 +117,8 @@ public:
         sweeps_ += settings_.position_iterations;
     }
 
+    std::uint32_t solve_islands() override { return islands_->solve(); }
+
     /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman
     /// et al.).
     void propagate_shock() override {
@@ -129,9 +133,15 @@ public:
         });
     }
 
-    void take_changes(Bodies& bodies) const override { table_.take_changes(bodies); }
+    void take_changes(Bodies& bodies) const override {
+        table_.take_changes(bodies);
+        if (islands_) islands_->take_changes(bodies);
+    }
 
-    void store_impulses(World& world) override { contacts_.store_impulses(world.contacts); }
+    void store_impulses(World& world) override {
+        contacts_.store_impulses(world.contacts);
+        if (islands_) islands_->store_impulses(world.contacts);
+    }
 
     void store_joint_impulses(World& world) override {
         for (JointDrive& drive : world.joints.drives) drive.impulse_before = drive.impulse;
@@ -166,6 +176,7 @@ private:
     PassSettings<Real> pass_{};
     ContactSolver<Real, W> contacts_;
     std::optional<ContactSolver<Real, W>> shock_;
+    std::optional<IslandGroup> islands_;
     std::optional<JointSolver<Real, W>> joints_;
     std::deque<TreeSolver<W>> trees_;  ///< [worker], or fewer
     std::vector<std::uint32_t> levels_;

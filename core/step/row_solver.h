@@ -26,6 +26,8 @@ public:
 
     virtual void solve_velocities() = 0;
     virtual void solve_positions() = 0;
+    /// The islands that are solved exactly. Returns how many still miss the law of contact.
+    virtual std::uint32_t solve_islands() = 0;
     virtual void propagate_shock() = 0;
 
     /// Adds what the passes changed to the velocities of dynamic bodies, and keeps the turns'.

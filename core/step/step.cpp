@@ -50,6 +50,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         timed(Stage::begin, [&] { report.clamped_recoveries += solver.begin_substep(world, h); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
         timed(Stage::positions, [&] { solver.solve_positions(); });
+        if (plan.runs(Effect::exact_islands))
+            timed(Stage::islands, [&] { report.unsolved_islands += solver.solve_islands(); });
         if (plan.runs(Effect::shock_propagation))
             timed(Stage::shock, [&] { solver.propagate_shock(); });
         timed(Stage::move, [&] {

@@ -16,6 +16,8 @@ namespace plumb {
 struct ContactMemory {
     double normal_impulse = 0;  ///< summed over both passes of the last substep [N s]
     Vector3d friction_impulse = Vector3d::Zero();  ///< world frame [N s]
+    Vector3d turning_impulse = Vector3d::Zero();   ///< torque of rolling and spinning friction, of
+                                                   ///< islands solved exactly; world [N m s]
     Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,
     Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
     bool sticks = false;

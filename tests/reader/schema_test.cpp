@@ -101,10 +101,10 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
     [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
                                   position_iterations, method, precision, threads, lanes, margin,
                                   reuse_distance, stiffness, recovery_speed, collision_depth,
-                                  anchor_stiffness, gyroscopic, joints, joint_tolerance, warm_start,
+                                  anchor_stiffness, gyroscopic, joints, exact_islands, joint_tolerance, warm_start,
                                   alternate_sweeps, shared_push, shared_cone, require, forbid] =
         settings;
-    constexpr std::size_t kMembers = 25, kPreset = 1;
+    constexpr std::size_t kMembers = 26, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "dt",
@@ -123,6 +123,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "anchor_stiffness",
                              "gyroscopic",
                              "joints",
+                             "exact_islands",
                              "joint_tolerance",
                              "warm_start",
                              "alternate_sweeps",

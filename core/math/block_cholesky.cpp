@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: MIT
+#include "math/block_cholesky.h"
+
+#include <algorithm>
+
+namespace plumb {
+namespace {
+
+constexpr std::uint32_t kDiagonal = 1u << 31;  // in an update's slot: a diagonal block
+
+/// K = C Cᵀ in place, lower triangle. Returns whether all pivots were positive.
+bool factor_block(Matrix6d& k) {
+    for (int j = 0; j < 6; ++j) {
+        double pivot = k(j, j);
+        for (int p = 0; p < j; ++p) pivot -= k(j, p) * k(j, p);
+        if (!(pivot > 0)) return false;
+        const double root = std::sqrt(pivot), inverse = 1 / root;
+        k(j, j) = root;
+        for (int i = j + 1; i < 6; ++i) {
+            double sum = k(i, j);
+            for (int p = 0; p < j; ++p) sum -= k(i, p) * k(j, p);
+            k(i, j) = sum * inverse;
+        }
+    }
+    return true;
+}
+
+/// B ← B C⁻ᵀ, column by column.
+void solve_from_right(const Matrix6d& c, Matrix6d& b) {
+    for (int j = 0; j < 6; ++j) {
+        for (int p = 0; p < j; ++p) b.col(j) -= c(j, p) * b.col(p);
+        b.col(j) *= 1 / c(j, j);
+    }
+}
+
+void solve_lower(const Matrix6d& c, Vector6d& x) {
+    for (int i = 0; i < 6; ++i) {
+        for (int p = 0; p < i; ++p) x[i] -= c(i, p) * x[p];
+        x[i] /= c(i, i);
+    }
+}
+void solve_upper(const Matrix6d& c, Vector6d& x) {
+    for (int i = 5; i >= 0; --i) {
+        for (int p = i + 1; p < 6; ++p) x[i] -= c(p, i) * x[p];
+        x[i] /= c(i, i);
+    }
+}
+
+}  // namespace
+
+void BlockCholesky::analyse(std::uint32_t rows, const Pattern& pattern) {
+    order_.assign(rows, 0);
+    place_.assign(rows, 0);
+    find_order(pattern);
+    find_updates();
+    diagonal_.resize(rows);
+    below_.resize(row_of_.size());
+    permuted_.resize(rows);
+}
+
+/// Least degree first, of equals the first; what is eliminated makes its neighbours neighbours.
+void BlockCholesky::find_order(const Pattern& pattern) {
+    const auto n = static_cast<std::uint32_t>(order_.size());
+    std::vector<std::vector<std::uint32_t>> near(n);
+    for (const auto& [i, j] : pattern)
+        if (i != j) near[i].push_back(j), near[j].push_back(i);
+    for (auto& list : near) {
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+    std::vector<std::uint8_t> done(n, 0);
+    std::vector<std::vector<std::uint32_t>> structure(n);
+    std::vector<std::uint32_t> merged;
+    for (std::uint32_t p = 0; p < n; ++p) {
+        std::uint32_t best = n;
+        for (std::uint32_t i = 0; i < n; ++i)
+            if (!done[i] && (best == n || near[i].size() < near[best].size())) best = i;
+        order_[p] = best, place_[best] = p;
+        done[best] = 1;
+        for (const std::uint32_t i : near[best]) {
+            merged.clear();
+            std::set_union(near[i].begin(), near[i].end(), near[best].begin(), near[best].end(),
+                           std::back_inserter(merged));
+            std::erase_if(merged, [&](std::uint32_t k) { return k == i || k == best; });
+            near[i] = merged;
+        }
+        structure[p] = near[best];
+    }
+    columns_.clear();
+    row_of_.clear();
+    for (std::uint32_t p = 0; p < n; ++p) {
+        const auto first = static_cast<std::uint32_t>(row_of_.size());
+        for (const std::uint32_t i : structure[p]) row_of_.push_back(place_[i]);
+        std::sort(row_of_.begin() + first, row_of_.end());
+        columns_.push_back({first, static_cast<std::uint32_t>(row_of_.size())});
+    }
+}
+
+void BlockCholesky::find_updates() {
+    updates_.clear();
+    products_ = 0;
+    for (const Column& c : columns_)
+        for (std::uint32_t j = c.first; j < c.last; ++j) {
+            updates_.push_back(row_of_[j] | kDiagonal);
+            for (std::uint32_t i = j + 1; i < c.last; ++i)
+                updates_.push_back(slot(row_of_[i], row_of_[j]));
+        }
+    products_ = updates_.size() + row_of_.size() + columns_.size();
+}
+
+std::uint32_t BlockCholesky::slot(std::uint32_t row, std::uint32_t column) const {
+    const Column& c = columns_[column];
+    return static_cast<std::uint32_t>(
+        std::lower_bound(row_of_.begin() + c.first, row_of_.begin() + c.last, row) -
+        row_of_.begin());
+}
+
+void BlockCholesky::clear() {
+    for (Matrix6d& m : diagonal_) m.setZero();
+    for (Matrix6d& m : below_) m.setZero();
+}
+
+void BlockCholesky::add(std::uint32_t i, std::uint32_t j, const Matrix6d& block) {
+    const std::uint32_t p = place_[i], q = place_[j];
+    if (p > q)
+        below_[slot(p, q)] += block;
+    else
+        below_[slot(q, p)] += block.transpose();
+}
+
+bool BlockCholesky::factor() {
+    const std::uint32_t* update = updates_.data();
+    for (std::uint32_t p = 0; p < rows(); ++p) {
+        Matrix6d& pivot = diagonal_[p];
+        if (!factor_block(pivot)) return false;
+        const Column c = columns_[p];
+        for (std::uint32_t j = c.first; j < c.last; ++j) solve_from_right(pivot, below_[j]);
+        for (std::uint32_t j = c.first; j < c.last; ++j) {
+            diagonal_[*update++ & ~kDiagonal].noalias() -= below_[j] * below_[j].transpose();
+            for (std::uint32_t i = j + 1; i < c.last; ++i)
+                below_[*update++].noalias() -= below_[i] * below_[j].transpose();
+        }
+    }
+    return true;
+}
+
+void BlockCholesky::solve(std::vector<Vector6d>& x) {
+    const std::uint32_t n = rows();
+    for (std::uint32_t p = 0; p < n; ++p) permuted_[p] = x[order_[p]];
+    for (std::uint32_t p = 0; p < n; ++p) {
+        solve_lower(diagonal_[p], permuted_[p]);
+        for (std::uint32_t j = columns_[p].first; j < columns_[p].last; ++j)
+            permuted_[row_of_[j]].noalias() -= below_[j] * permuted_[p];
+    }
+    for (std::uint32_t p = n; p-- > 0;) {
+        for (std::uint32_t j = columns_[p].first; j < columns_[p].last; ++j)
+            permuted_[p].noalias() -= below_[j].transpose() * permuted_[row_of_[j]];
+        solve_upper(diagonal_[p], permuted_[p]);
+    }
+    for (std::uint32_t p = 0; p < n; ++p) x[order_[p]] = permuted_[p];
+}
+
+}  // namespace plumb

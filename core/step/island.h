@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: MIT
+/// One island as its solver sees it: the bodies that move, and the points at which they touch one
+/// another or what is immovable. Double precision, whatever the rows have.
+///
+/// Six numbers describe what acts at a point: impulses along the normal and two tangents, then
+/// torques about them, over the point's length ℓ; and velocities likewise, those of turning times ℓ
+/// (constraints/contact_cone.h).
+#pragma once
+
+#include "constraints/contact_cone.h"
+#include "math/symmetric.h"
+#include "math/types.h"
+
+#include <cstdint>
+#include <span>
+
+namespace plumb {
+
+inline constexpr std::uint32_t kImmovable = ~0u;
+
+struct IslandBody {
+    std::uint32_t body;  ///< in the world's tables
+    double mass;
+    Symmetric3<double> inertia, inverse_inertia;  ///< world frame
+};
+
+struct IslandPoint {
+    std::uint32_t a, b;     ///< bodies of the island, or kImmovable
+    Matrix3d frame;         ///< columns: normal, out of b towards a, and two tangents
+    Vector3d arm_a, arm_b;  ///< from the centres of mass to the point [m]
+    double mass;            ///< least effective mass in any direction [kg]
+    double mass_normal;     ///< effective mass along the normal [kg]
+    double length;          ///< ℓ, from the least effective inertia: mass ℓ² [m]
+    ContactCone cone;
+    Vector6d wanted;   ///< velocities that the substep asks of the island's bodies [m/s]
+    Vector6d impulse;  ///< [N s]
+};
+
+/// What a solver reads and improves. Velocities are (v, ω) and follow the impulses.
+struct Island {
+    std::span<const IslandBody> bodies;
+    std::span<Vector6d> velocity;  ///< [body]
+    std::span<IslandPoint> points;
+};
+
+/// Velocities at a point, of bodies that move by `v`; those of turning are 0 where nothing resists
+/// it.
+inline Vector6d velocity_of(const IslandPoint& p, std::span<const Vector6d> v) {
+    Vector3d u = Vector3d::Zero(), w = u;
+    if (p.a != kImmovable) {
+        w += v[p.a].tail<3>();
+        u += v[p.a].head<3>() + cross<double>(v[p.a].tail<3>(), p.arm_a);
+    }
+    if (p.b != kImmovable) {
+        w -= v[p.b].tail<3>();
+        u -= v[p.b].head<3>() + cross<double>(v[p.b].tail<3>(), p.arm_b);
+    }
+    Vector6d all = Vector6d::Zero();
+    all.head<3>() = p.frame.transpose() * u;
+    if (p.cone.turns()) all.tail<3>() = p.length * (p.frame.transpose() * w);
+    return all;
+}
+
+/// Adds a point's impulse to the sums (force, torque) of its bodies.
+inline void add_impulse(const IslandPoint& p, const Vector6d& impulse, std::span<Vector6d> sums) {
+    const Vector3d along = p.frame * impulse.head<3>();
+    Vector3d about = Vector3d::Zero();
+    if (p.cone.turns()) about = p.length * (p.frame * impulse.tail<3>());
+    if (p.a != kImmovable) {
+        sums[p.a].head<3>() += along;
+        sums[p.a].tail<3>() += cross<double>(p.arm_a, along) + about;
+    }
+    if (p.b != kImmovable) {
+        sums[p.b].head<3>() -= along;
+        sums[p.b].tail<3>() -= cross<double>(p.arm_b, along) + about;
+    }
+}
+
+/// M⁻¹ times (force, torque).
+inline Vector6d response(const IslandBody& body, const Vector6d& sum) {
+    Vector6d v;
+    v << sum.head<3>() / body.mass, body.inverse_inertia * Vector3d(sum.tail<3>());
+    return v;
+}
+/// M times (v, ω).
+inline Vector6d momentum(const IslandBody& body, const Vector6d& v) {
+    Vector6d p;
+    p << body.mass * v.head<3>(), body.inertia * Vector3d(v.tail<3>());
+    return p;
+}
+
+}  // namespace plumb

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: MIT
+#include "step/island_group.h"
+
+#include "constraints/connector.h"
+#include "constraints/contact.h"
+#include "constraints/friction.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// A gap that nothing closes within a substep: of a collision that comes through [m].
+constexpr double kOutOfReach = 1e6;
+
+/// Islands of so many bodies are solved exactly however they move.
+constexpr std::uint32_t kVerySmall = 8;
+
+/// An island is calm where its contacts slide, part and approach by less than this times √(g r), r
+/// the radius of its largest body: about the speed of what fell by r/32.
+constexpr double kCalm = 0.25;
+
+/// Share of the island's speed below which a velocity is asked for as 0, so that what is at rest
+/// stays there to the last bit: gaps below 10⁻⁵ g h², a billionth of a metre at 10 ms.
+constexpr double kStill = 1e-5;
+
+InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t i) {
+    return {b.inverse_mass[i], b.world_inverse_inertia[i]};
+}
+
+Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
+    return b.velocity[i] + b.angular_velocity[i].cross(arm);
+}
+
+/// A bound on the greatest eigenvalue: the greatest sum of a row.
+double largest(const Symmetric3<double>& k) {
+    const double xy = std::abs(k.xy), xz = std::abs(k.xz), yz = std::abs(k.yz);
+    return std::max({k.xx + xy + xz, k.yy + xy + yz, k.zz + xz + yz});
+}
+
+/// Velocity along the normal that makes the gap what it shall be at the end of the substep [m/s].
+double closing_velocity(double gap, double h, double recovery, double stiffness) {
+    const double left = overlap_left(gap, recovery);
+    return -gap_below(gap - left, std::min(gap, 0.0) - left, stiffness) / h;
+}
+
+}  // namespace
+
+IslandGroup::IslandGroup(Workers& workers) : workers_(workers), solvers_(workers.count()) {}
+
+// ---- once a step
+
+void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
+    count_ = 0;
+    bodies_.clear(), points_.clear(), contacts_.clear();
+    if (pairs.empty()) return;
+    found_.find(pairs, world.dynamic_count);
+    mark_jointed(world);
+    taken_.assign(pairs.size(), 0);
+    for (const ContactIsland& island : found_.islands())
+        if (is_exact(world, island, pairs)) take(world, island, pairs);
+
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i)
+        if (!taken_[i]) pairs[kept++] = pairs[i];
+    pairs.resize(kept);
+    velocity_.resize(bodies_.size());
+    start_.resize(bodies_.size());
+    force_.resize(bodies_.size());
+}
+
+void IslandGroup::mark_jointed(const World& world) {
+    jointed_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+    const auto mark = [&](std::uint32_t body) {
+        if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
+            jointed_[world.bodies.row[body]] = 1;
+    };
+    for (const Joint& joint : world.joints.joints) mark(joint.a), mark(joint.b);
+}
+
+bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
+                           const std::vector<BodyPair>& pairs) const {
+    const std::uint32_t n = island.last_body - island.first_body;
+    if (n > world.settings.exact_islands) return false;
+    for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
+        if (jointed_[found_.bodies()[i]]) return false;
+    return n <= kVerySmall || is_calm(world, island, pairs);
+}
+
+bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
+                          const std::vector<BodyPair>& pairs) const {
+    const Bodies& b = world.bodies;
+    double fastest = 0, radius = 0;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[found_.pairs()[i]];
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
+            const Contact& c = world.contacts.found[k];
+            const Vector3d at = common_point(c);
+            const Vector3d u = velocity_at(b, c.a, at - b.position[c.a]) -
+                               velocity_at(b, c.b, at - b.position[c.b]);
+            fastest = std::max(fastest, u.squaredNorm());
+        }
+        const Contact& c = world.contacts.found[pair.first];
+        for (const std::uint32_t body : {c.a, c.b})
+            if (b.motion[body] == Motion::dynamic) radius = std::max(radius, b.reach[body]);
+    }
+    return fastest <= kCalm * kCalm * world.settings.gravity.norm() * radius;
+}
+
+void IslandGroup::take(const World& world, const ContactIsland& island,
+                       const std::vector<BodyPair>& pairs) {
+    if (count_ == members_.size()) members_.emplace_back();
+    Member& member = members_[count_++];
+    const std::uint32_t n = island.last_body - island.first_body;
+    member.first_body = static_cast<std::uint32_t>(bodies_.size());
+    member.first_point = static_cast<std::uint32_t>(points_.size());
+    bodies_.resize(bodies_.size() + n);
+
+    pattern_.clear();
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const std::uint32_t at = found_.pairs()[i];
+        const BodyPair& pair = pairs[at];
+        taken_[at] = 1;
+        const auto place = [&](std::int32_t row, std::uint32_t body) {
+            if (row >= world.dynamic_count) return kImmovable;
+            const std::uint32_t here = found_.index_in_island(row);
+            bodies_[member.first_body + here].body = body;
+            return here;
+        };
+        const Contact& first = world.contacts.found[pair.first];
+        const std::uint32_t a = place(pair.row_a, first.a), b = place(pair.row_b, first.b);
+        if (a != kImmovable && b != kImmovable) pattern_.emplace_back(a, b);
+        for (std::uint32_t k = 0; k < pair.count; ++k) add_point(world, pair.first + k, a, b);
+    }
+    member.last_body = static_cast<std::uint32_t>(bodies_.size());
+    member.last_point = static_cast<std::uint32_t>(points_.size());
+    for (std::uint32_t i = member.first_body; i < member.last_body; ++i) {
+        const Bodies& all = world.bodies;
+        IslandBody& body = bodies_[i];
+        body.mass = all.mass[body.body];
+        body.inverse_inertia = all.world_inverse_inertia[body.body];
+        body.inertia =
+            rotated_diagonal(all.orientation[body.body].toRotationMatrix(), all.inertia[body.body]);
+    }
+    if (member.system.rows() == n && member.pattern == pattern_) return;
+    member.pattern = pattern_;
+    member.system.analyse(n, pattern_);
+}
+
+void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint32_t a,
+                            std::uint32_t b) {
+    const Contact& c = world.contacts.found[contact];
+    const ContactMemory& memory = world.contacts.memory[contact];
+    const SurfacePair& surface = world.surface_pair(c.a, c.b);
+    const Vector3d n = to_eigen(c.normal), at = common_point(c), x = tangent_of<double>(n);
+    contacts_.push_back(contact);
+    IslandPoint& p = points_.emplace_back();
+    p.a = a, p.b = b;
+    p.frame << n, x, n.cross(x);
+    p.arm_a = at - world.bodies.position[c.a];
+    p.arm_b = at - world.bodies.position[c.b];
+    const InverseMass<double> of_a = inverse_mass(world.bodies, c.a),
+                              of_b = inverse_mass(world.bodies, c.b);
+    p.mass = 1 / largest(point_response(of_a, p.arm_a) + point_response(of_b, p.arm_b));
+    p.mass_normal = 1 / (response(of_a, p.arm_a, n, n) + response(of_b, p.arm_b, n, n));
+    p.length = std::sqrt(1 / (largest(of_a.inertia + of_b.inertia) * p.mass));
+    p.cone = {surface.friction, surface.spinning_friction / p.length,
+              surface.rolling_friction / p.length};
+    p.impulse.setZero();
+    if (!memory.matched || !world.settings.warm_start) return;
+    p.impulse.head<3>() = p.frame.transpose() * memory.friction_impulse;
+    p.impulse[0] = memory.normal_impulse;
+    if (p.cone.turns())
+        p.impulse.tail<3>() = p.frame.transpose() * memory.turning_impulse / p.length;
+}
+
+// ---- once a substep
+
+std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const std::uint32_t body = bodies_[i].body;
+        start_[i] << world.bodies.velocity[body], world.bodies.angular_velocity[body];
+        velocity_[i] = start_[i];
+    }
+    std::uint32_t clamped = 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+        Member& member = members_[i];
+        member.speed = speed_of(world, member, h, recovery);
+        for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
+            ask(world, k, h, recovery, kStill * member.speed);
+            clamped += -world.contacts.gap[contacts_[k]] > recovery;
+        }
+    }
+    apply_impulses();
+    return clamped;
+}
+
+/// How fast contacts approach if nothing pushes, or how fast an overlap shall go.
+double IslandGroup::speed_of(const World& world, const Member& member, double h, double recovery) {
+    const std::span<const Vector6d> velocity = island_of(member).velocity;
+    double speed = 0;
+    for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
+        const double overlap = std::min(world.contacts.gap[contacts_[k]], 0.0);
+        speed = std::max({speed, std::abs(velocity_of(points_[k], velocity)[0]),
+                          closing_velocity(overlap, h, recovery, world.settings.stiffness)});
+    }
+    return speed;
+}
+
+/// What the substep asks of a point; velocities below `least` [m/s] are asked for as 0.
+void IslandGroup::ask(const World& world, std::size_t k, double h, double recovery, double least) {
+    const ContactTable& c = world.contacts;
+    const Settings& s = world.settings;
+    const std::uint32_t contact = contacts_[k];
+    IslandPoint& p = points_[k];
+
+    const double rebound = c.rebound.empty() ? 0 : c.rebound[contact];
+    const double gap = rebound == ContactTable::kPassing ? kOutOfReach : c.gap[contact];
+    double normal = closing_velocity(gap, h, recovery, s.stiffness);
+    if (std::abs(normal) < least) normal = 0;
+    if (rebound > 0) normal = rebound;
+
+    Vector3d across = Vector3d::Zero();
+    if (!c.drift.empty()) {
+        across = p.frame.transpose() * (-s.anchor_stiffness / h * c.drift[contact]);
+        across[0] = 0;
+        if (across.cwiseAbs().maxCoeff() < least) across.setZero();
+    }
+
+    // what is immovable may move by itself
+    Vector3d moving = Vector3d::Zero(), turning = Vector3d::Zero();
+    const auto add = [&](std::uint32_t body, const Vector3d& arm, double sign) {
+        moving += sign * velocity_at(world.bodies, body, arm);
+        turning += sign * world.bodies.angular_velocity[body];
+    };
+    if (p.a == kImmovable) add(c.found[contact].a, p.arm_a, 1);
+    if (p.b == kImmovable) add(c.found[contact].b, p.arm_b, -1);
+
+    p.wanted.setZero();
+    p.wanted.head<3>() = across - p.frame.transpose() * moving;
+    p.wanted[0] += normal;
+    if (p.cone.turns()) p.wanted.tail<3>() = -p.length * (p.frame.transpose() * turning);
+    if (!s.warm_start) p.impulse.setZero();
+}
+
+/// The impulses that the substep starts from, to the velocities.
+void IslandGroup::apply_impulses() {
+    std::fill(force_.begin(), force_.end(), Vector6d::Zero());
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Member& m = members_[i];
+        const std::span<Vector6d> sums(force_.data() + m.first_body, m.last_body - m.first_body);
+        for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
+            add_impulse(points_[k], points_[k].impulse, sums);
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        velocity_[i] += response(bodies_[i], force_[i]);
+}
+
+Island IslandGroup::island_of(const Member& m) {
+    const std::size_t bodies = m.last_body - m.first_body, points = m.last_point - m.first_point;
+    return {{bodies_.data() + m.first_body, bodies},
+            {velocity_.data() + m.first_body, bodies},
+            {points_.data() + m.first_point, points}};
+}
+
+std::uint32_t IslandGroup::solve() {
+    workers_.run([this](std::uint32_t worker) {
+        for (std::size_t i = worker; i < count_; i += workers_.count()) {
+            Member& member = members_[i];
+            member.solved =
+                solvers_[worker].solve(island_of(member), member.system, member.speed).solved;
+        }
+    });
+    return static_cast<std::uint32_t>(
+        std::count_if(members_.begin(), members_.begin() + static_cast<std::ptrdiff_t>(count_),
+                      [](const Member& member) { return !member.solved; }));
+}
+
+void IslandGroup::take_changes(Bodies& bodies) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        const std::uint32_t body = bodies_[i].body;
+        const Vector6d change = velocity_[i] - start_[i];
+        bodies.velocity[body] += change.head<3>();
+        bodies.turn_change[body] = change.tail<3>();
+        bodies.angular_velocity[body] += change.tail<3>();
+    }
+}
+
+void IslandGroup::store_impulses(ContactTable& contacts) const {
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+        const IslandPoint& p = points_[k];
+        ContactMemory& memory = contacts.memory[contacts_[k]];
+        memory.normal_impulse = p.impulse[0];
+        memory.friction_impulse = p.frame.rightCols<2>() * p.impulse.segment<2>(1);
+        memory.turning_impulse = p.length * (p.frame * p.impulse.tail<3>());
+        memory.sticks =
+            p.impulse.segment<2>(1).norm() < (1 - 1e-5) * p.cone.friction * p.impulse[0];
+    }
+}
+
+}  // namespace plumb

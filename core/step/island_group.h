@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+/// The islands that are solved exactly: from the world's tables to the solver's, and back.
+///
+/// Their contacts are taken out of the sweeps. An island is solved exactly where no joint holds its
+/// bodies, it has at most Settings::exact_islands of them, and, unless it is very small, it is
+/// calm: what flies and tumbles needs no exact forces, and they would cost most there.
+#pragma once
+
+#include "schedule/contact_islands.h"
+#include "schedule/workers.h"
+#include "step/island_solver.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+class IslandGroup {
+public:
+    explicit IslandGroup(Workers& workers);
+
+    /// Once a step: takes the pairs of its islands out of `pairs`, and the impulses that their
+    /// contacts remember.
+    void load(const World& world, std::vector<BodyPair>& pairs);
+
+    /// Once a substep of length h [s]: velocities, forces included, and what is asked of them.
+    /// Returns how many contacts overlap deeper than `recovery` [m], the most that is pushed out.
+    std::uint32_t begin(const World& world, double h, double recovery);
+
+    /// Returns how many islands still miss the law of contact.
+    std::uint32_t solve();
+
+    /// Adds what the substep changed to the bodies' velocities.
+    void take_changes(Bodies& bodies) const;
+
+    void store_impulses(ContactTable& contacts) const;
+
+private:
+    struct Member {
+        std::uint32_t first_body, last_body, first_point, last_point;
+        double speed;  // at which its contacts would approach in this substep [m/s]
+        BlockCholesky::Pattern pattern;
+        BlockCholesky system;
+        bool solved;
+    };
+    bool is_exact(const World& world, const ContactIsland& island,
+                  const std::vector<BodyPair>& pairs) const;
+    bool is_calm(const World& world, const ContactIsland& island,
+                 const std::vector<BodyPair>& pairs) const;
+    void mark_jointed(const World& world);
+    void take(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
+    void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
+    double speed_of(const World& world, const Member& member, double h, double recovery);
+    void ask(const World& world, std::size_t point, double h, double recovery, double least);
+    void apply_impulses();
+    Island island_of(const Member& member);
+
+    Workers& workers_;
+    ContactIslands found_;
+    std::vector<std::uint8_t> jointed_;  // [dynamic row]
+    std::vector<std::uint8_t> taken_;    // [pair]
+    BlockCholesky::Pattern pattern_;
+
+    std::vector<Member> members_;  // the first count_ are in use
+    std::size_t count_ = 0;
+    std::vector<IslandBody> bodies_;
+    std::vector<Vector6d> start_, velocity_, force_;  // [body]
+    std::vector<IslandPoint> points_;
+    std::vector<std::uint32_t> contacts_;  // [point] in the contact table
+    std::vector<IslandSolver> solvers_;    // [worker]
+};
+
+}  // namespace plumb

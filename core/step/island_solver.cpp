@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: MIT
+#include "step/island_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+// Shares of the speed at which the island's contacts would approach: what rests approaches by g h.
+
+/// Where the law holds to this, nothing is done: what rests so stays as it is.
+constexpr double kStop = 1e-8;
+
+/// What an island may miss without counting as unsolved.
+constexpr double kSolved = 1e-6;
+
+/// Slip below this is creep: it stays the solution of a convex problem.
+constexpr double kSlack = 1e-4;
+
+/// γ is this share of what the residual is of the strongest push; slow modes of a structure are
+/// missed by as little as their softness, so that γ comes down to theirs from round to round.
+constexpr double kSoftnessShare = 0.3;
+constexpr double kSoftest = 1, kHardest = 1e-6;
+
+/// By which γ grows where Newton's method did not end.
+constexpr double kSofter = 30;
+
+/// A round's minimum is found to this share of the residual before it.
+constexpr double kExact = 0.03;
+
+constexpr int kRounds = 4, kNewtonSteps = 20, kLineSteps = 20;
+
+/// [r]ₓ: what multiplies ω to give r × ω.
+Matrix3d skew(const Vector3d& r) {
+    Matrix3d m;
+    m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
+    return m;
+}
+
+Matrix6d mass_matrix(const IslandBody& b) {
+    Matrix6d m = Matrix6d::Zero();
+    m.diagonal().head<3>().setConstant(b.mass);
+    const Symmetric3<double>& i = b.inertia;
+    m.bottomRightCorner<3, 3>() << i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz;
+    return m;
+}
+
+}  // namespace
+
+IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed) {
+    island_ = island;
+    system_ = &system;
+    slack_ = kSlack * speed;
+    IslandReport report;
+    report.residual = residual();
+    if (report.residual <= kStop * speed) return report;
+
+    sweep_both_ways();
+    report.residual = residual();
+    double share = kSoftnessShare;
+    for (int round = 0; round < kRounds && report.residual > kStop * speed; ++round) {
+        begin_round(softness(share * report.residual));
+        if (minimise(kExact * report.residual, report.factorisations)) {
+            take_impulses();
+        } else {
+            share *= kSofter;
+            sweep_both_ways();
+        }
+        report.residual = residual();
+    }
+    report.solved = report.residual <= kSolved * speed;
+    return report;
+}
+
+/// γ for an error of so much velocity [m/s].
+double IslandSolver::softness(double error) const {
+    double strongest = 0;
+    for (const IslandPoint& p : island_.points)
+        strongest = std::max(strongest, p.impulse[0] / p.mass);
+    return error < strongest * kSoftest ? std::max(kHardest, error / strongest) : kSoftest;
+}
+
+double IslandSolver::residual() const {
+    double worst = 0;
+    for (const IslandPoint& p : island_.points) {
+        const Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
+        const Vector6d off = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
+        worst = std::max(worst, off.cwiseAbs().maxCoeff() / p.mass);
+    }
+    return worst;
+}
+
+/// An impulse more at a point, to the velocities of its bodies.
+void IslandSolver::push(const IslandPoint& p, const Vector6d& impulse) {
+    const Vector3d along = p.frame * impulse.head<3>();
+    Vector3d about = Vector3d::Zero();
+    if (p.cone.turns()) about = p.length * (p.frame * impulse.tail<3>());
+    const auto push_body = [&](std::uint32_t i, const Vector3d& arm, double sign) {
+        if (i == kImmovable) return;
+        Vector6d sum;
+        sum << sign * along, sign * (cross<double>(arm, along) + about);
+        island_.velocity[i] += response(island_.bodies[i], sum);
+    };
+    push_body(p.a, p.arm_a, 1);
+    push_body(p.b, p.arm_b, -1);
+}
+
+void IslandSolver::sweep_both_ways() {
+    sweep(true);
+    sweep(false);
+}
+
+/// One projected Gauss–Seidel sweep: of each point the normal first, then the rest within its
+/// bounds.
+void IslandSolver::sweep(bool forwards) {
+    const std::size_t n = island_.points.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        IslandPoint& p = island_.points[forwards ? k : n - 1 - k];
+        Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
+        Vector6d more = Vector6d::Zero();
+        more[0] = std::max(-p.impulse[0], p.mass_normal * lack[0]);
+        p.impulse[0] += more[0];
+        push(p, more);
+        lack = p.wanted - velocity_of(p, island_.velocity);
+        lack[0] = 0;
+        more = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
+        p.impulse += more;
+        push(p, more);
+    }
+}
+
+void IslandSolver::begin_round(double softness) {
+    change_.assign(island_.bodies.size(), Vector6d::Zero());
+    work_.resize(island_.points.size());
+    for (std::size_t k = 0; k < work_.size(); ++k) {
+        const IslandPoint& p = island_.points[k];
+        PointWork& w = work_[k];
+        w.stiffness = p.mass / softness;
+        Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
+        lack[0] -= slip_shift(p.impulse, lack, slack_, p.cone);
+        w.z = p.impulse + w.stiffness * lack;
+    }
+}
+
+/// Newton's method, until no body's momentum is off by more than `enough` of velocity [m/s].
+bool IslandSolver::minimise(double enough, std::uint32_t& factorisations) {
+    for (int i = 0; i < kNewtonSteps; ++i) {
+        const double off = find_downhill();
+        if (off <= enough) return true;
+        assemble();
+        ++factorisations;
+        if (!system_->factor()) return false;
+        direction_ = downhill_;
+        system_->solve(direction_);
+        double decrease = 0;
+        for (std::size_t b = 0; b < direction_.size(); ++b)
+            decrease += direction_[b].dot(downhill_[b]);
+        if (!(decrease > 0)) return true;
+        for (std::size_t k = 0; k < work_.size(); ++k)
+            work_[k].direction = velocity_of(island_.points[k], direction_);
+        const double step = step_length(decrease);
+        for (std::size_t b = 0; b < direction_.size(); ++b) change_[b] += step * direction_[b];
+        for (PointWork& w : work_) w.z -= (step * w.stiffness) * w.direction;
+    }
+    return false;
+}
+
+/// The force that leads downhill, into downhill_; returns the fastest velocity that it would make.
+double IslandSolver::find_downhill() {
+    downhill_.resize(island_.bodies.size());
+    for (std::size_t b = 0; b < downhill_.size(); ++b)
+        downhill_[b] = -momentum(island_.bodies[b], change_[b]);
+    for (std::size_t k = 0; k < work_.size(); ++k) {
+        const IslandPoint& p = island_.points[k];
+        add_impulse(p, nearest_on_cone(work_[k].z, p.cone).impulse - p.impulse, downhill_);
+    }
+    double off = 0;
+    for (std::size_t b = 0; b < downhill_.size(); ++b)
+        off = std::max(off,
+                       response(island_.bodies[b], downhill_[b]).head<3>().cwiseAbs().maxCoeff());
+    return off;
+}
+
+/// Second derivatives, block by block: M, and of each point [E, −[r]ₓ]ᵀ K [E, −[r]ₓ].
+void IslandSolver::assemble() {
+    system_->clear();
+    for (std::size_t b = 0; b < island_.bodies.size(); ++b)
+        system_->add(static_cast<std::uint32_t>(b), mass_matrix(island_.bodies[b]));
+    for (std::size_t k = 0; k < work_.size(); ++k) {
+        const IslandPoint& p = island_.points[k];
+        const PointWork& w = work_[k];
+        const ConePoint at = nearest_on_cone(w.z, p.cone);
+        if (!at.pushes) continue;
+        // K in the world's frame: of forces to velocities, and between those and torques
+        Matrix3d along = w.stiffness * Matrix3d::Identity(), mixed = Matrix3d::Zero(),
+                 about = mixed;
+        if (!at.inside()) {
+            const Matrix6d d = w.stiffness * cone_derivative(w.z, at, p.cone);
+            along = p.frame * d.topLeftCorner<3, 3>() * p.frame.transpose();
+            if (p.cone.turns()) {
+                mixed = p.length * p.frame * d.topRightCorner<3, 3>() * p.frame.transpose();
+                about = p.length * p.length * p.frame * d.bottomRightCorner<3, 3>() *
+                        p.frame.transpose();
+            }
+        } else if (p.cone.turns()) {
+            about = w.stiffness * p.length * p.length * Matrix3d::Identity();
+        }
+        const Matrix3d ra = skew(p.arm_a), rb = skew(p.arm_b);
+        const auto block = [&](const Matrix3d& left, const Matrix3d& right, double sign) {
+            const Matrix3d upper = mixed - along * right, lower = mixed.transpose() + left * along;
+            Matrix6d m;
+            m << sign * along, sign * upper, sign * lower,
+                sign * (about + left * upper - mixed.transpose() * right);
+            return m;
+        };
+        if (p.a != kImmovable) system_->add(p.a, block(ra, ra, 1));
+        if (p.b != kImmovable) system_->add(p.b, block(rb, rb, 1));
+        if (p.a != kImmovable && p.b != kImmovable) system_->add(p.a, p.b, block(ra, rb, -1));
+    }
+}
+
+/// Derivative of what is minimised along the direction; rises with the step.
+double IslandSolver::slope(double step) const {
+    double sum = 0;
+    for (std::size_t b = 0; b < direction_.size(); ++b)
+        sum += direction_[b].dot(momentum(island_.bodies[b], change_[b] + step * direction_[b]));
+    for (std::size_t k = 0; k < work_.size(); ++k) {
+        const PointWork& w = work_[k];
+        const IslandPoint& p = island_.points[k];
+        const Vector6d z = w.z - (step * w.stiffness) * w.direction;
+        sum -= (nearest_on_cone(z, p.cone).impulse - p.impulse).dot(w.direction);
+    }
+    return sum;
+}
+
+/// The step at which the slope is about 0: 1, or less.
+double IslandSolver::step_length(double decrease) const {
+    const double enough = 0.1 * decrease;
+    double low = 0, high = 1, at_low = -decrease, at_high = slope(1);
+    if (at_high <= enough) return 1;
+    double step = 1;
+    for (int i = 0; i < kLineSteps; ++i) {
+        const double guess = low - at_low * (high - low) / (at_high - at_low);
+        const double inset = 0.05 * (high - low);
+        step = std::clamp(guess, low + inset, high - inset);
+        const double s = slope(step);
+        if (std::abs(s) <= enough) break;
+        if (s > 0)
+            high = step, at_high = s;
+        else
+            low = step, at_low = s;
+    }
+    return step;
+}
+
+/// The impulses of the minimum, and the velocities that they make: momentum is kept to rounding.
+void IslandSolver::take_impulses() {
+    for (std::size_t k = 0; k < work_.size(); ++k) {
+        IslandPoint& p = island_.points[k];
+        const Vector6d more = nearest_on_cone(work_[k].z, p.cone).impulse - p.impulse;
+        p.impulse += more;
+        push(p, more);
+    }
+}
+
+}  // namespace plumb
