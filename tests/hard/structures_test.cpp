@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: MIT
+/// Structures of loose boxes come to rest within 3 s and stay: no body moves at more than 0.1 mm/s
+/// or by 0.1 mm, and the contacts carry what statics says, to 1 %.
+#include "support/structures.h"
+#include "support/scenes.h"
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+
+namespace plumb::test {
+namespace {
+
+constexpr double kGravity = 9.81;
+
+/// Fastest motion of any point of a body [m/s].
+double fastest(const World& world) {
+    const Bodies& b = world.bodies;
+    double most = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (b.motion[i] == Motion::dynamic)
+            most = std::max(most, b.velocity[i].norm() + b.angular_velocity[i].norm() * b.reach[i]);
+    return most;
+}
+
+/// Force on each body by its contacts in the last substep [N].
+std::vector<Vector> contact_forces(const World& world) {
+    const double h = world.settings.dt / world.settings.substeps;
+    std::vector<Vector> force(world.bodies.size(), Vector::Zero());
+    const ContactTable& c = world.contacts;
+    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
+        const Vector push =
+            (c.memory_before[i].normal_impulse * to_eigen(c.found_before[i].normal) +
+             c.memory_before[i].friction_impulse) /
+            h;
+        force[c.found_before[i].a] += push;
+        force[c.found_before[i].b] -= push;
+    }
+    return force;
+}
+
+/// What crosses a level upwards [N]: the contacts between bodies whose centres lie on either side.
+double carried_at(const World& world, double level) {
+    const double h = world.settings.dt / world.settings.substeps;
+    const ContactTable& c = world.contacts;
+    double sum = 0;
+    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
+        const Contact& contact = c.found_before[i];
+        const auto above = [&](std::uint32_t body) {
+            return world.bodies.motion[body] == Motion::dynamic &&
+                   world.bodies.position[body].y() > level;
+        };
+        if (above(contact.a) == above(contact.b)) continue;
+        const double push = c.memory_before[i].normal_impulse * contact.normal.y +
+                            c.memory_before[i].friction_impulse.y();
+        sum += (above(contact.a) ? push : -push) / h;
+    }
+    return sum;
+}
+
+/// Across every level between two bodies, contacts carry the weight above it; and every body's
+/// contacts carry that body.
+void expect_statics(const World& world) {
+    const Bodies& b = world.bodies;
+    std::vector<double> heights{0};
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        if (b.motion[i] != Motion::dynamic) continue;
+        heights.push_back(b.position[i].y());
+    }
+    std::sort(heights.begin(), heights.end());
+    for (std::size_t k = 1; k < heights.size(); ++k) {
+        if (heights[k] - heights[k - 1] < 1e-3) continue;
+        const double level = 0.5 * (heights[k] + heights[k - 1]);
+        double weight = 0;
+        for (std::size_t i = 0; i < b.size(); ++i)
+            if (b.motion[i] == Motion::dynamic && b.position[i].y() > level)
+                weight += b.mass[i] * kGravity;
+        EXPECT_NEAR(carried_at(world, level), weight, 0.01 * weight) << "at " << level << " m";
+    }
+    const std::vector<Vector> force = contact_forces(world);
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (b.motion[i] == Motion::dynamic)
+            EXPECT_LT((force[i] - Vector(0, b.mass[i] * kGravity, 0)).norm(),
+                      0.01 * b.mass[i] * kGravity)
+                << "body " << i;
+}
+
+struct Run {
+    double fastest = 0, farthest = 0;  ///< after 3 s [m/s], [m]
+};
+
+/// Runs on after 3 s, and says how far anything moved since.
+Run run_to_rest(Simulation& simulation, double seconds) {
+    run_for(simulation, 3);
+    const std::vector<Vector> start = simulation.world().bodies.position;
+    Run run;
+    while (simulation.time() < seconds - 1e-9) {
+        simulation.step();
+        run.fastest = std::max(run.fastest, fastest(simulation.world()));
+        for (std::size_t i = 0; i < start.size(); ++i)
+            run.farthest =
+                std::max(run.farthest, (simulation.world().bodies.position[i] - start[i]).norm());
+    }
+    return run;
+}
+
+void expect_rests(const Scene& empty, const std::string& collider, const Structure& structure,
+                  double seconds, const std::string& name) {
+    SCOPED_TRACE(name);
+    Scene s = empty;
+    add_ground(s);
+    add_structure(s, structure);
+    Simulation simulation(s, colliders(), collider);
+    const Run run = run_to_rest(simulation, seconds);
+    EXPECT_LT(run.fastest, 1e-4);
+    EXPECT_LT(run.farthest, 1e-4);
+    expect_statics(simulation.world());
+}
+
+const std::map<std::string, Structure>& small_structures() {
+    static const std::map<std::string, Structure> all = [] {
+        std::map<std::string, Structure> m;
+        for (int n : {2, 3, 4, 6, 10, 20})
+            m["tower of " + std::to_string(n) + " cubes"] = tower(n, {0.5, 0.5, 0.5});
+        m["tower of 12 small cubes"] = tower(12, {0.05, 0.05, 0.05});
+        m["tower of 20 slabs"] = tower(20, {0.5, 0.1, 0.5});
+        m["tower of 8 beams"] = tower(8, {1, 0.1, 0.2});
+        m["tower of 12 mixed boxes"] = mixed_tower(12, 5);
+        m["tower of 20 mixed boxes"] = mixed_tower(20, 9);
+        m["pyramid of 2 rows"] = pyramid(2, {0.5, 0.5, 0.5}, 0.04);
+        m["pyramid of 5 touching rows"] = pyramid(5, {0.3, 0.2, 0.3}, 0);
+        m["table"] = table();
+        m["gate"] = gate(1);
+        m["gates of two storeys"] = gate(2);
+        m["gates of six storeys"] = gate(6);
+        return m;
+    }();
+    return all;
+}
+const std::map<std::string, Structure>& large_structures() {
+    static const std::map<std::string, Structure> all{
+        {"pyramid of 8 rows", pyramid(8, {0.5, 0.5, 0.5}, 0.04)},
+        {"pyramid of 12 rows", pyramid(12, {0.2, 0.1, 0.2}, 0.01)},
+        {"wall of 44 bricks", wall(6, 7, {0.2, 0.1, 0.1}, 0.002)},
+        {"wall of 142 bricks", wall(13, 10, {0.2, 0.1, 0.1}, 0)},
+    };
+    return all;
+}
+
+class Structures : public OnEveryCollider {};
+INSTANTIATE_TEST_SUITE_P(, Structures, every_collider(), where_name);
+
+TEST_P(Structures, RestAtDefaultSettings) {
+    for (const auto& [name, structure] : small_structures()) {
+        expect_rests(scene(), collider(), structure, 60, name);
+        expect_rests(scene(), collider(), unevenly(structure, 1e-3, 3), 60, name + ", 1 mm off");
+    }
+}
+
+TEST_P(Structures, LargeOnesRestAtDefaultSettings) {
+    for (const auto& [name, structure] : large_structures()) {
+        expect_rests(scene(), collider(), structure, 12, name);
+        expect_rests(scene(), collider(), unevenly(structure, 1e-3, 4), 12, name + ", 1 mm off");
+    }
+}
+
+TEST_P(Structures, CratesThatFallRest) {
+    expect_rests(scene(), collider(), crates(), 60, "crates");
+}
+
+/// Steps, substeps, iterations, friction and unevenness drawn at random.
+TEST_P(Structures, RestAtDrawnSettings) {
+    unsigned seed = 0;
+    for (const auto& [name, structure] : small_structures()) {
+        Random random(++seed * 7 + 1);
+        Scene s = scene();
+        s.settings.dt = random.number(0.002, 0.02);
+        s.settings.substeps = 1 + random.below(6);
+        s.settings.velocity_iterations = 3 + random.below(20);
+        s.settings.position_iterations = 3 + random.below(20);
+        s.materials[0].friction = random.number(0.3, 1);
+        s.materials[0].restitution = random.below(2) ? random.number(0, 0.8) : 0;
+        std::ostringstream drawn;
+        drawn << name << ", " << s.settings.dt << " s, " << s.settings.substeps << " x ("
+              << s.settings.velocity_iterations << " + " << s.settings.position_iterations
+              << "), friction " << s.materials[0].friction << ", restitution "
+              << s.materials[0].restitution;
+        expect_rests(s, collider(), unevenly(structure, random.number(0, 2e-3), seed), 12,
+                     drawn.str());
+    }
+}
+
+/// Of two posts, each carries half of what is above it, by symmetry.
+TEST_P(Structures, PostsOfAGateShareItsWeight) {
+    Scene s = scene();
+    add_ground(s);
+    add_structure(s, gate(2));
+    Simulation simulation(s, colliders(), collider());
+    run_for(simulation, 5);
+    const World& world = simulation.world();
+    const double h = world.settings.dt;
+    double whole = 0;
+    for (double mass : world.bodies.mass) whole += mass * kGravity;
+    std::vector<double> ground(world.bodies.size(), 0);
+    const ContactTable& c = world.contacts;
+    for (std::size_t i = 0; i < c.found_before.size(); ++i)
+        if (c.found_before[i].a == 0)
+            ground[c.found_before[i].b] += c.memory_before[i].normal_impulse / h;
+    EXPECT_NEAR(ground[1], 0.5 * whole, 0.01 * whole);
+    EXPECT_NEAR(ground[2], 0.5 * whole, 0.01 * whole);
+}
+
+}  // namespace
+}  // namespace plumb::test

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "schedule/contact_islands.h"
+#include "support/random.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace plumb {
+namespace {
+
+using test::Random;
+constexpr std::int32_t kDynamic = 60;
+
+/// The least row of each row's island, by spreading it along the pairs until nothing changes.
+std::vector<std::int32_t> least_rows(const std::vector<BodyPair>& pairs) {
+    std::vector<std::int32_t> least(kDynamic);
+    std::iota(least.begin(), least.end(), 0);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const BodyPair& p : pairs) {
+            if (p.row_a >= kDynamic || p.row_b >= kDynamic) continue;
+            const std::int32_t to = std::min(least[p.row_a], least[p.row_b]);
+            changed |= least[p.row_a] != to || least[p.row_b] != to;
+            least[p.row_a] = least[p.row_b] = to;
+        }
+    }
+    return least;
+}
+
+TEST(ContactIslands, AreWhatHangsTogetherThroughDynamicBodies) {
+    for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+        Random random(seed);
+        std::vector<BodyPair> pairs;
+        for (std::uint32_t i = 0; i < 2 * seed; ++i) {
+            const auto a = static_cast<std::int32_t>(random.below(kDynamic + 5));
+            const auto b = static_cast<std::int32_t>(random.below(kDynamic + 5));
+            if (a != b) pairs.push_back({a, b, i, 1});
+        }
+        ContactIslands islands;
+        islands.find(pairs, kDynamic);
+
+        const std::vector<std::int32_t> least = least_rows(pairs);
+        std::map<std::int32_t, std::size_t> bodies, of_pairs;
+        std::vector<bool> touches(kDynamic, false);
+        for (const BodyPair& p : pairs) {
+            for (std::int32_t row : {p.row_a, p.row_b})
+                if (row < kDynamic) touches[row] = true;
+            const std::int32_t row = p.row_a < kDynamic ? p.row_a : p.row_b;
+            if (row < kDynamic) ++of_pairs[least[row]];
+        }
+        for (std::int32_t row = 0; row < kDynamic; ++row)
+            if (touches[row]) ++bodies[least[row]];
+
+        ASSERT_EQ(islands.islands().size(), bodies.size());
+        std::int32_t before = -1;
+        for (const ContactIsland& island : islands.islands()) {
+            const std::int32_t first = islands.bodies()[island.first_body];
+            EXPECT_GT(first, before) << "islands stand in the order of their first body";
+            before = first;
+            EXPECT_EQ(least[first], first);
+            EXPECT_EQ(island.last_body - island.first_body, bodies[first]);
+            EXPECT_EQ(island.last_pair - island.first_pair, of_pairs[first]);
+            for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+                EXPECT_EQ(least[islands.bodies()[i]], first);
+                EXPECT_EQ(islands.index_in_island(islands.bodies()[i]), i - island.first_body);
+            }
+            for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+                const BodyPair& p = pairs[islands.pairs()[i]];
+                EXPECT_EQ(least[p.row_a < kDynamic ? p.row_a : p.row_b], first);
+            }
+        }
+    }
+}
+
+}  // namespace
+}  // namespace plumb
