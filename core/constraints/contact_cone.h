@@ -6,7 +6,10 @@
 ///   p q r    torque about the same axes over a length ℓ [N s], so that all six have one unit
 ///   μ        coefficient of friction
 ///   σ ρ      levers of spinning and of rolling friction over ℓ
-///   the cone |(x, y)| ≤ μ n,  |p| ≤ σ n,  |(q, r)| ≤ ρ n
+///   the cone |(x, y)| ≤ μ n,  |p| ≤ σ n,  |(q, r)| ≤ ρ n,  0 ≤ n ≤ N
+///   N        more than any contact that can be satisfied bears: what cannot be, such as a body in
+///   a
+///            gap that is too narrow, is pushed no harder [N s]
 ///
 /// The law of contact, for velocities u (those about the axes times ℓ) that shall be w and any mass
 /// m > 0, is: λ = nearest point of the cone to λ + m (w̃ − u), where w̃ is w less μ |u_xy − w_xy| and
@@ -23,6 +26,7 @@ namespace plumb {
 
 struct ContactCone {
     double friction, spinning, rolling;  ///< μ, σ, ρ
+    double most;                         ///< N
 
     bool turns() const { return spinning > 0 || rolling > 0; }
 };
@@ -31,8 +35,9 @@ struct ContactCone {
 struct ConePoint {
     Vector6d impulse;
     bool pushes, slides, spins, rolls;
+    bool strained;  ///< n = N
 
-    bool inside() const { return pushes && !slides && !spins && !rolls; }
+    bool inside() const { return pushes && !slides && !spins && !rolls && !strained; }
 };
 
 namespace cone {
@@ -63,9 +68,14 @@ inline ConePoint nearest_on_cone(const Vector6d& z, const ContactCone& c) {
         }
         if (same) break;
         n = sum / weight;
-        if (!(n > 0)) return {Vector6d::Zero(), false, false, false, false};
+        if (!(n > 0)) return {Vector6d::Zero(), false, false, false, false, false};
     }
-    ConePoint point{z, true, at_bound[0], at_bound[1], at_bound[2]};
+    const bool strained = n > c.most;
+    if (strained) {
+        n = c.most;
+        for (int i = 0; i < 3; ++i) at_bound[i] = length[i] > lever[i] * n;
+    }
+    ConePoint point{z, true, at_bound[0], at_bound[1], at_bound[2], strained};
     point.impulse[0] = n;
     if (at_bound[0]) point.impulse.segment<2>(1) *= lever[0] * n / length[0];
     if (at_bound[1]) point.impulse[3] *= lever[1] * n / length[1];
@@ -99,6 +109,7 @@ inline Matrix6d cone_derivative(const Vector6d& z, const ConePoint& at, const Co
         ray[3] = c.spinning * (z[3] < 0 ? -1 : 1);
     else
         d(3, 3) = 1;
+    if (at.strained) return d;
     return d + ray * ray.transpose() / ray.squaredNorm();
 }
 
@@ -108,7 +119,7 @@ inline Matrix6d cone_derivative(const Vector6d& z, const ConePoint& at, const Co
 inline Vector6d lawful_step(const Vector6d& impulse, const Vector6d& lack, double mass,
                             const ContactCone& c) {
     Vector6d z = impulse + mass * lack;
-    z[0] = std::max(0.0, z[0]);
+    z[0] = std::clamp(z[0], 0.0, c.most);
     const std::array<double, 3> length = cone::lengths(z);
     const auto share = [&](double lever, double size) {
         const double most = lever * z[0];

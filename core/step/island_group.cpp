@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 namespace {
@@ -24,6 +25,14 @@ constexpr double kCalm = 0.25;
 /// Share of the island's speed below which a velocity is asked for as 0, so that what is at rest
 /// stays there to the last bit: gaps below 10⁻⁵ g h², a billionth of a metre at 10 ms.
 constexpr double kStill = 1e-5;
+
+/// A contact of an island bears at most this many times the momentum of the whole island at its
+/// speed: arches and wedges thrust by more than they weigh, but not by so much.
+constexpr double kStrongest = 100;
+
+/// Overlaps deeper than this share of the radius of a body are pushed out by sweeps: where normals
+/// contradict each other there is nothing to be exact about.
+constexpr double kDeep = 0.02;
 
 InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t i) {
     return {b.inverse_mass[i], b.world_inverse_inertia[i]};
@@ -82,10 +91,25 @@ void IslandGroup::mark_jointed(const World& world) {
 bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
                            const std::vector<BodyPair>& pairs) const {
     const std::uint32_t n = island.last_body - island.first_body;
-    if (n > world.settings.exact_islands) return false;
+    if (n < 2 || n > world.settings.exact_islands) return false;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
         if (jointed_[found_.bodies()[i]]) return false;
-    return n <= kVerySmall || is_calm(world, island, pairs);
+    return !is_deep(world, island, pairs) && (n <= kVerySmall || is_calm(world, island, pairs));
+}
+
+bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
+                          const std::vector<BodyPair>& pairs) const {
+    const Bodies& b = world.bodies;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[found_.pairs()[i]];
+        const Contact& first = world.contacts.found[pair.first];
+        double radius = std::numeric_limits<double>::infinity();
+        for (const std::uint32_t body : {first.a, first.b})
+            if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.reach[body]);
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
+            if (-world.contacts.found[k].gap > kDeep * radius) return true;
+    }
+    return false;
 }
 
 bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
@@ -166,7 +190,7 @@ void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint
     p.mass_normal = 1 / (response(of_a, p.arm_a, n, n) + response(of_b, p.arm_b, n, n));
     p.length = std::sqrt(1 / (largest(of_a.inertia + of_b.inertia) * p.mass));
     p.cone = {surface.friction, surface.spinning_friction / p.length,
-              surface.rolling_friction / p.length};
+              surface.rolling_friction / p.length, 0};
     p.impulse.setZero();
     if (!memory.matched || !world.settings.warm_start) return;
     p.impulse.head<3>() = p.frame.transpose() * memory.friction_impulse;
@@ -187,7 +211,11 @@ std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) 
     for (std::size_t i = 0; i < count_; ++i) {
         Member& member = members_[i];
         member.speed = speed_of(world, member, h, recovery);
+        double mass = 0;
+        for (std::uint32_t k = member.first_body; k < member.last_body; ++k)
+            mass += bodies_[k].mass;
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
+            points_[k].cone.most = kStrongest * mass * member.speed;
             ask(world, k, h, recovery, kStill * member.speed);
             clamped += -world.contacts.gap[contacts_[k]] > recovery;
         }

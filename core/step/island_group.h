@@ -2,8 +2,9 @@
 /// The islands that are solved exactly: from the world's tables to the solver's, and back.
 ///
 /// Their contacts are taken out of the sweeps. An island is solved exactly where no joint holds its
-/// bodies, it has at most Settings::exact_islands of them, and, unless it is very small, it is
-/// calm: what flies and tumbles needs no exact forces, and they would cost most there.
+/// bodies, it has two of them to Settings::exact_islands, and, unless it is very small, it is calm:
+/// what flies and tumbles needs no exact forces, and they would cost most there. Sweeps are enough
+/// for a body that touches nothing but what is immovable.
 #pragma once
 
 #include "schedule/contact_islands.h"
@@ -45,6 +46,8 @@ private:
     };
     bool is_exact(const World& world, const ContactIsland& island,
                   const std::vector<BodyPair>& pairs) const;
+    bool is_deep(const World& world, const ContactIsland& island,
+                 const std::vector<BodyPair>& pairs) const;
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
     void mark_jointed(const World& world);

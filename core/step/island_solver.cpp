@@ -119,7 +119,7 @@ void IslandSolver::sweep(bool forwards) {
         IslandPoint& p = island_.points[forwards ? k : n - 1 - k];
         Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
         Vector6d more = Vector6d::Zero();
-        more[0] = std::max(-p.impulse[0], p.mass_normal * lack[0]);
+        more[0] = std::clamp(p.mass_normal * lack[0], -p.impulse[0], p.cone.most - p.impulse[0]);
         p.impulse[0] += more[0];
         push(p, more);
         lack = p.wanted - velocity_of(p, island_.velocity);

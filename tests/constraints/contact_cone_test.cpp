@@ -20,7 +20,7 @@ ContactCone random_cone(Random& random) {
     const auto lever = [&](double most) {
         return random.below(4) == 0 ? 0 : random.number(0, most);
     };
-    return {lever(2), lever(1), lever(1)};
+    return {lever(2), lever(1), lever(1), random.below(2) ? 0.7 : 1e3};
 }
 /// Any point of the cone.
 Vector6d random_point(Random& random, const ContactCone& c) {
@@ -29,7 +29,7 @@ Vector6d random_point(Random& random, const ContactCone& c) {
 bool holds(const Vector6d& z, const ContactCone& c) {
     const std::array<double, 3> length = cone::lengths(z);
     const double slack = 1e-12;
-    return z[0] >= 0 && length[0] <= c.friction * z[0] + slack &&
+    return z[0] >= 0 && z[0] <= c.most && length[0] <= c.friction * z[0] + slack &&
            length[1] <= c.spinning * z[0] + slack && length[2] <= c.rolling * z[0] + slack;
 }
 
@@ -70,7 +70,7 @@ TEST(ContactCone, HasTheDerivativeOfItsNearestPoint) {
             const ConePoint up = nearest_on_cone(z + d, c), down = nearest_on_cone(z - d, c);
             for (const ConePoint& p : {up, down})
                 smooth &= p.pushes == at.pushes && p.slides == at.slides && p.spins == at.spins &&
-                          p.rolls == at.rolls;
+                          p.rolls == at.rolls && p.strained == at.strained;
             expected.col(k) = (up.impulse - down.impulse) / (2 * step);
         }
         if (!smooth) continue;
@@ -81,7 +81,7 @@ TEST(ContactCone, HasTheDerivativeOfItsNearestPoint) {
 }
 
 TEST(ContactCone, TheLawHoldsWhereAndOnlyWhereItShould) {
-    const ContactCone c{0.5, 0, 0};
+    const ContactCone c{0.5, 0, 0, 1e3};
     const auto change = [&](const Vector6d& impulse, const Vector6d& lack) {
         return (lawful_step(impulse, lack, 2, c) - impulse).norm();
     };
@@ -100,7 +100,7 @@ TEST(ContactCone, TheLawHoldsWhereAndOnlyWhereItShould) {
 }
 
 TEST(ContactCone, SlipBeyondTheSlackLiftsByFriction) {
-    const ContactCone c{0.5, 0, 0};
+    const ContactCone c{0.5, 0, 0, 1e3};
     Vector6d slides, slip = Vector6d::Zero();
     slides << 1, 0.5, 0, 0, 0, 0;
     slip[1] = 3;
