@@ -21,7 +21,7 @@ constexpr double kSlack = 1e-4;
 /// γ is this share of what the residual is of the strongest push; slow modes of a structure are
 /// missed by as little as their softness, so that γ comes down to theirs from round to round.
 constexpr double kSoftnessShare = 0.3;
-constexpr double kSoftest = 1, kHardest = 1e-6;
+constexpr double kSoftest = 1, kHard = 1e-6, kHardest = 1e-11;
 
 /// By which γ grows where Newton's method did not end.
 constexpr double kSofter = 30;
@@ -73,12 +73,18 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     return report;
 }
 
-/// γ for an error of so much velocity [m/s].
+/// γ for an error of so much velocity [m/s]. What a heavy body does to light ones is a mode as slow as
+/// their masses are apart.
 double IslandSolver::softness(double error) const {
-    double strongest = 0;
+    double strongest = 0, lightest = island_.bodies[0].mass, heaviest = lightest;
     for (const IslandPoint& p : island_.points)
         strongest = std::max(strongest, p.impulse[0] / p.mass);
-    return error < strongest * kSoftest ? std::max(kHardest, error / strongest) : kSoftest;
+    for (const IslandBody& b : island_.bodies) {
+        lightest = std::min(lightest, b.mass);
+        heaviest = std::max(heaviest, b.mass);
+    }
+    const double hardest = std::max(kHardest, kHard * lightest / heaviest);
+    return error < strongest * kSoftest ? std::max(hardest, error / strongest) : kSoftest;
 }
 
 double IslandSolver::residual() const {

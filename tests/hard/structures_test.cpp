@@ -2,6 +2,7 @@
 /// Structures of loose boxes come to rest within 3 s and stay: no body moves at more than 0.1 mm/s
 /// or by 0.1 mm, and the contacts carry what statics says, to 1 %.
 #include "support/structures.h"
+#include "support/growth.h"
 #include "support/scenes.h"
 
 #include <algorithm>
@@ -78,22 +79,22 @@ void expect_statics(const World& world) {
         EXPECT_NEAR(carried_at(world, level), weight, 0.01 * weight) << "at " << level << " m";
     }
     const std::vector<Vector> force = contact_forces(world);
-    for (std::size_t i = 0; i < b.size(); ++i)
-        if (b.motion[i] == Motion::dynamic)
-            EXPECT_LT((force[i] - Vector(0, b.mass[i] * kGravity, 0)).norm(),
-                      0.01 * b.mass[i] * kGravity)
-                << "body " << i;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        if (b.motion[i] != Motion::dynamic) continue;
+        const double weight = b.mass[i] * kGravity;
+        EXPECT_LT((force[i] - Vector(0, weight, 0)).norm(), 0.01 * weight) << "body " << i;
+    }
 }
 
-struct Run {
+struct Motions {
     double fastest = 0, farthest = 0;  ///< after 3 s [m/s], [m]
 };
 
 /// Runs on after 3 s, and says how far anything moved since.
-Run run_to_rest(Simulation& simulation, double seconds) {
+Motions run_to_rest(Simulation& simulation, double seconds) {
     run_for(simulation, 3);
     const std::vector<Vector> start = simulation.world().bodies.position;
-    Run run;
+    Motions run;
     while (simulation.time() < seconds - 1e-9) {
         simulation.step();
         run.fastest = std::max(run.fastest, fastest(simulation.world()));
@@ -111,7 +112,7 @@ void expect_rests(const Scene& empty, const std::string& collider, const Structu
     add_ground(s);
     add_structure(s, structure);
     Simulation simulation(s, colliders(), collider);
-    const Run run = run_to_rest(simulation, seconds);
+    const Motions run = run_to_rest(simulation, seconds);
     EXPECT_LT(run.fastest, 1e-4);
     EXPECT_LT(run.farthest, 1e-4);
     expect_statics(simulation.world());
@@ -188,6 +189,80 @@ TEST_P(Structures, RestAtDrawnSettings) {
         expect_rests(s, collider(), unevenly(structure, random.number(0, 2e-3), seed), 12,
                      drawn.str());
     }
+}
+
+/// Twenty cubes, the topmost a thousand times heavier, at default settings and without shock
+/// propagation: a straight tower and one laid unevenly.
+TEST_P(Structures, ATowerCarriesATopAThousandTimesHeavier) {
+    for (double off : {0.0, 1e-3}) {
+        Scene s = scene();
+        add_ground(s);
+        add_structure(s, unevenly(tower(20, {0.5, 0.5, 0.5}), off, 3));
+        s.bodies.back().mass = 1e6;
+        Simulation simulation(s, colliders(), collider());
+        const Motions run = run_to_rest(simulation, 20);
+        EXPECT_LT(run.fastest, 1e-4);
+        EXPECT_LT(run.farthest, 1e-4);
+        expect_statics(simulation.world());
+    }
+}
+
+/// Two stacks meet in free space, and keep their momentum.
+TEST_P(Structures, IslandsKeepMomentum) {
+    Scene s = scene();
+    s.settings.gravity.setZero();
+    s.materials[0].restitution = 0.3;
+    add_structure(s, unevenly(tower(3, {0.2, 0.2, 0.2}), 0.05, 5));
+    add_structure(s, unevenly(tower(3, {0.2, 0.2, 0.2}), 0.05, 6));
+    for (int i = 3; i < 6; ++i) {
+        s.bodies[i].placement.position += Vector(0.9, 0.1, 0.05);
+        s.bodies[i].velocity = {-2, 0, 0.1};
+    }
+    Simulation simulation(s, colliders(), collider());
+    const Vector linear = linear_momentum(simulation.world()),
+                 angular = angular_momentum(simulation.world());
+    run_for(simulation, 1);
+    // arms are those of the start of the step, so that the moment of what moves is kept to its
+    // motion
+    const double rounding = s.settings.precision == Precision::single ? 1e-6 : 1e-9;
+    EXPECT_LT((linear_momentum(simulation.world()) - linear).norm(), rounding * linear.norm());
+    EXPECT_LT((angular_momentum(simulation.world()) - angular).norm(), 1e-5 * angular.norm());
+}
+
+/// A cube on a slope at 0.95 of its friction, an hour.
+TEST_P(Structures, ACubeOnASteepSlopeStaysForAnHour) {
+    Scene s = scene();
+    s.materials[0].friction = 0.5;
+    const double angle = std::atan(0.95 * 0.5);
+    const Rotation turn(Eigen::AngleAxisd(angle, Vector::UnitZ()));
+    add_ground(s).placement.rotation = turn;
+    BodySpec& cube = add_body(s, box(0.2, 0.2, 0.2), turn * Vector(0, 0.2, 0));
+    cube.placement.rotation = turn;
+    Simulation simulation(s, colliders(), collider());
+    run_for(simulation, 3);
+    const Vector start = simulation.world().bodies.position[1];
+    run_for(simulation, 3600);
+    EXPECT_LT((simulation.world().bodies.position[1] - start).norm(), 1e-3);
+}
+
+/// No disturbance of what rests grows in a step: at any iterations, substeps and step (tower of
+/// two, three and six cubes, and a table).
+TEST_P(Structures, NoDisturbanceGrows) {
+    const std::map<std::string, Structure> structures{{"2 cubes", tower(2, {0.5, 0.5, 0.5})},
+                                                      {"3 cubes", tower(3, {0.5, 0.5, 0.5})},
+                                                      {"6 cubes", tower(6, {0.5, 0.5, 0.5})},
+                                                      {"table", table()}};
+    for (const auto& [name, structure] : structures)
+        for (double dt : {0.001, 0.006, 0.02})
+            for (std::uint32_t substeps : {1u, 5u, 40u})
+                for (std::uint32_t iterations : {1u, 50u}) {
+                    if (substeps == 40 && iterations == 50) continue;  // as with 1, and slow
+                    Settings settings = scene().settings;
+                    settings.dt = dt, settings.substeps = substeps;
+                    settings.velocity_iterations = settings.position_iterations = iterations;
+                    EXPECT_LE(growth(structure, settings, colliders(), collider(), 15, 10), 1 + 1e-3)
+                        << name << ", " << dt << " s, " << substeps << " x " << iterations;
+                }
 }
 
 /// Of two posts, each carries half of what is above it, by symmetry.

@@ -36,8 +36,7 @@ inline Eigen::VectorXd difference(const World& now, const World& reference, doub
     for (std::size_t i = 1; i < b.size(); ++i) {
         const Eigen::Quaterniond turn = b.orientation[i] * r.orientation[i].conjugate();
         const Eigen::Vector3d angle = (turn.w() < 0 ? -2 : 2) * turn.vec();
-        d.segment<12>(12 * (static_cast<Eigen::Index>(i) - 1))
-            << b.position[i] - r.position[i],
+        d.segment<12>(12 * (static_cast<Eigen::Index>(i) - 1)) << b.position[i] - r.position[i],
             angle * b.reach[i], (b.velocity[i] - r.velocity[i]) * h,
             (b.angular_velocity[i] - r.angular_velocity[i]) * h * b.reach[i];
     }
@@ -46,8 +45,8 @@ inline Eigen::VectorXd difference(const World& now, const World& reference, doub
 
 /// The factor by which the most unstable disturbance grows in a step; at most 1 where all die away
 /// or stay. Each body is given each of its six velocities in turn, a tenth of what gravity makes
-/// in a substep, so that no contact opens, after `rest` steps; what that has come to is compared after
-/// `steps` more and after twice as many.
+/// in a substep, so that no contact opens, after `rest` steps; what that has come to is compared
+/// after `steps` more and after twice as many.
 inline double growth(const Structure& structure, const Settings& settings,
                      const ColliderLibrary& colliders, const std::string& collider, int rest,
                      int steps) {
@@ -77,9 +76,7 @@ inline double growth(const Structure& structure, const Settings& settings,
         run(s, steps);
         whole.col(c) = difference(s.world(), at_end.world(), h) / size;
     }
-    const auto norm = [](const Eigen::MatrixXd& m) {
-        return m.jacobiSvd().singularValues()[0];
-    };
+    const auto norm = [](const Eigen::MatrixXd& m) { return m.jacobiSvd().singularValues()[0]; };
     // what has died away to what a step counts as rest has not grown
     const double least = 1e-3 * h;
     return std::pow(std::max(norm(whole), least) / std::max(norm(half), least), 1.0 / steps);
