@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: MIT
+/// Heaps of 300 bodies at default settings, over minutes: from 60 s on no body moves by more than 1
+/// mm, and the heap keeps its height. PLUMB_HEAP_SECONDS says how long (75; tests/long.sh: 600),
+/// and PLUMB_TEST_COLLIDERS, separated by commas, on what (ode).
+#include "host/simulation.h"
+#include "reader/reader.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <iostream>
+#include <sstream>
+
+namespace plumb::test {
+namespace {
+
+std::string setting(const char* name, const char* otherwise) {
+    const char* value = std::getenv(name);
+    return value ? value : otherwise;
+}
+
+double mean_height(const World& world) {
+    double sum = 0;
+    int count = 0;
+    for (std::size_t i = 0; i < world.bodies.size(); ++i)
+        if (world.bodies.motion[i] == Motion::dynamic) sum += world.bodies.position[i].y(), ++count;
+    return sum / count;
+}
+
+double farthest(const World& world, const std::vector<Eigen::Vector3d>& from) {
+    double most = 0;
+    for (std::size_t i = 0; i < from.size(); ++i)
+        most = std::max(most, (world.bodies.position[i] - from[i]).norm());
+    return most;
+}
+
+void expect_stays(const std::string& heap, const std::string& collider, double seconds) {
+    const Scene scene =
+        read_scene(std::string(PLUMB_TEST_ROOT "/tests/hard/scenes/heap_") + heap + ".json");
+    const ColliderLibrary colliders(PLUMB_TEST_PLUGINS);
+    Simulation simulation(scene, colliders, collider);
+    while (simulation.time() < 60) simulation.step();
+    const std::vector<Eigen::Vector3d> start = simulation.world().bodies.position;
+    const double height = mean_height(simulation.world());
+    double moved = 0;
+    while (simulation.time() < seconds) {
+        ASSERT_TRUE(simulation.step().finite);
+        moved = std::max(moved, farthest(simulation.world(), start));
+    }
+    const double risen = mean_height(simulation.world()) - height;
+    std::cout << heap << " on " << collider << ", 60 to " << seconds
+              << " s: no body moved by more than " << moved * 1e3 << " mm, mean height by "
+              << risen * 1e3 << " mm\n";
+    EXPECT_LT(moved, 1e-3);
+    EXPECT_LT(std::abs(risen), 0.05e-3);
+}
+
+class LongHeaps : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(, LongHeaps, testing::Values("cubes", "capsules", "hulls", "tori"),
+                         [](const auto& test) { return std::string(test.param); });
+
+TEST_P(LongHeaps, StayAsTheyLie) {
+    std::istringstream colliders(setting("PLUMB_TEST_COLLIDERS", "ode"));
+    for (std::string collider; std::getline(colliders, collider, ',');)
+        expect_stays(GetParam(), collider, std::stod(setting("PLUMB_HEAP_SECONDS", "75")));
+}
+
+/// The sample's wrecking ball throws bricks about, and from 15 s on all of them lie still.
+TEST(WreckedWall, BricksComeToRest) {
+    for (const char* collider : {"reference", "ode", "bullet", "fcl"}) {
+        const Scene scene = read_scene(PLUMB_TEST_ROOT "/samples/scenes/wall.json");
+        const ColliderLibrary colliders(PLUMB_TEST_PLUGINS);
+        Simulation simulation(scene, colliders, collider);
+        const Bodies& b = simulation.world().bodies;
+        const std::vector<Eigen::Vector3d> start = b.position;
+        double fastest = 0;
+        while (simulation.time() < 20) {
+            simulation.step();
+            if (simulation.time() < 15) continue;
+            for (std::size_t i = 0; i < b.size(); ++i)
+                if (scene.bodies[i].name != "ball")
+                    fastest = std::max(fastest, b.velocity[i].norm());
+        }
+        int thrown = 0;
+        for (std::size_t i = 0; i < b.size(); ++i)
+            thrown += (b.position[i] - start[i]).norm() > 0.3;
+        std::cout << "wall on " << collider << ": " << thrown << " bodies thrown, then at most "
+                  << fastest * 1e3 << " mm/s\n";
+        EXPECT_GT(thrown, 15) << collider;
+        EXPECT_LT(fastest, 1e-4) << collider;
+    }
+}
+
+}  // namespace
+}  // namespace plumb::test
