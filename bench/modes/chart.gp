@@ -10,9 +10,9 @@ set xlabel "iterations of either pass"
 set ylabel "growth in a step"
 set xtics (1, 2, 5, 10, 20, 50)
 set xrange [0.9:56]
-set yrange [0.9:*]
+set yrange [0.94:1.13]
 set grid lc rgb "#dddddd"
-set key top right reverse Left
+set key bottom right reverse Left
 of(cubes, method, n) = sprintf("< awk -F, '$1 == \"%s cubes\" && $2 == \"%s\" && $3 == 10 && $4 == %s' %s", cubes, method, n, csv)
 plot of("3", "paper", "1") using 5:6 with linespoints lw 2 pt 7 lc rgb "#c06000" title "3 cubes, to the paper's letter", \
      of("3", "swept", "1") using 5:6 with linespoints lw 2 pt 7 lc rgb "#e0a63f" title "3 cubes, swept (exact\\_islands 0)", \
