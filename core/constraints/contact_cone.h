@@ -7,9 +7,7 @@
 ///   μ        coefficient of friction
 ///   σ ρ      levers of spinning and of rolling friction over ℓ
 ///   the cone |(x, y)| ≤ μ n,  |p| ≤ σ n,  |(q, r)| ≤ ρ n,  0 ≤ n ≤ N
-///   N        more than any contact that can be satisfied bears: what cannot be, such as a body in
-///   a
-///            gap that is too narrow, is pushed no harder [N s]
+///   N        more than a contact bears that can be satisfied: too narrow a gap pushes no harder
 ///
 /// The law of contact, for velocities u (those about the axes times ℓ) that shall be w and any mass
 /// m > 0, is: λ = nearest point of the cone to λ + m (w̃ − u), where w̃ is w less μ |u_xy − w_xy| and
@@ -131,18 +129,25 @@ inline Vector6d lawful_step(const Vector6d& impulse, const Vector6d& lack, doubl
     return z;
 }
 
+/// Velocities by which the parts of an impulse that are at their bounds slip, each times its lever.
+inline double slipping(const Vector6d& impulse, const std::array<double, 3>& speed,
+                       const ContactCone& c) {
+    const std::array<double, 3> held = cone::lengths(impulse),
+                                lever{c.friction, c.spinning, c.rolling};
+    double sum = 0;
+    for (int i = 0; i < 3; ++i)
+        if (held[i] >= (1 - 1e-6) * lever[i] * impulse[0]) sum += lever[i] * speed[i];
+    return sum;
+}
+
 /// What slip, u − w of parts at their bounds, takes from the wanted normal velocity (de Saxcé).
 /// Slip below `slack` does not count: then what stands is the solution of a convex problem, which
-/// is found whenever there is one, and what creeps lifts by less than μ times that.
+/// is found whenever there is one, and what slides lifts by less than μ times that.
 inline double slip_shift(const Vector6d& impulse, const Vector6d& slip, double slack,
                          const ContactCone& c) {
-    const std::array<double, 3> held = cone::lengths(impulse), fast = cone::lengths(slip);
-    const std::array<double, 3> lever{c.friction, c.spinning, c.rolling};
-    double shift = 0;
-    for (int i = 0; i < 3; ++i)
-        if (held[i] >= (1 - 1e-6) * lever[i] * impulse[0])
-            shift += lever[i] * std::max(0.0, fast[i] - slack);
-    return shift;
+    std::array<double, 3> fast = cone::lengths(slip);
+    for (double& x : fast) x = std::max(0.0, x - slack);
+    return slipping(impulse, fast, c);
 }
 
 }  // namespace plumb

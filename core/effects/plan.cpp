@@ -67,7 +67,7 @@ Wish sticking_anchors(const World& w) {
 Wish exact_islands(const World& w) {
     if (!contacts(w).wanted) return {false, "there are no contacts"};
     const std::uint32_t most = w.settings.exact_islands;
-    if (most == 0) return {false, "exact_islands is 0"};
+    if (most < 2) return {false, "exact_islands is below 2"};
     if (!w.settings.shared_push)
         return {false, "the passes' pushes are apart, as in the paper (shared_push)"};
     if (std::count(w.settings.require.begin(), w.settings.require.end(), "shock_propagation") > 0)
@@ -154,6 +154,13 @@ Plan make_plan(const World& world) {
                                     "\" is forbidden, but the scene calls for it: " + d.why);
         d.why = "forbidden" + (d.runs ? ", although: " + d.why : std::string());
         d.runs = false;
+    }
+    Decision& exact = plan.decisions[static_cast<std::size_t>(Effect::exact_islands)];
+    if (exact.runs && !exact_islands(world).wanted) {
+        plan.warnings.push_back("\"exact_islands\" is required, but cannot run: " +
+                                exact_islands(world).why);
+        exact.why = exact_islands(world).why;
+        exact.runs = false;
     }
     return plan;
 }

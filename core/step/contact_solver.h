@@ -44,12 +44,13 @@ public:
         run(kernels_.prepare, {}, {});
     }
 
-    /// Impulses that the contacts remember of the step before.
+    /// Impulses that the contacts remember of the step before. Those of an island that was solved
+    /// exactly may be jammed against each other by more than sweeps can take back.
     void load_impulses(const World& world) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             const ContactMemory& memory = world.contacts.memory[contact];
-            if (!memory.matched) return;
+            if (!memory.matched || memory.exact) return;
             rows.normals[k].lambda_velocity[lane] = static_cast<Real>(memory.normal_impulse);
             if (!rows.frictions) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
@@ -127,7 +128,8 @@ public:
             const NormalRow<Real, W>& row = rows.normals[k];
             memory.normal_impulse =
                 double(row.lambda_velocity[lane]) + double(row.lambda_position[lane]);
-            memory.sticks = false;
+            memory.turning_impulse.setZero();
+            memory.sticks = memory.exact = false;
             if (!rows.frictions) return;
             const FrictionRow<Real, W>& across = rows.frictions[k];
             const auto [x, y] = tangents(row, across, lane);

@@ -26,9 +26,9 @@ constexpr double kCalm = 0.25;
 /// stays there to the last bit: gaps below 10⁻⁵ g h², a billionth of a metre at 10 ms.
 constexpr double kStill = 1e-5;
 
-/// A contact of an island bears at most this many times the momentum of the whole island at its
-/// speed: arches and wedges thrust by more than they weigh, but not by so much.
-constexpr double kStrongest = 100;
+/// A contact bears at most this many times the weight of its island (wedges and flat arches thrust
+/// by more than they weigh), and this many times its momentum.
+constexpr double kThrust = 1000, kBlow = 10;
 
 /// Overlaps deeper than this share of the radius of a body are pushed out by sweeps: where normals
 /// contradict each other there is nothing to be exact about.
@@ -40,6 +40,18 @@ InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t i) {
 
 Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
+}
+
+/// Velocity of the contact's point on a against that on b [m/s].
+Vector3d relative_velocity(const Bodies& b, const Contact& c) {
+    const Vector3d at = common_point(c);
+    return velocity_at(b, c.a, at - b.position[c.a]) - velocity_at(b, c.b, at - b.position[c.b]);
+}
+
+/// How fast gravity and the constant force would make a body in a second [m/s²].
+double pull_on(const World& world, std::uint32_t body) {
+    const Bodies& b = world.bodies;
+    return (world.settings.gravity + b.force[body] * b.inverse_mass[body]).norm();
 }
 
 /// A bound on the greatest eigenvalue: the greatest sum of a row.
@@ -115,21 +127,23 @@ bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
 bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const {
     const Bodies& b = world.bodies;
-    double fastest = 0, radius = 0;
+    double fastest = 0, radius = 0, pull = 0;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
             const Contact& c = world.contacts.found[k];
-            const Vector3d at = common_point(c);
-            const Vector3d u = velocity_at(b, c.a, at - b.position[c.a]) -
-                               velocity_at(b, c.b, at - b.position[c.b]);
-            fastest = std::max(fastest, u.squaredNorm());
+            fastest = std::max(fastest, relative_velocity(b, c).norm());
         }
         const Contact& c = world.contacts.found[pair.first];
-        for (const std::uint32_t body : {c.a, c.b})
-            if (b.motion[body] == Motion::dynamic) radius = std::max(radius, b.reach[body]);
+        for (const std::uint32_t body : {c.a, c.b}) {
+            if (b.motion[body] != Motion::dynamic) continue;
+            radius = std::max(radius, b.reach[body]);
+            pull = std::max(pull, pull_on(world, body));
+        }
     }
-    return fastest <= kCalm * kCalm * world.settings.gravity.norm() * radius;
+    // what rests has been pulled on for a substep already
+    const double h = world.settings.dt / world.settings.substeps;
+    return fastest <= kCalm * std::sqrt(pull * radius) + 2 * pull * h;
 }
 
 void IslandGroup::take(const World& world, const ContactIsland& island,
@@ -211,11 +225,9 @@ std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) 
     for (std::size_t i = 0; i < count_; ++i) {
         Member& member = members_[i];
         member.speed = speed_of(world, member, h, recovery);
-        double mass = 0;
-        for (std::uint32_t k = member.first_body; k < member.last_body; ++k)
-            mass += bodies_[k].mass;
+        const double most = strongest(world, member, h);
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
-            points_[k].cone.most = kStrongest * mass * member.speed;
+            points_[k].cone.most = most;
             ask(world, k, h, recovery, kStill * member.speed);
             clamped += -world.contacts.gap[contacts_[k]] > recovery;
         }
@@ -224,16 +236,30 @@ std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) 
     return clamped;
 }
 
-/// How fast contacts approach if nothing pushes, or how fast an overlap shall go.
-double IslandGroup::speed_of(const World& world, const Member& member, double h, double recovery) {
-    const std::span<const Vector6d> velocity = island_of(member).velocity;
+/// How fast contacts approach or part if nothing pushes, or how fast an overlap shall go.
+double IslandGroup::speed_of(const World& world, const Member& member, double h,
+                             double recovery) const {
+    const ContactTable& c = world.contacts;
     double speed = 0;
     for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
-        const double overlap = std::min(world.contacts.gap[contacts_[k]], 0.0);
-        speed = std::max({speed, std::abs(velocity_of(points_[k], velocity)[0]),
+        const Contact& contact = c.found[contacts_[k]];
+        const double overlap = std::min(c.gap[contacts_[k]], 0.0);
+        const double normal =
+            to_eigen(contact.normal).dot(relative_velocity(world.bodies, contact));
+        speed = std::max({speed, std::abs(normal),
                           closing_velocity(overlap, h, recovery, world.settings.stiffness)});
     }
     return speed;
+}
+
+/// More than any contact bears that can be satisfied [N s].
+double IslandGroup::strongest(const World& world, const Member& member, double h) const {
+    double mass = 0, weight = 0;
+    for (std::uint32_t i = member.first_body; i < member.last_body; ++i) {
+        mass += bodies_[i].mass;
+        weight += bodies_[i].mass * pull_on(world, bodies_[i].body);
+    }
+    return kThrust * weight * h + kBlow * mass * member.speed;
 }
 
 /// What the substep asks of a point; velocities below `least` [m/s] are asked for as 0.
@@ -322,6 +348,7 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         memory.normal_impulse = p.impulse[0];
         memory.friction_impulse = p.frame.rightCols<2>() * p.impulse.segment<2>(1);
         memory.turning_impulse = p.length * (p.frame * p.impulse.tail<3>());
+        memory.exact = true;
         memory.sticks =
             p.impulse.segment<2>(1).norm() < (1 - 1e-5) * p.cone.friction * p.impulse[0];
     }

@@ -53,7 +53,8 @@ private:
     void mark_jointed(const World& world);
     void take(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
-    double speed_of(const World& world, const Member& member, double h, double recovery);
+    double speed_of(const World& world, const Member& member, double h, double recovery) const;
+    double strongest(const World& world, const Member& member, double h) const;
     void ask(const World& world, std::size_t point, double h, double recovery, double least);
     void apply_impulses();
     Island island_of(const Member& member);

@@ -29,7 +29,7 @@ constexpr double kSofter = 30;
 /// A round's minimum is found to this share of the residual before it.
 constexpr double kExact = 0.03;
 
-constexpr int kRounds = 4, kNewtonSteps = 20, kLineSteps = 20;
+constexpr int kRounds = 4, kNewtonSteps = 20, kLineSteps = 20, kSweepsAnew = 5;
 
 /// [r]ₓ: what multiplies ω to give r × ω.
 Matrix3d skew(const Vector3d& r) {
@@ -69,12 +69,22 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
         }
         report.residual = residual();
     }
+    if (report.residual > speed) start_anew();
     report.solved = report.residual <= kSolved * speed;
     return report;
 }
 
-/// γ for an error of so much velocity [m/s]. What a heavy body does to light ones is a mode as slow as
-/// their masses are apart.
+/// Where nothing was found: sweeps from impulses of 0, which can make no more of it than there is.
+void IslandSolver::start_anew() {
+    for (IslandPoint& p : island_.points) {
+        push(p, -p.impulse);
+        p.impulse.setZero();
+    }
+    for (int i = 0; i < kSweepsAnew; ++i) sweep_both_ways();
+}
+
+/// γ for an error of so much velocity [m/s]. What a heavy body does to light ones is a mode as slow
+/// as their masses are apart.
 double IslandSolver::softness(double error) const {
     double strongest = 0, lightest = island_.bodies[0].mass, heaviest = lightest;
     for (const IslandPoint& p : island_.points)
@@ -90,7 +100,10 @@ double IslandSolver::softness(double error) const {
 double IslandSolver::residual() const {
     double worst = 0;
     for (const IslandPoint& p : island_.points) {
-        const Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
+        Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
+        // what slides may lift by what the slack leaves
+        const double lift = slipping(p.impulse, {slack_, slack_, slack_}, p.cone);
+        if (lack[0] < 0) lack[0] = std::min(0.0, lack[0] + lift);
         const Vector6d off = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
         worst = std::max(worst, off.cwiseAbs().maxCoeff() / p.mass);
     }

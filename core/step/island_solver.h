@@ -46,6 +46,7 @@ private:
     };
 
     double residual() const;
+    void start_anew();
     double softness(double error) const;
     void sweep_both_ways();
     void sweep(bool forwards);

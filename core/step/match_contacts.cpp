@@ -57,6 +57,7 @@ void hand_on_impulses(ContactTable& c, const PairRuns& run, const std::vector<st
         heir.normal_impulse += c.memory_before[j].normal_impulse;
         heir.friction_impulse += c.memory_before[j].friction_impulse;
         heir.turning_impulse += c.memory_before[j].turning_impulse;
+        heir.exact |= c.memory_before[j].exact;
         heir.matched = true;
     }
 }

@@ -21,6 +21,7 @@ struct ContactMemory {
     Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,
     Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
     bool sticks = false;
+    bool exact = false;    ///< whether its impulses are those of an island solved exactly
     bool known = false;    ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
