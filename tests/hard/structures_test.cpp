@@ -271,6 +271,54 @@ TEST_P(Structures, NoDisturbanceGrows) {
             }
 }
 
+/// Ten dice of 15 mm at steps of 10 ms, in which gravity makes more speed than their size suggests.
+TEST_P(Structures, SmallDiceStand) {
+    expect_rests(scene(), collider(), tower(10, {0.0075, 0.0075, 0.0075}), 10, "dice");
+}
+
+/// A kinematic ball at 30 m/s without gravity hits a row of three cubes that rest: they fly off
+/// ahead of it, and it does not sink in.
+TEST_P(Structures, WhatMovesByItselfStrikesAtItsOwnSpeed) {
+    Scene s = scene();
+    s.settings.gravity.setZero();
+    for (int i = 0; i < 3; ++i) add_body(s, box(0.5, 0.5, 0.5), {1.0 * i, 0, 0});
+    add_body(s, box(0.5, 0.5, 0.5), {-1.55, 0, 0}, Motion::kinematic).velocity = {30, 0, 0};
+    Simulation simulation(s, colliders(), collider());
+    run_for(simulation, 0.5);
+    for (std::size_t i = 0; i < 3; ++i)
+        EXPECT_GT(simulation.world().bodies.velocity[i].x(), 29) << "cube " << i;
+    for (double depth : penetrations(simulation.world())) EXPECT_LT(depth, 0.02);
+}
+
+/// What is required cannot make two stages solve the same contacts.
+TEST_P(Structures, ShockPropagationGoesBeforeExactIslands) {
+    Scene s = scene();
+    s.settings.require = {"exact_islands", "shock_propagation"};
+    add_ground(s);
+    add_structure(s, tower(5, {0.5, 0.5, 0.5}));
+    Simulation simulation(s, colliders(), collider());
+    EXPECT_FALSE(simulation.plan().runs(Effect::exact_islands));
+    EXPECT_EQ(simulation.plan().warnings.size(), 1u);
+    run_for(simulation, 1);
+}
+
+/// A light box between heavy ones, wedged hard, goes over to sweeps and back without a blow.
+TEST_P(Structures, JammedLightBodiesAreNotThrown) {
+    Scene s = scene();
+    s.materials[0].friction = 3;
+    add_ground(s);
+    add_structure(s, unevenly(tower(6, {0.3, 0.2, 0.3}), 0.02, 2));
+    for (std::size_t i = 1; i < s.bodies.size(); ++i) s.bodies[i].mass = i % 2 ? 1e-2 : 1e4;
+    // a ball that falls on top stirs it up
+    add_body(s, sphere(0.2), {0.05, 4, 0.02}).mass = 1e3;
+    Simulation simulation(s, colliders(), collider());
+    const double start = total_energy(simulation);
+    for (int i = 0; i < 500; ++i) {
+        simulation.step();
+        ASSERT_LE(total_energy(simulation), start + 0.01 * std::abs(start)) << "step " << i;
+    }
+}
+
 /// Of two posts, each carries half of what is above it, by symmetry.
 TEST_P(Structures, PostsOfAGateShareItsWeight) {
     Scene s = scene();
