@@ -28,11 +28,15 @@ constexpr double kStill = 1e-5;
 
 /// A contact bears at most this many times the weight of its island (wedges and flat arches thrust
 /// by more than they weigh), and this many times its momentum.
-constexpr double kThrust = 1000, kBlow = 10;
+constexpr double kThrust = 100, kBlow = 10;
 
 /// Overlaps deeper than this share of the radius of a body are pushed out by sweeps: where normals
 /// contradict each other there is nothing to be exact about.
 constexpr double kDeep = 0.02;
+
+/// So are those beyond this share that an exact solution left at more than this part of what they
+/// were: friction that holds as hard as the push-out pushes locks a wedge, and sweeps let it slip.
+constexpr double kJam = 0.0025, kStuck = 0.95;
 
 InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t i) {
     return {b.inverse_mass[i], b.world_inverse_inertia[i]};
@@ -74,7 +78,7 @@ IslandGroup::IslandGroup(Workers& workers) : workers_(workers), solvers_(workers
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0;
-    bodies_.clear(), points_.clear(), contacts_.clear();
+    bodies_.clear(), points_.clear(), contacts_.clear(), jammed_.clear();
     if (pairs.empty()) return;
     found_.find(pairs, world.dynamic_count);
     mark_jointed(world);
@@ -101,7 +105,7 @@ void IslandGroup::mark_jointed(const World& world) {
 }
 
 bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
-                           const std::vector<BodyPair>& pairs) const {
+                           const std::vector<BodyPair>& pairs) {
     const std::uint32_t n = island.last_body - island.first_body;
     if (n < 2 || n > world.settings.exact_islands) return false;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
@@ -110,18 +114,25 @@ bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
 }
 
 bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
-                          const std::vector<BodyPair>& pairs) const {
+                          const std::vector<BodyPair>& pairs) {
     const Bodies& b = world.bodies;
+    bool deep = false;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         const Contact& first = world.contacts.found[pair.first];
         double radius = std::numeric_limits<double>::infinity();
         for (const std::uint32_t body : {first.a, first.b})
             if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.reach[body]);
-        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
-            if (-world.contacts.found[k].gap > kDeep * radius) return true;
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
+            const double overlap = -world.contacts.found[k].gap;
+            const ContactMemory& before = world.contacts.memory[k];
+            const bool stuck = before.known && before.exact && overlap > -kStuck * before.gap;
+            const bool jammed = overlap > kJam * radius && (stuck || before.jammed);
+            if (jammed) jammed_.push_back(k);
+            deep |= jammed || overlap > kDeep * radius;
+        }
     }
-    return false;
+    return deep;
 }
 
 bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
@@ -349,9 +360,12 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         memory.friction_impulse = p.frame.rightCols<2>() * p.impulse.segment<2>(1);
         memory.turning_impulse = p.length * (p.frame * p.impulse.tail<3>());
         memory.exact = true;
+        memory.jammed = false;
+        memory.gap = contacts.found[contacts_[k]].gap;
         memory.sticks =
             p.impulse.segment<2>(1).norm() < (1 - 1e-5) * p.cone.friction * p.impulse[0];
     }
+    for (const std::uint32_t contact : jammed_) contacts.memory[contact].jammed = true;
 }
 
 }  // namespace plumb

@@ -45,9 +45,9 @@ private:
         bool solved;
     };
     bool is_exact(const World& world, const ContactIsland& island,
-                  const std::vector<BodyPair>& pairs) const;
+                  const std::vector<BodyPair>& pairs);
     bool is_deep(const World& world, const ContactIsland& island,
-                 const std::vector<BodyPair>& pairs) const;
+                 const std::vector<BodyPair>& pairs);
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
     void mark_jointed(const World& world);
@@ -70,6 +70,7 @@ private:
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
     std::vector<IslandPoint> points_;
+    std::vector<std::uint32_t> jammed_;    // contacts that are left to sweeps until they are out
     std::vector<std::uint32_t> contacts_;  // [point] in the contact table
     std::vector<IslandSolver> solvers_;    // [worker]
 };
