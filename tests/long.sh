@@ -8,4 +8,4 @@ cd "$(dirname "$0")/.."
 
 install_missing $build_packages $test_packages
 build ci
-PLUMB_HEAP_SECONDS=600 PLUMB_TEST_COLLIDERS=reference,ode,bullet,fcl exec build/ci/bin/plumb_long_heap_tests
+PLUMB_HEAPS=cubes,capsules,hulls,tori PLUMB_HEAP_SECONDS=600 PLUMB_TEST_COLLIDERS=reference,ode,bullet,fcl exec build/ci/bin/plumb_long_heap_tests
