@@ -138,6 +138,12 @@ void warn(const Simulation& simulation, const Statistics& statistics) {
                      static_cast<unsigned long long>(statistics.collider_failures),
                      static_cast<unsigned long long>(simulation.steps()),
                      statistics.first_failure.c_str());
+    if (statistics.unsolved_trees > 0)
+        std::fprintf(stderr,
+                     "plumb: warning: trees of joints were left open in %llu solves, by %.3g m or "
+                     "rad at the most; more substeps, or \"joints\": \"iterate\", may help\n",
+                     static_cast<unsigned long long>(statistics.unsolved_trees),
+                     statistics.tree_error);
 }
 
 void greet(const Simulation& simulation, const Outputs& outputs) {

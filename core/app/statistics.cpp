@@ -57,6 +57,8 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     contact_max = std::max(contact_max, report.contacts);
     clamped_recoveries += report.clamped_recoveries;
     unsolved_islands += report.unsolved_islands;
+    unsolved_trees += report.unsolved_trees;
+    tree_error = std::max(tree_error, report.tree_error);
     rejected_contacts += report.rejected_contacts;
     for (std::size_t i = 0; i < kContactFaultCount; ++i) faults[i] += report.faults[i];
     if (report.collider_failed && collider_failures == 0) first_failure = report.message;

@@ -52,9 +52,10 @@ public:
     std::array<std::vector<double>, kStageCount> stage_ms;
     std::array<std::uint64_t, kStageCount> stage_calls{};
     double contact_sum = 0;
+    double tree_error = 0;  ///< StepReport::tree_error, the greatest
     std::uint32_t contact_max = 0;
-    std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, rejected_contacts = 0,
-                  collider_failures = 0;
+    std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, unsolved_trees = 0,
+                  rejected_contacts = 0, collider_failures = 0;
     std::array<std::uint64_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::string first_failure;                               ///< what the collider said
 

@@ -8,17 +8,14 @@
 ///
 /// for d(e · (p_a − p_b)) also turns e: ω_b × e · (p_a − p_b), which moves b's arm out to p_a. So
 /// both bodies feel opposite impulses at one point. Rotation is not linear: C is taken anew at each
-/// iteration, from the turn of the whole substep. The impulses act where the joint was at the start
-/// of the substep, which keeps momentum to rounding and energy to second order, or follow it to its
-/// end, which bears any load but loses some angular momentum and energy (joint_follow.h says when).
+/// iteration, from the turn of the whole substep. Where the impulses act is said in joint_lever.h.
 /// A row with compliance α has C + α λ/h = 0 for the impulse λ of the whole substep, which puts
 /// α/h² on the diagonal.
 #pragma once
 
-#include "constraints/connector.h"
+#include "constraints/joint_lever.h"
 #include "math/dense.h"
 #include "math/lanes.h"
-#include "math/rotation.h"
 
 namespace plumb {
 
@@ -28,11 +25,13 @@ struct JointGeometry {
     Vector3<T> r_a, r_b;  ///< arms [m]
     Vector3<T> apart;     ///< p_a − p_b [m]
     Vector3<T> e[3], u[3], w[3];
-    T lock[6];             ///< 1 where the row is taken away, else 0
-    T softness[6];         ///< α/h² [1/kg], [1/(kg m²)]
-    T follow_a, follow_b;  ///< share of its body's turn that an impulse goes along with
-    T length;              ///< of a distance joint, whose row 0 is along the line between the
-                           ///< points; else 0 [m]
+    T lock[6];      ///< 1 where the row is taken away, else 0
+    T softness[6];  ///< α/h² [1/kg], [1/(kg m²)]
+    JointLever<T> lever_a, lever_b;
+    T length;             ///< of a distance joint, whose row 0 is along the line between the
+                          ///< points; else 0 [m]
+    T line_share;         ///< and how that line turns, as a lever does: share of what the points
+    Vector3<T> line_lag;  ///< move apart in the substep, and what the past adds [m]
 };
 
 template <class T>
@@ -47,21 +46,23 @@ template <class T>
 inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>& a,
                                const Velocity<T>& b, const T& h) {
     const Turn<T> turn_a(a.w * h), turn_b(b.w * h);
+    const LeverTurn<T> lever_a(joint.lever_a, a.w * h), lever_b(joint.lever_b, b.w * h);
     const Vector3<T> change_a = turn_a.change(joint.r_a), change_b = turn_b.change(joint.r_b);
     const Vector3<T> apart = joint.apart + (a.v - b.v) * h + (change_a - change_b);
-    const Vector3<T> arm_a = joint.r_a + change_a * joint.follow_a;
+    const Vector3<T> opened = apart - joint.apart;
+    const Vector3<T> arm_a = joint.r_a + lever_a.change(joint.r_a);
     const Vector3<T> arm_b =
-        joint.r_b + joint.apart + (change_b + (apart - joint.apart)) * joint.follow_b;
+        joint.r_b + joint.apart + lever_b.change(joint.r_b) + opened * joint.lever_b.share;
     JointRows<T> rows;
     for (int k = 0; k < 3; ++k) {
-        const Vector3<T> change = turn_b.change(joint.e[k]);
-        rows.c[k] = dot(Vector3<T>(joint.e[k] + change), apart);
-        rows.e[k] = joint.e[k] + change * joint.follow_b;
+        rows.c[k] = dot(Vector3<T>(joint.e[k] + turn_b.change(joint.e[k])), apart);
+        rows.e[k] = joint.e[k] + lever_b.change(joint.e[k]);
     }
     const T distance = sqrt(dot(apart, apart));
-    const T scale = T(1) / max(distance, T(1e-20));
+    const Vector3<T> line = joint.apart + opened * joint.line_share + joint.line_lag;
+    const T scale = T(1) / sqrt(max(dot(line, line), T(1e-30)));
     for (int i = 0; i < 3; ++i)
-        rows.e[0][i] = select_greater(joint.length, T(0), apart[i] * scale, rows.e[0][i]);
+        rows.e[0][i] = select_greater(joint.length, T(0), line[i] * scale, rows.e[0][i]);
     rows.c[0] = select_greater(joint.length, T(0), distance - joint.length, rows.c[0]);
     for (int k = 0; k < 3; ++k) {
         rows.g_a[k] = cross(arm_a, rows.e[k]);
@@ -69,8 +70,8 @@ inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>&
         const Vector3<T> change_u = turn_a.change(joint.u[k]), change_w = turn_b.change(joint.w[k]);
         rows.c[3 + k] = dot(Vector3<T>(joint.u[k] + change_u), Vector3<T>(joint.w[k] + change_w));
         rows.g_a[3 + k] = rows.g_b[3 + k] =
-            cross(Vector3<T>(joint.u[k] + change_u * joint.follow_a),
-                  Vector3<T>(joint.w[k] + change_w * joint.follow_b));
+            cross(Vector3<T>(joint.u[k] + lever_a.change(joint.u[k])),
+                  Vector3<T>(joint.w[k] + lever_b.change(joint.w[k])));
     }
     return rows;
 }

@@ -5,12 +5,10 @@
 ///   h  substep [s]
 ///
 /// Rotation is not linear, so the points are taken at each iteration from the turn of the whole
-/// substep, p = x₀ + h v + exp(h ω) r. The impulse acts where the points were at the start, or
-/// follows them to the end of the substep (joint_follow.h).
+/// substep, p = x₀ + h v + exp(h ω) r. Where the impulse acts is said in joint_lever.h.
 #pragma once
 
-#include "constraints/connector.h"
-#include "math/rotation.h"
+#include "constraints/joint_lever.h"
 
 namespace plumb {
 
@@ -20,20 +18,21 @@ namespace plumb {
 ///   total_*     whole velocity of the body in this substep
 ///   change_*    its change since the start of the substep, which is what is corrected
 ///   gap_before  a − b at the start of the substep [m]
-///   follow_*    share of its body's turn that the impulse goes along with
+///   lever_*     how the arms of the impulse turn
 /// Returns the impulse on a [N s].
 template <class T>
 inline Vector3<T> join(Velocity<T>& change_a, Velocity<T>& change_b, const Velocity<T>& total_a,
                        const Velocity<T>& total_b, const InverseMass<T>& inverse_a,
                        const InverseMass<T>& inverse_b, const Vector3<T>& r_a,
-                       const Vector3<T>& r_b, const Vector3<T>& gap_before, const T& follow_a,
-                       const T& follow_b, const T& h) {
-    const Vector3<T> turn_a = Turn<T>(total_a.w * h).change(r_a);
-    const Vector3<T> turn_b = Turn<T>(total_b.w * h).change(r_b);
-    const Vector3<T> c = gap_before + (total_a.v - total_b.v) * h + (turn_a - turn_b);
+                       const Vector3<T>& r_b, const Vector3<T>& gap_before,
+                       const JointLever<T>& lever_a, const JointLever<T>& lever_b, const T& h) {
+    const Vector3<T> turn_a = total_a.w * h, turn_b = total_b.w * h;
+    const Vector3<T> c = gap_before + (total_a.v - total_b.v) * h +
+                         (Turn<T>(turn_a).change(r_a) - Turn<T>(turn_b).change(r_b));
 
-    const Vector3<T> now_a = r_a + turn_a * follow_a;
-    const Vector3<T> now_b = r_b + gap_before + (turn_b + (c - gap_before)) * follow_b;
+    const Vector3<T> now_a = r_a + LeverTurn<T>(lever_a, turn_a).change(r_a);
+    const Vector3<T> now_b = r_b + gap_before + LeverTurn<T>(lever_b, turn_b).change(r_b) +
+                             (c - gap_before) * lever_b.share;
     const Symmetric3<T> k = point_response(inverse_a, now_a) + point_response(inverse_b, now_b);
     const Vector3<T> impulse = solve_ldlt<T>(k, c) * (T(-1) / h);
 

@@ -23,6 +23,7 @@ struct BodyColumns {
 struct BodyStates {
     const double *position, *orientation, *velocity, *angular_velocity;
     const double *inverse_mass, *inertia, *world_inverse_inertia;
+    const double *angular_velocity_now, *angular_velocity_before;
 };
 
 /// The bodies that a kernel works on, no two the same.

@@ -3,7 +3,7 @@
 /// the units of each instruction set and by nothing else.
 #pragma once
 
-#include "constraints/joint_follow.h"
+#include "constraints/joint_lever.h"
 #include "kernels/item_group.h"
 #include "schedule/joint_blocks.h"
 
@@ -37,12 +37,27 @@ inline Vector3<Number<double, N>> load_part(const Real (&from)[3][W], int first)
             load_part<N>(from[2], first)};
 }
 
+/// How the lever of a ball joint turns; it rests on what cannot be moved. `arm`: world frame [m];
+/// `impulse`: of the substep before [N s].
+template <int N, class T = Number<double, N>>
+inline JointLever<T> ball_lever(const BodyStates& columns, const ItemGroup<N>& bodies,
+                                const Vector3<T>& arm, const T& impulse, double h) {
+    const T load =
+        lever_load<T>(impulse, T(0), arm, bodies.symmetric(columns.world_inverse_inertia), T(h));
+    const T moves = select_greater(bodies.number(columns.inverse_mass), T(0), T(1), T(0));
+    const JointLever<T> lever = joint_lever<T>(
+        lever_turns<T>(load), Vector3<T>(bodies.vector(columns.angular_velocity_now) * T(h)),
+        Vector3<T>(bodies.vector(columns.angular_velocity_before) * T(h)));
+    return {lever.share * moves, lever.lag * moves};
+}
+
 /// One side of N joints: its point, and how its body takes an impulse there.
 template <int N>
 struct JointSide {
     using T = Number<double, N>;
     Vector3<T> arm, point;
-    T inverse_mass, follow;
+    T inverse_mass;
+    JointLever<T> lever;
     Symmetric3<T> inverse_inertia;
 
     /// `used`: 0 for lanes that are to stay without a body.
@@ -54,10 +69,7 @@ struct JointSide {
         const Symmetric3<T> i = bodies.symmetric(columns.world_inverse_inertia);
         inverse_inertia = {i.xx * used, i.yy * used, i.zz * used,
                            i.xy * used, i.xz * used, i.yz * used};
-        const Vector3<T> rate = bodies.vector(columns.angular_velocity);
-        const T share = joint_follow<T>(impulse, T(0), sqrt(dot(arm, arm)), inverse_inertia,
-                                        sqrt(dot(rate, rate)) * T(h), T(h));
-        follow = select_greater(inverse_mass, T(0), share, T(0));
+        lever = ball_lever<N>(columns, bodies, arm, impulse, h);
     }
 };
 
@@ -78,7 +90,9 @@ inline void begin_part(BallBlock<Real, W>& block, const BallFrames<W>& frames,
     store_part<N>(block.inverse_mass_b, first, b.inverse_mass);
     store_part<N>(block.inverse_inertia_a, first, a.inverse_inertia);
     store_part<N>(block.inverse_inertia_b, first, b.inverse_inertia);
-    store_part<N>(block.follow_a, first, a.follow), store_part<N>(block.follow_b, first, b.follow);
+    store_part<N>(block.share_a, first, a.lever.share);
+    store_part<N>(block.share_b, first, b.lever.share);
+    store_part<N>(block.lag_a, first, a.lever.lag), store_part<N>(block.lag_b, first, b.lever.lag);
     store_part<N>(block.used, first, used);
     store_part<N>(block.impulse, first, Vector3<T>(T(0), T(0), T(0)));
 }

@@ -72,8 +72,9 @@ template <class Real, int W>
         j.mass_a.mass = j.mass_a.mass + (T(1) - load(block.used));
         const Vector3<T> impulse =
             join<T>(j.a, j.b, j.total_a, j.total_b, j.mass_a, j.mass_b, load_vector(block.arm_a),
-                    load_vector(block.arm_b), load_vector(block.gap), load(block.follow_a),
-                    load(block.follow_b), T(h));
+                    load_vector(block.arm_b), load_vector(block.gap),
+                    {load(block.share_a), load_vector(block.lag_a)},
+                    {load(block.share_b), load_vector(block.lag_b)}, T(h));
         store_vector(block.impulse, Vector3<T>(load_vector(block.impulse) + impulse));
     });
 }
@@ -92,7 +93,9 @@ inline JointGeometry<T> load_geometry(const JointBlock<Real, W>& block) {
     }
     for (int k = 0; k < 6; ++k)
         g.lock[k] = load(block.lock[k]), g.softness[k] = load(block.softness[k]);
-    g.follow_a = load(block.follow_a), g.follow_b = load(block.follow_b);
+    g.lever_a = {load(block.share_a), load_vector(block.lag_a)};
+    g.lever_b = {load(block.share_b), load_vector(block.lag_b)};
+    g.line_share = load(block.line_share), g.line_lag = load_vector(block.line_lag);
     g.length = load(block.length);
     return g;
 }

@@ -3,8 +3,8 @@
 /// nothing else.
 #pragma once
 
-#include "constraints/joint_follow.h"
 #include "kernels/item_group.h"
+#include "kernels/joint_begin.h"
 #include "kernels/tree_kernels.h"
 #include "math/rotation.h"
 
@@ -45,22 +45,18 @@ inline void write_velocity(const ItemGroup<N>& nodes, double* table, const Veloc
 
 // ---- begin
 
-/// A joint's point on some bodies, and the share of their turn that an impulse there follows.
+/// A joint's point on some bodies, and how the lever of an impulse there turns.
 template <int N>
 struct TreeSide {
     using T = Number<double, N>;
     Vector3<T> arm, point;
-    T follow;
+    JointLever<T> lever;
 
     TreeSide(const BodyStates& b, const ItemGroup<N>& bodies, const Vector3<T>& local,
              const T& impulse, double h) {
         arm = bodies.rotation(b.orientation) * local;
         point = bodies.vector(b.position) + arm;
-        const Vector3<T> rate = bodies.vector(b.angular_velocity);
-        const T share = joint_follow<T>(impulse, T(0), sqrt(dot(arm, arm)),
-                                        bodies.symmetric(b.world_inverse_inertia),
-                                        sqrt(dot(rate, rate)) * T(h), T(h));
-        follow = select_greater(bodies.number(b.inverse_mass), T(0), share, T(0));
+        lever = ball_lever<N>(b, bodies, arm, impulse, h);
     }
 };
 
@@ -96,7 +92,9 @@ inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
     const Vector3<T> apart = own.point - (other.point * linked + local * held);
     store_vector(balls.apart, apart);
     store_vector(balls.owed, Vector3<T>(apart * owed_share<T>(dot(apart, apart), T(reach))));
-    store(balls.follow, own.follow), store(balls.other_follow, T(other.follow * linked));
+    store(balls.share, own.lever.share), store(balls.other_share, T(other.lever.share * linked));
+    store_vector(balls.lag, own.lever.lag);
+    store_vector(balls.other_lag, Vector3<T>(other.lever.lag * linked));
     const T scripted = select_greater(others.number(b.inverse_mass), T(0), T(0), linked);
     const UnitQuaternion<T> turn =
         unit_exponential<T>(Vector3<T>(others.vector(b.angular_velocity) * T(h)));
@@ -116,18 +114,24 @@ template <int N>
 
 // ---- evaluate
 
-/// Both bodies feel the impulse at one point, that of the joint's a.
+/// Arms by which the impulse acts: they meet in the point of the joint's a as far as their levers
+/// rest. `turn`, `other_turn`: h ω [rad]; `gap`: at the preview [m].
 template <int N, class T = Number<double, N>>
-inline void place_impulse(TreeBalls<N>& balls, const Vector3<T>& change,
-                          const Vector3<T>& other_change, const Vector3<T>& gap) {
-    const T follow = load(balls.follow), other_follow = load(balls.other_follow);
+inline void place_impulse(TreeBalls<N>& balls, const Vector3<T>& turn, const Vector3<T>& other_turn,
+                          const Vector3<T>& gap) {
+    const JointLever<T> lever{load(balls.share), load_vector(balls.lag)};
+    const JointLever<T> other{load(balls.other_share), load_vector(balls.other_lag)};
     const T sign = load(balls.sign), is_a = (T(1) + sign) * T(0.5), is_b = T(1) - is_a;
     const Vector3<T> apart = load_vector(balls.apart), opened = gap - apart;
-    const Vector3<T> acting = load_vector(balls.arm) + change * follow;
-    const Vector3<T> other_acting = load_vector(balls.other_arm) + other_change * other_follow;
-    store_vector(balls.acting, Vector3<T>(acting - (apart + opened * follow) * is_b));
-    store_vector(balls.other_acting,
-                 Vector3<T>(other_acting + (apart + opened * other_follow) * is_a));
+    const Vector3<T> arm = load_vector(balls.arm), other_arm = load_vector(balls.other_arm);
+    Vector3<T> acting = arm - (apart + opened * lever.share) * is_b;
+    Vector3<T> other_acting = other_arm + (apart + opened * other.share) * is_a;
+    if (any_greater(lever.share + other.share, T(0))) {
+        acting += unit_exponential<T>(lever.angle(turn)).change(arm);
+        other_acting += unit_exponential<T>(other.angle(other_turn)).change(other_arm);
+    }
+    store_vector(balls.acting, acting);
+    store_vector(balls.other_acting, other_acting);
 }
 
 /// Of a gap's components; infinite where it is not a number.
@@ -154,7 +158,7 @@ inline Number<double, N> evaluate_block(TreeBalls<N>& balls, const TreeColumns& 
     const Vector3<T> moved = (v - other.v) * T(h);
     const Vector3<T> gap =
         load_vector(balls.apart) + change + moved - other_change - load_vector(balls.shift);
-    place_impulse<N>(balls, change, other_change, gap);
+    place_impulse<N>(balls, Vector3<T>(w * T(h)), Vector3<T>(other.w * T(h)), gap);
     const Vector3<T> open = gap - load_vector(balls.owed);
     store_vector(balls.gap, open);
     const T violation = select_greater(load(balls.used), T(0), greatest_size<N>(open), T(0));
@@ -213,7 +217,7 @@ inline void add_to_parents(const TreeBalls<N>& balls, const BallElimination<T>& 
     add_at_point<T>(parent.block, e.mass, acting, push);
     parent.stiffness =
         parent.stiffness + turning_stiffness<T>(acting, Vector3<T>(-load_vector(balls.impulse)),
-                                                load(balls.other_follow) * T(h));
+                                                load(balls.other_share) * T(h));
     T x[kShareNumbers];
     put_share<T>(parent, x);
     ItemGroup<N>(balls.parent).write(tables.share, x);
@@ -230,7 +234,7 @@ template <int N>
         TreeShare<T> whole = leaves ? TreeShare<T>::none() : read_share<N>(balls.node, tables);
         add_body<T>(
             whole, load(balls.mass), load_symmetric<N>(balls.inertia),
-            turning_stiffness<T>(acting, load_vector(balls.impulse), load(balls.follow) * T(h)),
+            turning_stiffness<T>(acting, load_vector(balls.impulse), load(balls.share) * T(h)),
             load_velocity<N>(balls.own), balance);
         const BallElimination<T> e = eliminate_ball<T>(whole.block, acting);
         keep_elimination<N>(balls, e);

@@ -19,16 +19,16 @@ template <class Real, int W>
 struct BallBlock : JointBodies<Real, W> {
     Real arm_a[3][W], arm_b[3][W];  // at the start of the substep [m]
     Real gap[3][W];                 // a − b at the start of the substep [m]
-    Real follow_a[W], follow_b[W];  // share of the turn that an impulse goes along with
-    Real impulse[3][W];             // on a, summed over the substep [N s]
-    Real used[W];                   // 1 where a joint sits, 0 in an empty lane
+    Real share_a[W], share_b[W], lag_a[3][W], lag_b[3][W];  // JointLever [rad]
+    Real impulse[3][W];                                     // on a, summed over the substep [N s]
+    Real used[W];  // 1 where a joint sits, 0 in an empty lane
 };
 
 /// Where the points of a BallBlock are on its bodies.
 template <int W>
 struct alignas(64) BallFrames {
     double point_a[3][W], point_b[3][W];  // body frames, or the world's [m]
-    double load[W];                       // impulse that was stored last [N s]
+    double load[W];                       // impulse of the substep before [N s]
     double used[W], held[W];              // 1 where a joint sits; 1 where b is the world
     std::uint32_t body_a[W], body_b[W];   // where there is none, any other of the block's
 };
@@ -36,9 +36,10 @@ struct alignas(64) BallFrames {
 /// Joints of any kind.
 template <class Real, int W>
 struct JointBlock : JointBodies<Real, W> {
-    Real arm_a[3][W], arm_b[3][W], apart[3][W];  // at the start of the substep [m]
-    Real e[3][3][W], u[3][3][W], w[3][3][W];     // [row][component]
-    Real follow_a[W], follow_b[W];
+    Real arm_a[3][W], arm_b[3][W], apart[3][W];             // at the start of the substep [m]
+    Real e[3][3][W], u[3][3][W], w[3][3][W];                // [row][component]
+    Real share_a[W], share_b[W], lag_a[3][W], lag_b[3][W];  // JointLever [rad]
+    Real line_share[W], line_lag[3][W];                     // of a distance joint's line [m]
     Real lock[6][W], softness[6][W], length[W];
     Real lambda[6][W];  // summed over the substep [N s], [N m s]
 };

@@ -52,16 +52,17 @@ struct alignas(64) TreeBalls {
     double used[N], held[N];  // 1 where a body sits; 1 where it hangs from the world
     double active[N];         // 1 where the tree is still to be solved
     double hung[N];           // 1 where its root hangs by something
-    double load[N];           // impulse that was stored last [N s]
+    double load[N];           // impulse of the substep before [N s]
     double sign[N];           // 1 where the body is the joint's a, else −1
     // at the start of a substep
     double mass[N], inertia[6][N];                   // world frame [kg], [kg m²]
     double arm[3][N], other_arm[3][N], apart[3][N];  // child's point − parent's [m]
-    double follow[N], other_follow[N];  // share of the turn that an impulse goes along with
-    double shift[3][N];                 // of a point on an immovable parent, over the substep [m]
-    double owed[3][N];                  // part of `apart` that is left for later [m]
-    double start[6][N];                 // velocity with forces and what others changed of it
-    double own[6][N];                   // change by this solver
+    double share[N], other_share[N];                 // JointLever
+    double lag[3][N], other_lag[3][N];               // likewise [rad]
+    double shift[3][N];  // of a point on an immovable parent, over the substep [m]
+    double owed[3][N];   // part of `apart` that is left for later [m]
+    double start[6][N];  // velocity with forces and what others changed of it
+    double own[6][N];    // change by this solver
     // at the preview
     double gap[3][N];                         // child's point − parent's, without `owed` [m]
     double violation[N];                      // its greatest component [m]

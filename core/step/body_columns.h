@@ -35,7 +35,9 @@ inline BodyStates states_of(const Bodies& b) {
             numbers(b.angular_velocity),
             b.inverse_mass.data(),
             numbers(b.inertia),
-            numbers(b.world_inverse_inertia)};
+            numbers(b.world_inverse_inertia),
+            numbers(b.angular_velocity_now),
+            numbers(b.angular_velocity_before)};
 }
 
 }  // namespace plumb

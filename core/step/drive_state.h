@@ -16,7 +16,7 @@ inline InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t body) {
 /// What a drive at q moves while its joint holds [kg], [kg m²]; 0 where nothing can move.
 inline double driven_mass(const World& world, const Joint& joint, const JointCoordinate& q,
                           double h) {
-    return felt_mass(joint_geometry(world, joint, 0, 0, h), q, inverse_mass(world.bodies, joint.a),
+    return felt_mass(joint_geometry(world, joint, h), q, inverse_mass(world.bodies, joint.a),
                      inverse_mass(world.bodies, joint.b));
 }
 

@@ -4,12 +4,12 @@
 
 #include "constraints/joint_rows.h"
 #include "step/joint_state.h"
+#include "step/lever_of.h"
 
 namespace plumb {
 
-/// `follow_a`, `follow_b`: shares of the bodies' turns that impulses go along with; h: substep [s].
-inline JointGeometry<double> joint_geometry(const World& world, const Joint& joint, double follow_a,
-                                            double follow_b, double h) {
+/// With arms that stay where they are; h: substep [s].
+inline JointGeometry<double> joint_geometry(const World& world, const Joint& joint, double h) {
     const Bodies& b = world.bodies;
     const JointPose pose = joint_pose(b, joint);
     JointGeometry<double> g;
@@ -28,8 +28,19 @@ inline JointGeometry<double> joint_geometry(const World& world, const Joint& joi
         g.lock[k] = joint.locked[k] && !joint.broken;
         g.softness[k] = alpha / (h * h);
     }
-    g.follow_a = follow_a, g.follow_b = follow_b;
+    g.lever_a = g.lever_b = {0, Vector3d::Zero()};
     g.length = joint.locked[kAlongX] ? joint.length : 0;
+    g.line_share = 0, g.line_lag = Vector3d::Zero();
+    return g;
+}
+
+/// With levers that turn as the joint's load asks for.
+inline JointGeometry<double> loaded_joint_geometry(const World& world, const Joint& joint,
+                                                   double h) {
+    JointGeometry<double> g = joint_geometry(world, joint, h);
+    g.lever_a = lever_of(world, joint, joint.a, g.r_a, h);
+    g.lever_b = lever_of(world, joint, joint.b, g.r_b, h);
+    if (g.length > 0) turn_line(g, world, joint, h);
     return g;
 }
 

@@ -6,7 +6,6 @@
 #include "step/body_columns.h"
 #include "step/coupling_solver.h"
 #include "step/drive_state.h"
-#include "step/follow_share.h"
 #include "step/lane_blocks.h"
 #include "step/velocity_table.h"
 
@@ -133,9 +132,7 @@ private:
     void fill_block(const World& world, const Joint& joint, std::size_t item, double h) {
         JointBlock<Real, W>& block = blocks_.block(item);
         const std::uint32_t lane = blocks_.lane(item);
-        const JointGeometry<double> g = joint_geometry(
-            world, joint, follow_share(world, joint, joint.a, joint.frame_a.position, h),
-            follow_share(world, joint, joint.b, joint.frame_b.position, h), h);
+        const JointGeometry<double> g = loaded_joint_geometry(world, joint, h);
         blocks_.fill_masses(item, world.bodies, joint.a, joint.b);
         put(block.arm_a, lane, g.r_a), put(block.arm_b, lane, g.r_b);
         put(block.apart, lane, g.apart);
@@ -147,8 +144,11 @@ private:
             block.softness[k][lane] = static_cast<Real>(g.softness[k]);
             block.lambda[k][lane] = 0;
         }
-        block.follow_a[lane] = static_cast<Real>(g.follow_a);
-        block.follow_b[lane] = static_cast<Real>(g.follow_b);
+        block.share_a[lane] = static_cast<Real>(g.lever_a.share);
+        block.share_b[lane] = static_cast<Real>(g.lever_b.share);
+        put(block.lag_a, lane, g.lever_a.lag), put(block.lag_b, lane, g.lever_b.lag);
+        block.line_share[lane] = static_cast<Real>(g.line_share);
+        put(block.line_lag, lane, g.line_lag);
         block.length[lane] = static_cast<Real>(g.length);
     }
 

@@ -28,9 +28,12 @@ struct StepReport {
     std::uint32_t contacts = 0;            ///< contact points
     std::uint32_t clamped_recoveries = 0;  ///< contacts, summed over substeps, whose overlap was
                                            ///< deeper than one substep may push out
-    std::uint32_t unsolved_islands = 0;    ///< islands, summed over substeps, that were to be solved
-                                           ///< exactly and still miss the law of contact
-    std::uint32_t rejected_contacts = 0;   ///< left out for one of the faults
+    std::uint32_t unsolved_islands = 0;   ///< islands, summed over substeps, that were to be solved
+                                          ///< exactly and still miss the law of contact
+    std::uint32_t unsolved_trees = 0;     ///< trees of joints, summed over substeps, that Newton's
+                                          ///< steps could not close
+    double tree_error = 0;                ///< by how much they were open at most [m], [rad]
+    std::uint32_t rejected_contacts = 0;  ///< left out for one of the faults
     std::array<std::uint32_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::uint32_t broken_joints = 0;                         ///< joints that gave way in this step
     bool finite = true;              ///< no position or velocity is NaN or infinite

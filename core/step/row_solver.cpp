@@ -98,7 +98,7 @@ public:
         sweeps_ += settings_.velocity_iterations;
     }
 
-    void solve_positions() override {
+    void solve_positions(StepReport& report) override {
         if (contacts_.empty() && !joints_) return;
         const bool alone = contacts_.empty() && joints_->empty();
         const std::uint32_t iterations =
@@ -115,6 +115,10 @@ public:
             }
         });
         sweeps_ += settings_.position_iterations;
+        for (const TreeSolver<W>& trees : trees_) {
+            report.unsolved_trees += trees.unsolved().count;
+            report.tree_error = std::max(report.tree_error, trees.unsolved().error);
+        }
     }
 
     std::uint32_t solve_islands() override { return islands_->solve(); }

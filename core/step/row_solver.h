@@ -6,6 +6,7 @@
 
 #include "effects/plan.h"
 #include "schedule/workers.h"
+#include "step/report.h"
 #include "world/world.h"
 
 #include <memory>
@@ -25,7 +26,8 @@ public:
     virtual std::uint32_t begin_substep(const World& world, double h) = 0;
 
     virtual void solve_velocities() = 0;
-    virtual void solve_positions() = 0;
+    /// Tells the report of trees that could not be solved.
+    virtual void solve_positions(StepReport& report) = 0;
     /// The islands that are solved exactly. Returns how many still miss the law of contact.
     virtual std::uint32_t solve_islands() = 0;
     virtual void propagate_shock() = 0;
@@ -36,7 +38,7 @@ public:
     /// Once a step: impulses, into ContactTable::memory.
     virtual void store_impulses(World& world) = 0;
 
-    /// At the end of a step's last two substeps: impulses of joints and drives, into JointTable.
+    /// At the end of a substep: impulses of joints and drives, into JointTable.
     virtual void store_joint_impulses(World& world) = 0;
 };
 

@@ -42,14 +42,17 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
         if (plan.runs(Effect::joints))
-            timed(Stage::begin, [&] { count_turns(world, stepper.turning); });
+            timed(Stage::begin, [&] {
+                remember_velocities(world.bodies);
+                count_turns(world, stepper.turning);
+            });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, stepper.motion, h); });
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
         timed(Stage::begin, [&] { report.clamped_recoveries += solver.begin_substep(world, h); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
-        timed(Stage::positions, [&] { solver.solve_positions(); });
+        timed(Stage::positions, [&] { solver.solve_positions(report); });
         if (plan.runs(Effect::exact_islands))
             timed(Stage::islands, [&] { report.unsolved_islands += solver.solve_islands(); });
         if (plan.runs(Effect::shock_propagation))
@@ -58,7 +61,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             solver.take_changes(world.bodies);
             move(world, stepper.motion, h);
         });
-        if (plan.runs(Effect::joints) && i + 2 >= world.settings.substeps)
+        if (plan.runs(Effect::joints))
             timed(Stage::remember, [&] { solver.store_joint_impulses(world); });
         world.time += h;
     }

@@ -3,7 +3,6 @@
 
 #include "constraints/tension_rows.h"
 #include "math/rotation.h"
-#include "step/follow_share.h"
 #include "step/joint_geometry.h"
 
 #include <algorithm>
@@ -103,12 +102,11 @@ void TreeNodes::begin_joint(const World& world, Node& node) {
     };
     const Vector3d own_point = point(node.body, is_a ? joint.frame_a : joint.frame_b, node.arm);
     node.apart = own_point - point(other, is_a ? joint.frame_b : joint.frame_a, node.other_arm);
-    node.follow = follow_share(world, joint, node.body, node.arm, h_);
-    node.other_follow = follow_share(world, joint, other, node.other_arm, h_);
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
-    node.geometry = joint_geometry(world, joint, is_a ? node.follow : node.other_follow,
-                                   is_a ? node.other_follow : node.follow, h_);
+    node.geometry = loaded_joint_geometry(world, joint, h_);
+    node.lever = is_a ? node.geometry.lever_a : node.geometry.lever_b;
+    node.other_lever = is_a ? node.geometry.lever_b : node.geometry.lever_a;
     owe(node, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, h_);
 }
@@ -153,11 +151,11 @@ double TreeNodes::evaluate(std::uint32_t index, bool settle) {
     take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
     const Vector3d change = turn.change(node.arm),
                    other_change = unit_exponential<double>(h_ * other.w).change(node.other_arm);
-    place_impulse(node, change, other_change, h_ * (own.v - other.v) + change - other_change);
-    if (node.geometry.length > 0 && node.lambda[0] < 0)
-        add_tension_rows<double>(node.elimination, node.now.e[0], node.arm + change,
-                                 node.other_arm + other_change, -node.lambda[0],
-                                 node.geometry.length, h_);
+    place_impulse(node, h_ * own.w, h_ * other.w, h_ * (own.v - other.v) + change - other_change);
+    if (node.geometry.line_share > 0 && node.lambda[0] < 0)
+        add_tension_rows<double>(
+            node.elimination, node.now.e[0], node.arm + change, node.other_arm + other_change,
+            -node.lambda[0] * node.geometry.line_share, node.geometry.length, h_);
     double worst = violation_of(node);
     for (DrivenAxis& axis : node.axes) worst = greater(worst, axis.evaluate(a, b, settle));
     return worst;
@@ -173,16 +171,18 @@ double TreeNodes::violation_of(const Node& node) const {
     return worst;
 }
 
-/// Both bodies feel the impulse at one point, that of the joint's a. `opened`: by how much the
-/// points have moved apart [m].
-void TreeNodes::place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change,
+/// The arms meet in the point of the joint's a as far as their levers rest. `turn`, `other_turn`:
+/// h ω [rad]; `opened`: by how much the points have moved apart [m].
+void TreeNodes::place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn,
                               const Vector3d& opened) {
-    node.acting = node.arm + node.follow * change;
-    node.other_acting = node.other_arm + node.other_follow * other_change;
+    const JointLever<double>&lever = node.lever, &other = node.other_lever;
+    node.acting = node.arm + unit_exponential<double>(lever.angle(turn)).change(node.arm);
+    node.other_acting =
+        node.other_arm + unit_exponential<double>(other.angle(other_turn)).change(node.other_arm);
     if (node.sign > 0)
-        node.other_acting += node.apart + node.other_follow * opened;
+        node.other_acting += node.apart + other.share * opened;
     else
-        node.acting -= node.apart + node.follow * opened;
+        node.acting -= node.apart + lever.share * opened;
 }
 
 /// With all that hangs on the body.
@@ -191,7 +191,7 @@ void TreeNodes::load_block(Node& node, bool balance, bool leaf) {
         leaf ? TreeShare<double>::none() : share_of<double>(share_row(tables_.share, node.node));
     Symmetric3<double> stiffness{0, 0, 0, 0, 0, 0};
     if (!node.free)
-        stiffness = turning_stiffness<double>(node.acting, impulse_of(node), node.follow * h_);
+        stiffness = turning_stiffness<double>(node.acting, impulse_of(node), node.lever.share * h_);
     add_body<double>(whole, node.mass, node.inertia, stiffness, node.own, balance);
     node.block = whole.block;
 }
@@ -225,8 +225,8 @@ void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool le
     add_rows(parent.block, e);
     for (const DrivenAxis& axis : node.axes) axis.push_parent(parent.block, node.sign, balance);
     parent.stiffness =
-        parent.stiffness +
-        turning_stiffness<double>(node.other_acting, -impulse_of(node), node.other_follow * h_);
+        parent.stiffness + turning_stiffness<double>(node.other_acting, -impulse_of(node),
+                                                     node.other_lever.share * h_);
     put_share(parent, row);
 }
 

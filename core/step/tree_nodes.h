@@ -63,9 +63,9 @@ private:
         bool free, hung;  ///< a root that hangs by nothing; the tree's root hangs by something
         double sign;      ///< 1 where the body is the joint's a, else −1
         double mass;
-        Symmetric3<double> inertia;     ///< world frame, at the start [kg m²]
-        Vector3d arm, other_arm;        ///< of the joint's point, at the start [m]
-        double follow, other_follow;    ///< share of the turn that an impulse goes along with
+        Symmetric3<double> inertia;  ///< world frame, at the start [kg m²]
+        Vector3d arm, other_arm;     ///< of the joint's point, at the start [m]
+        JointLever<double> lever, other_lever;
         Vector3d apart;                 ///< child's point − parent's, at the start [m]
         Change start, held;             ///< velocity at the start; of an immovable parent
         Change given, own, written;     ///< changes by others, by this solver, and their sum when
@@ -99,7 +99,7 @@ private:
     static void add_axes(const World& world, Node& node);
     void begin_joint(const World& world, Node& node);
     void owe(Node& node, double reach);
-    static void place_impulse(Node& node, const Vector3d& change, const Vector3d& other_change,
+    static void place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn,
                               const Vector3d& opened);
     double violation_of(const Node& node) const;
     void load_block(Node& node, bool balance, bool leaf);

@@ -66,6 +66,17 @@ public:
         return true;
     }
 
+    /// How far those are off that are still to be solved [m], [rad].
+    double greatest() const {
+        double worst = 0;
+        for (std::size_t i = 0; i < active_.size(); ++i)
+            if (active_[i]) worst = std::max(worst, violation_[i]);
+        return worst;
+    }
+    std::uint32_t active() const {
+        return static_cast<std::uint32_t>(std::count(active_.begin(), active_.end(), 1));
+    }
+
     /// Leaves those that are no worse off than before any step; the same return.
     bool leave_those_no_worse() {
         bool left = false;

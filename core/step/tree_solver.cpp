@@ -119,6 +119,7 @@ void TreeSolver<W>::solve(const BodyRows<Real>& rows, bool alone) {
 template <int W>
 void TreeSolver<W>::solve() {
     progress_.start();
+    unsolved_ = {};
     for (int step = 0; step < kMostSteps; ++step) {
         evaluate(step >= kSettleSteps);
         if (fresh_) progress_.remember_start();
@@ -133,9 +134,12 @@ void TreeSolver<W>::solve() {
         if (last) return;
     }
     evaluate(true);
+    if (!progress_.leave_those_within(tolerance_)) return;
+    unsolved_ = {progress_.active(), progress_.greatest()};
     if (!progress_.leave_those_no_worse()) return;
     mark_active();
     forget();
+    unsolved_.error = std::max(unsolved_.error, progress_.greatest());
 }
 
 /// Back to v*, where a search that led nowhere began.

@@ -25,6 +25,12 @@
 
 namespace plumb {
 
+/// Trees that Newton's steps did not close, and by how much [m], [rad].
+struct UnsolvedTrees {
+    std::uint32_t count = 0;
+    double error = 0;
+};
+
 template <int W>
 class TreeSolver {
 public:
@@ -44,6 +50,9 @@ public:
     /// nothing else changes velocities.
     template <class Real>
     void solve(const BodyRows<Real>& rows, bool alone);
+
+    /// What the last solve left open.
+    const UnsolvedTrees& unsolved() const { return unsolved_; }
 
     /// Impulses of the last substep, into Joint::rows.
     void store_impulses(JointTable& joints);
@@ -89,6 +98,7 @@ private:
 
     const TreeKernels<W>& kernels_ = tree_kernels<W>();
     double tolerance_, h_ = 0;
+    UnsolvedTrees unsolved_;
     bool fresh_ = true;  ///< no step was made in this substep
     TreeTables tables_;
     TreeProgress progress_;

@@ -44,6 +44,9 @@ struct Bodies {
     std::vector<Symmetric3<double>> world_inverse_inertia;  ///< at the start of the substep
     std::vector<Vector3d>
         angular_momentum;  ///< carried through the substep where `isotropic` is 0 [kg m²/s]
+    std::vector<Vector3d> velocity_now, angular_velocity_now;  ///< at the start of the substep,
+                                                               ///< without its forces
+    std::vector<Vector3d> velocity_before, angular_velocity_before;  ///< and of the one before it
     std::vector<Vector3d> turn_change;  ///< of the angular velocity, by the passes [rad/s]
 
     std::size_t size() const { return motion.size(); }

@@ -119,6 +119,9 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.row, 0);
     visit(b.world_inverse_inertia, Symmetric3<double>{});
     visit(b.angular_momentum, Vector3d(Vector3d::Zero()));
+    visit(b.velocity_now, row.velocity), visit(b.velocity_before, row.velocity);
+    visit(b.angular_velocity_now, row.angular_velocity);
+    visit(b.angular_velocity_before, row.angular_velocity);
     visit(b.turn_change, Vector3d(Vector3d::Zero()));
 }
 

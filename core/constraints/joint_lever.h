@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+/// The lever at which a joint's impulse acts on a body: the arm of the substep's start, or turned
+/// with the body.
+///
+/// At the start is what keeps momentum to rounding and energy for good, as SHAKE does: both bodies
+/// feel the impulse at one point of the start's poses. But a load P/h on an arm r turns a body like
+/// a pendulum of a = (h ω)² = h |P| |r| / I, and a force that stays where it was is an explicit
+/// step of that pendulum: stable for a < 4 only.
+///
+/// A heavily loaded lever is therefore turned by what the body's turn changes,
+///
+///   ϑ = h (θ (ω₁ − ω₀) + κ (ω₁ − 2 ω₀ + ω₋₁)),   θ = 1/2, κ = −1/10
+///
+/// of the velocity ω₁ that is sought and those of the two substeps before. What swings slowly does
+/// not feel it, since its velocity hardly changes: it loses |κ| a² / 2 of its amplitude a substep.
+/// With θ alone the pendulum is a symplectic one of the frequency ω / √(1 + θ a), stable for every
+/// load; κ takes what swings faster than substeps can follow down to 0.64 of itself each time. (The
+/// characteristic polynomial is z (z − 1)² + a (z² + θ z (z − 1)² + κ (z − 1)³).)
+///
+/// A body that turns far within a substep is another matter: rows at its start are poor rows for
+/// its end. There the lever is that of the end, which loses some energy and angular momentum.
+#pragma once
+
+#include "constraints/connector.h"
+#include "math/rotation.h"
+
+namespace plumb {
+
+template <class T>
+struct JointLever {
+    T share;         ///< of the substep's turn
+    Vector3<T> lag;  ///< and what the turns of the past add [rad]
+
+    /// ϑ, for the turn h ω₁ [rad].
+    Vector3<T> angle(const Vector3<T>& turn) const { return turn * share + lag; }
+};
+
+/// What levers change of vectors that ride on a body; nothing is computed where none turns.
+template <class T>
+class LeverTurn {
+public:
+    LeverTurn(const JointLever<T>& lever, const Vector3<T>& turn)
+        : turns_(any_greater(lever.share, T(0))), turn_(lever.angle(turn)) {}
+
+    Vector3<T> change(const Vector3<T>& r) const {
+        return turns_ ? turn_.change(r) : Vector3<T>(T(0), T(0), T(0));
+    }
+
+private:
+    bool turns_;
+    Turn<T> turn_;
+};
+
+/// How far a load asks its lever to turn along, from 0 to 1; `a`: (h ω)², as above.
+template <class T>
+inline T lever_turns(const T& a) {
+    return min(max(a - T(0.5), T(0)), T(1));
+}
+
+/// `turns`: lever_turns of the load; `turn`, `turn_before`: h ω₀ and h ω₋₁ [rad].
+template <class T>
+inline JointLever<T> joint_lever(const T& turns, const Vector3<T>& turn,
+                                 const Vector3<T>& turn_before) {
+    constexpr double kTheta = 0.5, kKappa = -0.1;
+    const T far = min(max((sqrt(dot(turn, turn)) - T(0.5)) * T(4), T(0)), T(1));
+    const T near = (T(1) - far) * turns;
+    return {far + near * T(kTheta + kKappa),
+            (turn * T(-kTheta - 2 * kKappa) + turn_before * T(kKappa)) * near};
+}
+
+/// (h ω)² of a body on a joint. `impulse`: of the substep before [N s]; `moment`: of its rotational
+/// rows [N m s]; `arm`: of the joint [m]; `inverse_inertia`: world frame [1/(kg m²)].
+template <class T>
+inline T lever_load(const T& impulse, const T& moment, const Vector3<T>& arm,
+                    const Symmetric3<T>& inverse_inertia, const T& h) {
+    const Symmetric3<T> turned = point_response(InverseMass<T>{T(0), inverse_inertia}, arm);
+    const T softest = inverse_inertia.xx + inverse_inertia.yy + inverse_inertia.zz;
+    const T across = (turned.xx + turned.yy + turned.zz) / sqrt(max(dot(arm, arm), T(1e-30)));
+    return h * (impulse * across + moment * softest);
+}
+
+}  // namespace plumb

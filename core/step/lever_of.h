@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+/// How a joint's levers turn in this substep, by its load in the one before.
+#pragma once
+
+#include "constraints/joint_lever.h"
+#include "constraints/joint_rows.h"
+#include "world/world.h"
+
+namespace plumb {
+
+/// `arm`: of the joint on the body, world frame [m]; `body` may be kNoIndex.
+inline JointLever<double> lever_of(const World& world, const Joint& joint, std::uint32_t body,
+                                   const Vector3d& arm, double h) {
+    if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic)
+        return {0, Vector3d::Zero()};
+    const Bodies& b = world.bodies;
+    const auto& r = joint.rows;
+    const double load =
+        lever_load<double>(Vector3d(r[0], r[1], r[2]).norm(), Vector3d(r[3], r[4], r[5]).norm(),
+                           arm, b.world_inverse_inertia[body], h);
+    return joint_lever<double>(lever_turns<double>(load),
+                               Vector3d(h * b.angular_velocity_now[body]),
+                               Vector3d(h * b.angular_velocity_before[body]));
+}
+
+/// The same for the line of a distance joint, whose pull turns with it.
+inline void turn_line(JointGeometry<double>& g, const World& world, const Joint& joint, double h) {
+    const Bodies& b = world.bodies;
+    double response = 0;  // of the points, in any direction [1/kg]
+    Vector3d moved = Vector3d::Zero(), moved_before = Vector3d::Zero();
+    const auto add = [&](std::uint32_t body, const Vector3d& arm, double sign) {
+        if (body == kNoIndex) return;
+        const Symmetric3<double> k =
+            point_response<double>({b.inverse_mass[body], b.world_inverse_inertia[body]}, arm);
+        response += std::max({k.xx, k.yy, k.zz});
+        moved += sign * h * (b.velocity_now[body] + b.angular_velocity_now[body].cross(arm));
+        moved_before +=
+            sign * h * (b.velocity_before[body] + b.angular_velocity_before[body].cross(arm));
+    };
+    add(joint.a, g.r_a, 1), add(joint.b, g.r_b, -1);
+    const double load = h * std::abs(joint.rows[kAlongX]) * response / joint.length;
+    const JointLever<double> line = joint_lever<double>(
+        lever_turns<double>(load), Vector3d(moved / joint.length), moved_before / joint.length);
+    g.line_share = line.share, g.line_lag = line.lag * joint.length;
+}
+
+}  // namespace plumb
