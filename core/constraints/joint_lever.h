@@ -54,7 +54,7 @@ private:
 /// How far a load asks its lever to turn along, from 0 to 1; `a`: (h ω)², as above.
 template <class T>
 inline T lever_turns(const T& a) {
-    return min(max(a - T(0.5), T(0)), T(1));
+    return min(max(a - T(1), T(0)), T(1));
 }
 
 /// `turns`: lever_turns of the load; `turn`, `turn_before`: h ω₀ and h ω₋₁ [rad].
@@ -62,7 +62,7 @@ template <class T>
 inline JointLever<T> joint_lever(const T& turns, const Vector3<T>& turn,
                                  const Vector3<T>& turn_before) {
     constexpr double kTheta = 0.5, kKappa = -0.1;
-    const T far = min(max((sqrt(dot(turn, turn)) - T(0.5)) * T(4), T(0)), T(1));
+    const T far = min(max((sqrt(dot(turn, turn)) - T(0.2)) * T(10), T(0)), T(1));
     const T near = (T(1) - far) * turns;
     return {far + near * T(kTheta + kKappa),
             (turn * T(-kTheta - 2 * kKappa) + turn_before * T(kKappa)) * near};

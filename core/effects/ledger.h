@@ -16,6 +16,7 @@ enum class Stage : std::uint32_t {
     schedule,     ///< colouring, lanes, effective masses
     kinematics,   ///< scripts of moved bodies
     restitution,  ///< which contacts bounce
+    impacts,      ///< collisions, before forces
     integrate,    ///< forces and gyroscopic term
     begin,        ///< gaps, drifts and velocities at the start of the substep
     velocities,   ///< velocity pass
@@ -25,10 +26,11 @@ enum class Stage : std::uint32_t {
     move,         ///< new poses
     remember,     ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 14;
+inline constexpr std::size_t kStageCount = 15;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect", "reuse",      "match",     "schedule", "kinematics", "restitution", "integrate",
-    "begin",  "velocities", "positions", "islands",  "shock",      "move",        "remember"};
+    "detect",      "reuse",   "match",     "schedule", "kinematics",
+    "restitution", "impacts", "integrate", "begin",    "velocities",
+    "positions",   "islands", "shock",     "move",     "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

@@ -59,6 +59,13 @@ Wish restitution(const World& w) {
     return counted(contacts(w).wanted ? n : 0, "pairs of materials bounce (e > 0)",
                    "no pair of materials bounces");
 }
+Wish impacts(const World& w) {
+    if (!contacts(w).wanted) return {false, "there are no contacts"};
+    if (!w.settings.shared_push)
+        return {false,
+                "collisions and contacts are solved together, as in the paper (shared_push)"};
+    return {true, "collisions are solved before forces, so that no contact remembers them"};
+}
 Wish sticking_anchors(const World& w) {
     if (!friction(w).wanted) return {false, "nothing rubs"};
     if (!(w.settings.anchor_stiffness > 0)) return {false, "anchor_stiffness is 0"};
@@ -115,6 +122,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"friction", friction},
     {"turning_friction", turning_friction},
     {"restitution", restitution},
+    {"impacts", impacts},
     {"sticking_anchors", sticking_anchors},
     {"gyroscopic", gyroscopic},
     {"exact_islands", exact_islands},

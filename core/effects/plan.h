@@ -23,6 +23,7 @@ enum class Effect : std::uint32_t {
     friction,
     turning_friction,
     restitution,
+    impacts,
     sticking_anchors,
     gyroscopic,
     exact_islands,
@@ -31,7 +32,7 @@ enum class Effect : std::uint32_t {
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 12;
+inline constexpr std::size_t kEffectCount = 13;
 
 struct Decision {
     std::string_view name;

@@ -8,7 +8,9 @@
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
 #include "step/contact_pairs.h"
+#include "step/contact_velocity.h"
 #include "step/fill_mass.h"
+#include "step/impacts.h"
 #include "step/island_group.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
@@ -32,6 +34,7 @@ public:
           workers_(workers) {}
 
     bool empty() const { return pairs_.empty(); }
+    const std::vector<BodyPair>& pairs() const { return pairs_; }
 
     /// Rows for the pairs; `levels` (may be null) makes the lower body of a pair immovable.
     /// `exact` (may be null) takes those that it solves.
@@ -85,6 +88,68 @@ public:
         });
         run(kernels_.begin, bodies, pass);
         return clamped;
+    }
+
+    /// Puts the impulses of the substep before aside and begins from nothing: how fast contacts
+    /// approach, and how far they may.
+    void begin_impacts(const World& world, const BodyRows<Real>& bodies,
+                       const PassSettings<Real>& pass) {
+        const ContactTable& c = world.contacts;
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        resting_ = batches_;
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            NormalRow<Real, W>& row = rows.normals[k];
+            const bool passing = !c.rebound.empty() && c.rebound[contact] == ContactTable::kPassing;
+            row.gap[lane] = passing ? kOutOfReach : static_cast<Real>(c.gap[contact]);
+            row.rebound[lane] = 0;
+            if (rows.frictions)
+                rows.frictions[k].drift_x[lane] = rows.frictions[k].drift_y[lane] = 0;
+        });
+        run(kernels_.begin, bodies, pass);
+    }
+
+    /// Restitution of the contacts that collided, after their compression. Returns whether there
+    /// is any.
+    bool give_back(World& world, const Impacts& impacts, const BodyRows<Real>& bodies) {
+        ContactTable& c = world.contacts;
+        if (c.rebound.empty()) return false;
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        const double threshold = collision_threshold(world.settings);
+        given_.clear();
+        each_hit_contact(impacts, [&](std::size_t contact, std::uint32_t b, std::uint32_t k,
+                                      std::uint32_t lane) {
+            if (c.rebound[contact] == ContactTable::kPassing) return;
+            c.rebound[contact] = 0;
+            const Contact& found = c.found[contact];
+            const double e = world.surface_pair(found.a, found.b).restitution;
+            NormalRow<Real, W>& row = rows.normals[k];
+            const double lambda = double(row.lambda_velocity[lane]);
+            const bool collides = lambda > threshold * double(row.effective_mass[lane]);
+            if (!(e > 0) || !collides || c.gap[contact] > 0) return;
+            given_.push_back({contact, b, k, lane});
+            const Real impulse = static_cast<Real>(e * lambda);
+            push_normal(bodies, rows.blocks[b], row, lane, impulse);
+            row.lambda_velocity[lane] += impulse;
+        });
+        for (const Given& g : given_) {
+            NormalRow<Real, W>& row = rows.normals[g.row];
+            row.rebound[g.lane] =
+                std::max(Real(0), row.velocity[g.lane] +
+                                      change_along(bodies, rows.blocks[g.block], row, g.lane));
+            c.bounced[g.contact] = 1;
+        }
+        return !given_.empty();
+    }
+
+    /// Takes the impulses that were put aside up again. What bounced parts as it does: the recovery
+    /// of its overlap adds nothing.
+    void end_impacts(World& world) {
+        std::swap(batches_, resting_);
+        for (const Given& g : given_) {
+            const double u = separating_velocity(world.bodies, world.contacts.found[g.contact]);
+            world.contacts.rebound[g.contact] = u > 0 ? ContactTable::kParting : 0;
+        }
+        given_.clear();
     }
 
     void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
@@ -144,6 +209,54 @@ public:
 private:
     static constexpr Real kOutOfReach = Real(1e6);  // [m]
 
+    /// A contact that bounced, and where it is.
+    struct Given {
+        std::size_t contact;
+        std::uint32_t block, row, lane;
+    };
+
+    static Real* change_row(const BodyRows<Real>& bodies, std::int32_t row) {
+        return bodies.change + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+    }
+    static Vector3<Real> column(const Real (&x)[3][W], std::uint32_t lane) {
+        return {x[0][lane], x[1][lane], x[2][lane]};
+    }
+    static Symmetric3<Real> column(const Real (&x)[6][W], std::uint32_t lane) {
+        return {x[0][lane], x[1][lane], x[2][lane], x[3][lane], x[4][lane], x[5][lane]};
+    }
+
+    /// An impulse along the normal [N s].
+    static void push_normal(const BodyRows<Real>& bodies, const PairBlock<Real, W>& block,
+                            const NormalRow<Real, W>& row, std::uint32_t lane, Real impulse) {
+        const Vector3<Real> p = column(row.normal, lane) * impulse;
+        const auto push = [&](std::int32_t body, Real mass, const Symmetric3<Real>& inertia,
+                              const Vector3<Real>& arm, Real sign) {
+            if (body >= bodies.dynamic_count) return;
+            Real* change = change_row(bodies, body);
+            const Vector3<Real> turn = inertia * Vector3<Real>(arm.cross(p));
+            for (int i = 0; i < 3; ++i) {
+                change[i] += sign * mass * p[i];
+                change[4 + i] += sign * turn[i];
+            }
+        };
+        push(block.row_a[lane], block.inverse_mass_a[lane], column(block.inverse_inertia_a, lane),
+             column(row.arm_a, lane), 1);
+        push(block.row_b[lane], block.inverse_mass_b[lane], column(block.inverse_inertia_b, lane),
+             column(row.arm_b, lane), -1);
+    }
+
+    /// How the separating velocity has changed since the start of the substep [m/s].
+    static Real change_along(const BodyRows<Real>& bodies, const PairBlock<Real, W>& block,
+                             const NormalRow<Real, W>& row, std::uint32_t lane) {
+        const auto velocity = [&](std::int32_t body, const Vector3<Real>& arm) -> Vector3<Real> {
+            const Real* x = change_row(bodies, body);
+            return Vector3<Real>(x[0], x[1], x[2]) + Vector3<Real>(x[4], x[5], x[6]).cross(arm);
+        };
+        return column(row.normal, lane)
+            .dot(velocity(block.row_a[lane], column(row.arm_a, lane)) -
+                 velocity(block.row_b[lane], column(row.arm_b, lane)));
+    }
+
     struct TangentPair {
         Vector3d x, y;
     };
@@ -156,6 +269,18 @@ private:
 
     std::uint32_t row_of(std::uint32_t block, std::uint32_t point) {
         return batches_.arrays().blocks[block].first_row + point;
+    }
+
+    /// Calls visit(contact, block, row, lane) for the contacts of islands that collide.
+    template <class Visit>
+    void each_hit_contact(const Impacts& impacts, Visit visit) {
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            if (!impacts.is_hit(p)) continue;
+            const auto slot = batches_.slot(p);
+            const std::uint32_t first = row_of(slot.block, 0);
+            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
+                visit(pairs_[p].first + i, slot.block, first + i, slot.lane);
+        }
     }
 
     /// Calls visit(contact, row, lane) for all contacts, in their order.
@@ -266,7 +391,8 @@ private:
     Workers& workers_;
     std::vector<BodyPair> pairs_;
     Colouring colouring_;
-    ContactBatches<Real, W> batches_;
+    ContactBatches<Real, W> batches_, resting_;
+    std::vector<Given> given_;
 };
 
 }  // namespace plumb

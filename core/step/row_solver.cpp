@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
 #include "step/contact_solver.h"
+#include "step/impacts.h"
 #include "step/joint_solver.h"
 #include "step/tree_solver.h"
 
@@ -36,6 +37,9 @@ Recovery recovery(const Settings& s) {
 /// How often shock propagation solves a level before it goes on to the next: until the points of a
 /// pair agree, for the error that is left at one level tips over all that stands on it.
 constexpr std::uint32_t kShockRounds = 16;
+
+/// Sweeps of each phase of an impact.
+constexpr std::uint32_t kImpactSweeps = 10;
 
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {
@@ -83,6 +87,26 @@ public:
                 if (worker < trees_.size()) trees_[worker].begin(world, h);
             });
         return clamped;
+    }
+
+    void solve_impacts(World& world, double h) override {
+        if (contacts_.empty() || !impacts_.find(world, contacts_.pairs(), h)) return;
+        const Bodies& b = world.bodies;
+        table_.begin(world, b.velocity_now, b.angular_velocity_now);
+        PassSettings<Real> pass{};
+        pass.h = static_cast<Real>(h), pass.inverse_h = static_cast<Real>(1 / h);
+        contacts_.begin_impacts(world, table_.rows(), pass);
+        sweep_impacts(pass);
+        if (contacts_.give_back(world, impacts_, table_.rows())) sweep_impacts(pass);
+        impacts_.each_row([&](std::int32_t row) {
+            const Real* change = table_.rows().change + std::ptrdiff_t(row) * kBodyRowSize;
+            for (int k = 0; k < 3; ++k) {
+                impacts_.changes()[row].v[k] = static_cast<double>(change[k]);
+                impacts_.changes()[row].w[k] = static_cast<double>(change[4 + k]);
+            }
+        });
+        impacts_.take(world, contacts_.pairs());
+        contacts_.end_impacts(world);
     }
 
     void solve_velocities() override {
@@ -166,6 +190,16 @@ private:
         joints_.emplace(world, in_tree, workers_);
     }
 
+    void sweep_impacts(PassSettings<Real> pass) {
+        workers_.run([&](std::uint32_t worker) {
+            PassSettings<Real> mine = pass;
+            for (std::uint32_t i = 0; i < kImpactSweeps; ++i) {
+                mine.forwards = i % 2 == 0;
+                contacts_.velocity_iteration(table_.rows(), mine, worker);
+            }
+        });
+    }
+
     bool forwards(std::uint32_t sweep) const {
         return !settings_.alternate_sweeps || sweep % 2 == 0;
     }
@@ -181,6 +215,7 @@ private:
     ContactSolver<Real, W> contacts_;
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;
+    Impacts impacts_;
     std::optional<JointSolver<Real, W>> joints_;
     std::deque<TreeSolver<W>> trees_;  ///< [worker], or fewer
     std::vector<std::uint32_t> levels_;

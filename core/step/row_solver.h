@@ -25,6 +25,9 @@ public:
     /// contacts overlap deeper than the substep may push out.
     virtual std::uint32_t begin_substep(const World& world, double h) = 0;
 
+    /// Collisions that begin in this substep, before forces: step/impacts.h.
+    virtual void solve_impacts(World& world, double h) = 0;
+
     virtual void solve_velocities() = 0;
     /// Tells the report of trees that could not be solved.
     virtual void solve_positions(StepReport& report) = 0;

@@ -41,7 +41,8 @@ void follow_contacts(World& world, const Plan& plan, bool first_substep);
 /// Kinematic bodies' velocities over the coming substep of length h [s], from their scripts.
 void move_scripted(World& world, double h);
 
-/// Keeps the velocities of this substep and of the one before, by which the levers of joints turn.
+/// Keeps the velocities of this substep and of the one before, by which the levers of joints turn
+/// and collisions are found.
 void remember_velocities(Bodies& bodies);
 
 /// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich).

@@ -41,15 +41,15 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::kinematics))
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
+        timed(Stage::begin, [&] { remember_velocities(world.bodies); });
         if (plan.runs(Effect::joints))
-            timed(Stage::begin, [&] {
-                remember_velocities(world.bodies);
-                count_turns(world, stepper.turning);
-            });
+            timed(Stage::begin, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, stepper.motion, h); });
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
+        if (plan.runs(Effect::impacts))
+            timed(Stage::impacts, [&] { solver.solve_impacts(world, h); });
         timed(Stage::begin, [&] { report.clamped_recoveries += solver.begin_substep(world, h); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
         timed(Stage::positions, [&] { solver.solve_positions(report); });

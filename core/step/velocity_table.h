@@ -19,6 +19,11 @@ class VelocityTable {
 public:
     /// Takes the velocities at the start of a substep, forces included, and clears the changes.
     void begin(const World& world) {
+        begin(world, world.bodies.velocity, world.bodies.angular_velocity);
+    }
+    /// The same with any velocities, [body].
+    void begin(const World& world, const std::vector<Vector3d>& velocity,
+               const std::vector<Vector3d>& angular_velocity) {
         const std::size_t rows = static_cast<std::size_t>(world.zero_row()) + 1;
         start_.assign(rows * kBodyRowSize, Real(0));
         change_.assign(rows * kBodyRowSize, Real(0));
@@ -27,8 +32,8 @@ public:
             if (world.bodies.motion[i] == Motion::fixed) continue;
             Real* row = start_.data() + world.bodies.row[i] * kBodyRowSize;
             for (int k = 0; k < 3; ++k) {
-                row[k] = static_cast<Real>(world.bodies.velocity[i][k]);
-                row[4 + k] = static_cast<Real>(world.bodies.angular_velocity[i][k]);
+                row[k] = static_cast<Real>(velocity[i][k]);
+                row[4 + k] = static_cast<Real>(angular_velocity[i][k]);
             }
         }
     }

@@ -58,6 +58,7 @@ struct ContactTable {
         0;  ///< contacts left out since the start: a number not finite, or an id unknown
 
     static constexpr double kPassing = -1;
+    static constexpr double kParting = 1e-9;  ///< a rebound that has happened already [m/s]
 };
 
 /// The point at which a contact acts, half-way between the two surfaces [m].

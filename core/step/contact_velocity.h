@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+/// How fast surfaces approach, and when that is a collision (§6, after Mirtich).
+#pragma once
+
+#include "world/world.h"
+
+#include <cmath>
+
+namespace plumb {
+
+/// Velocity of the contact's point on a against that on b, along the normal, without the forces of
+/// the substep [m/s]; negative: they approach.
+inline double separating_velocity(const Bodies& b, const Contact& c) {
+    const Vector3d point = common_point(c);
+    const auto velocity = [&](std::uint32_t i) -> Vector3d {
+        return b.velocity_now[i] + b.angular_velocity_now[i].cross(point - b.position[i]);
+    };
+    return to_eigen(c.normal).dot(velocity(c.a) - velocity(c.b));
+}
+
+/// A pair that approaches faster collides: √(2 g ε) [m/s].
+inline double collision_threshold(const Settings& s) {
+    return std::sqrt(2 * s.gravity.norm() * s.collision_depth);
+}
+
+}  // namespace plumb

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: MIT
+/// Collisions, solved by themselves before the forces of a substep.
+///
+/// An impact tells nothing of the forces to come. Solved together with them, its impulses would be
+/// what the next substep begins from, and iterations cannot take all of that back: what fell would
+/// be thrown up again. So islands in which bodies collide are first solved for velocities without
+/// forces and from nothing, in two phases (Poisson's law): sweeps bring the approach to rest
+/// (compression), then each contact that collides gives back e times its impulse (restitution), and
+/// sweeps let friction, and contacts that approach anew, follow. Each single update of compression
+/// loses energy, and giving back at most what was taken cannot gain any but by what sweeps leave:
+/// where an island has more energy at the end than before, its impulses are scaled down to where it
+/// has not.
+#pragma once
+
+#include "schedule/contact_islands.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+class Impacts {
+public:
+    /// Change of a body's velocity.
+    struct Change {
+        Vector3d v = Vector3d::Zero(), w = Vector3d::Zero();
+    };
+
+    /// Finds the islands of `pairs` in which any two surfaces will meet within h [s] faster than
+    /// √(2 g ε). Returns whether there is one.
+    bool find(const World& world, const std::vector<BodyPair>& pairs, double h);
+
+    /// Whether a pair belongs to such an island.
+    bool is_hit(std::size_t pair) const { return hit_[pair] != 0; }
+
+    /// Calls visit(row) for their bodies.
+    template <class Visit>
+    void each_row(Visit visit) const {
+        for (const ContactIsland& island : colliding_)
+            for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
+                visit(islands_.bodies()[i]);
+    }
+
+    /// By row, for the rows above.
+    std::vector<Change>& changes() { return changes_; }
+
+    /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities.
+    void take(World& world, const std::vector<BodyPair>& pairs);
+
+private:
+    double bounded_share(const World& world, const ContactIsland& island,
+                         const std::vector<BodyPair>& pairs) const;
+
+    ContactIslands islands_;
+    std::vector<ContactIsland> colliding_;
+    std::vector<std::uint8_t> hit_;       // [pair]
+    std::vector<std::uint32_t> body_of_;  // [row]
+    std::vector<Change> changes_;         // [row]
+};
+
+}  // namespace plumb
