@@ -6,7 +6,7 @@
 /// surfaces touching: a collision that is still open is let through, or it would rebound early and
 /// from too high. The recovery of the overlap that this makes adds no speed (the kernels leave
 /// parting bodies alone).
-#include "step/contact_velocity.h"
+#include "step/contact_measures.h"
 #include "step/stages.h"
 
 namespace plumb {

@@ -7,8 +7,8 @@
 #include "kernels/contact_kernels.h"
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
+#include "step/contact_measures.h"
 #include "step/contact_pairs.h"
-#include "step/contact_velocity.h"
 #include "step/fill_mass.h"
 #include "step/impacts.h"
 #include "step/island_group.h"
@@ -75,6 +75,8 @@ public:
             NormalRow<Real, W>& row = rows.normals[k];
             row.gap[lane] = static_cast<Real>(c.gap[contact]);
             clamped += -row.gap[lane] > pass.recovery;
+            if (-c.gap[contact] > kTrusted * radii_[contact])
+                doubt(rows, k, lane, -c.gap[contact] / radii_[contact]);
             if (!c.rebound.empty()) {
                 const bool passing = c.rebound[contact] == ContactTable::kPassing;
                 row.rebound[lane] = passing ? Real(0) : static_cast<Real>(c.rebound[contact]);
@@ -175,6 +177,20 @@ public:
             }
     }
 
+    /// A contact that its impulses could not keep from a deep overlap is squeezed by more than they
+    /// can hold: they would grow with every substep, and fly apart where they act askew. `overlap`:
+    /// as a share of the radius.
+    static void doubt(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
+                      double overlap) {
+        const Real kept = static_cast<Real>(std::max(0.0, 2 - overlap / kTrusted));
+        NormalRow<Real, W>& row = rows.normals[k];
+        row.lambda_velocity[lane] *= kept, row.lambda_position[lane] *= kept;
+        if (!rows.frictions) return;
+        FrictionRow<Real, W>& across = rows.frictions[k];
+        for (Real* sum : {across.held_x, across.held_y, across.rubbed_x, across.rubbed_y})
+            sum[lane] *= kept;
+    }
+
     /// Takes over another solver's summed impulses: what shock propagation adds to.
     void copy_impulses(ContactSolver& from) {
         const ContactArrays<Real, W> rows = batches_.arrays(), source = from.batches_.arrays();
@@ -208,6 +224,9 @@ public:
 
 private:
     static constexpr Real kOutOfReach = Real(1e6);  // [m]
+    /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
+    /// full; none are at twice that.
+    static constexpr double kTrusted = 0.02;
 
     /// A contact that bounced, and where it is.
     struct Given {
@@ -296,9 +315,12 @@ private:
 
     void fill_geometry(const World& world, const std::vector<std::uint32_t>* levels) {
         const ContactArrays<Real, W> rows = batches_.arrays();
+        radii_.resize(world.contacts.found.size());
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
             const auto slot = batches_.slot(p);
             const Contact& first = world.contacts.found[pairs_[p].first];
+            std::fill_n(radii_.begin() + pairs_[p].first, pairs_[p].count,
+                        smaller_radius(world.bodies, first));
             const bool hold_a = levels && (*levels)[first.a] < (*levels)[first.b];
             const bool hold_b = levels && (*levels)[first.b] < (*levels)[first.a];
             PairBlock<Real, W>& block = rows.blocks[slot.block];
@@ -393,6 +415,7 @@ private:
     Colouring colouring_;
     ContactBatches<Real, W> batches_, resting_;
     std::vector<Given> given_;
+    std::vector<double> radii_;  // [contact] of the smaller dynamic body [m]
 };
 
 }  // namespace plumb

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/impacts.h"
 
-#include "step/contact_velocity.h"
+#include "step/contact_measures.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,10 @@
 #include "constraints/connector.h"
 #include "constraints/contact.h"
 #include "constraints/friction.h"
+#include "step/contact_measures.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plumb {
 namespace {
@@ -120,9 +120,7 @@ bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         const Contact& first = world.contacts.found[pair.first];
-        double radius = std::numeric_limits<double>::infinity();
-        for (const std::uint32_t body : {first.a, first.b})
-            if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.reach[body]);
+        const double radius = smaller_radius(b, first);
         for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
             const double overlap = -world.contacts.found[k].gap;
             const ContactMemory& before = world.contacts.memory[k];

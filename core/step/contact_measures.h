@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// How fast surfaces approach, and when that is a collision (§6, after Mirtich).
+/// How fast surfaces approach, when that is a collision (§6, after Mirtich), and how large bodies
+/// are.
 #pragma once
 
 #include "world/world.h"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 
@@ -16,6 +19,14 @@ inline double separating_velocity(const Bodies& b, const Contact& c) {
         return b.velocity_now[i] + b.angular_velocity_now[i].cross(point - b.position[i]);
     };
     return to_eigen(c.normal).dot(velocity(c.a) - velocity(c.b));
+}
+
+/// Bounding radius of the smaller of the bodies that can move [m].
+inline double smaller_radius(const Bodies& b, const Contact& c) {
+    double radius = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t body : {c.a, c.b})
+        if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.reach[body]);
+    return radius;
 }
 
 /// A pair that approaches faster collides: √(2 g ε) [m/s].
