@@ -83,8 +83,8 @@ TEST(BallJoint, OneIterationClosesASmallGap) {
                        gap = 1e-5 * random.direction();
         const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
         Velocity<double> x = rest, y = rest;
-        const Vector3d impulse =
-            join(x, y, rest, rest, a.inverse, b.inverse, r_a, r_b, gap, 1.0, 1.0, h);
+        const Vector3d impulse = join(x, y, rest, rest, a.inverse, b.inverse, r_a, r_b, gap,
+                                      {1, Vector3d::Zero()}, {1, Vector3d::Zero()}, h);
         const Vector3d left = gap + h * (x.v - y.v) + Turn<double>(h * x.w).change(r_a) -
                               Turn<double>(h * y.w).change(r_b);
         EXPECT_LT(left.norm(), 1e-3 * gap.norm());
@@ -112,8 +112,8 @@ TEST(BallJoint, ConvergesFastForFastTurns) {
     };
     EXPECT_GT(error(), 0.01);
     for (int i = 0; i < 30; ++i)
-        join(x, y, sum(start_a, x), sum(start_b, y), a.inverse, b.inverse, r_a, r_b, gap, 1.0, 1.0,
-             h);
+        join(x, y, sum(start_a, x), sum(start_b, y), a.inverse, b.inverse, r_a, r_b, gap,
+             {1, Vector3d::Zero()}, {1, Vector3d::Zero()}, h);
     EXPECT_LT(error(), 1e-12);
 }
 

@@ -21,7 +21,9 @@ JointGeometry<double> random_joint(Random& random, double length) {
         joint.u[k] = random.direction(), joint.w[k] = random.direction();
     }
     for (int k = 0; k < 6; ++k) joint.lock[k] = 1;
-    joint.follow_a = random.number(0, 1), joint.follow_b = random.number(0, 1);
+    joint.lever_a = {random.number(0, 1), Vector3d::Zero()};
+    joint.lever_b = {random.number(0, 1), Vector3d::Zero()};
+    joint.line_share = 1, joint.line_lag = Vector3d::Zero();
     joint.length = length;
     return joint;
 }

@@ -44,7 +44,9 @@ void take_random_rows(Node& node, Random& random) {
     for (int k = 0; k < 6; ++k)
         g.lock[k] = random.below(2), g.softness[k] = soft ? random.number(0, 0.5) : 0;
     g.lock[random.below(6)] = 1;
-    g.follow_a = random.number(0, 1), g.follow_b = random.number(0, 1), g.length = 0;
+    g.lever_a = {random.number(0, 1), Vector3d::Zero()};
+    g.lever_b = {random.number(0, 1), Vector3d::Zero()};
+    g.length = g.line_share = 0, g.line_lag = Vector3d::Zero();
     node.rows = joint_rows<double>(g, random_velocity(random), random_velocity(random), kStep);
     node.sign = random.below(2) ? 1 : -1;
     take_rows(node.elimination, node.rows, g, node.sign, 1 / kStep);

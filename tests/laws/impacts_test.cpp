@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+/// Impacts of bodies that touch one another: energy, momentum, and what stays where e = 0. The step
+/// is drawn, or one of the two usual ones.
+#include "support/random.h"
+#include "support/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace plumb::test {
+namespace {
+
+class Impacts : public OnEveryCollider {
+protected:
+    /// In free space, without friction.
+    Scene free_scene(double restitution) const {
+        Scene s = scene();
+        s.settings.gravity.setZero();
+        s.materials[0].restitution = restitution, s.materials[0].friction = 0;
+        return s;
+    }
+};
+INSTANTIATE_TEST_SUITE_P(, Impacts, every_collider(), where_name);
+
+/// The two usual steps, then drawn ones.
+void choose_step(Settings& s, int draw, Random& random) {
+    if (draw == 0) return;
+    if (draw == 1) return use_fine_steps(s);
+    s.dt = random.number(0.001, 0.02);
+    s.substeps = 1 + random.below(40);
+    s.velocity_iterations = 1 + random.below(10);
+    s.position_iterations = 1 + random.below(10);
+    if (draw % 2 == 0) s.exact_islands = 0;
+}
+
+BodySpec& ball(Scene& s, double x, double y, double speed) {
+    BodySpec& body = add_body(s, sphere(0.1), {x, y, 0});
+    body.velocity = {speed, 0, 0};
+    return body;
+}
+
+/// One to three balls run into a row that touches.
+void row(Scene& s, Random& random) {
+    const std::uint32_t runners = 1 + random.below(3), rest = 2 + random.below(12);
+    for (std::uint32_t i = 0; i < runners; ++i) ball(s, -0.25 - 0.2 * i, 0, 1);
+    for (std::uint32_t i = 0; i < rest; ++i) ball(s, 0.2 * i, 0, 0);
+}
+
+/// A ball into a ring of balls that touch.
+void ring(Scene& s, Random& random) {
+    const int count = 6 + static_cast<int>(random.below(6));
+    const double radius = 0.1 / std::sin(std::numbers::pi / count);
+    for (int i = 0; i < count; ++i) {
+        const double angle = 2 * std::numbers::pi * i / count;
+        ball(s, radius * std::cos(angle), radius * std::sin(angle), 0);
+    }
+    ball(s, -radius - 0.4, random.number(-0.1, 0.1), 2);
+}
+
+/// A ball into a triangle of balls.
+void triangle(Scene& s, Random& random) {
+    for (int i = 0; i < 5; ++i)
+        for (int k = 0; k <= i; ++k) ball(s, 0.2 * i * std::sqrt(0.75), 0.2 * k - 0.1 * i, 0);
+    ball(s, -0.5, random.number(-0.05, 0.05), 2);
+}
+
+/// Boxes face to face, and a heap of them.
+void boxes(Scene& s, Random& random) {
+    const int columns = 2 + static_cast<int>(random.below(4)),
+              rows = 1 + static_cast<int>(random.below(4));
+    for (int i = 0; i < columns; ++i)
+        for (int k = 0; k < rows; ++k) add_body(s, box(0.1, 0.1, 0.1), {0.2 * i, 0.2 * k, 0});
+    ball(s, -0.4, random.number(0, 0.2 * (rows - 1) + 1e-9), 3);
+}
+
+TEST_P(Impacts, NeverAddEnergyAndKeepMomentum) {
+    Random random(5);
+    const std::pair<const char*, std::function<void(Scene&, Random&)>> shapes[] = {
+        {"row", row}, {"ring", ring}, {"triangle", triangle}, {"boxes", boxes}};
+    for (const auto& [name, add] : shapes)
+        for (int draw = 0; draw < 6; ++draw) {
+            Scene s = free_scene(draw % 3 == 2 ? random.number(0, 1) : 1);
+            add(s, random);
+            choose_step(s.settings, draw, random);
+            SCOPED_TRACE(testing::Message()
+                         << name << ", e " << s.materials[0].restitution << ", " << s.settings.dt
+                         << " s x " << s.settings.substeps << ", draw " << draw);
+            Simulation simulation(s, colliders(), collider());
+            const World& world = simulation.world();
+            const double before = kinetic_energy(world);
+            const Vector momentum = linear_momentum(world);
+            double most = 0;
+            while (simulation.time() < 0.8) {
+                simulation.step();
+                most = std::max(most, kinetic_energy(world));
+            }
+            EXPECT_LT(most, 1.001 * before);
+            const double bound = s.settings.precision == Precision::single ? 1e-6 : 1e-10;
+            EXPECT_LT((linear_momentum(world) - momentum).norm(), bound * momentum.norm());
+            if (draw < 2) EXPECT_GT(kinetic_energy(world), 0.5 * before) << "elastic impacts";
+        }
+}
+
+/// What hits with e = 0 stays: no more than 1 % of its speed comes back.
+TEST_P(Impacts, WithoutRestitutionNothingComesBack) {
+    Random random(3);
+    for (int draw = 0; draw < 10; ++draw) {
+        Scene s = scene();
+        s.materials[0].restitution = 0;
+        choose_step(s.settings, draw, random);
+        add_ground(s);
+        const double speed = random.number(0.5, 12);
+        const Geometry shape = draw % 2 == 0 ? box(0.1, 0.1, 0.1) : box(0.3, 0.05, 0.1);
+        add_body(s, shape, {0, 0.15, 0}).velocity = {0, -speed, 0};
+        SCOPED_TRACE(testing::Message()
+                     << speed << " m/s, " << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        double fastest = 0;
+        while (simulation.time() < 0.3) {
+            simulation.step();
+            fastest = std::max(fastest, simulation.world().bodies.velocity[1].y());
+        }
+        EXPECT_LT(fastest, 0.01 * speed);
+    }
+}
+
+}  // namespace
+}  // namespace plumb::test

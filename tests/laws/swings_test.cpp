@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: MIT
+/// What swings on joints: chains under any load, trees of all kinds, and pendulums over a minute.
+/// The step is drawn, or one of the two usual ones: 10 ms with 5 + 5 iterations, and 1/60 s with 20
+/// substeps of 1 + 1.
+#include "support/random.h"
+#include "support/scenes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace plumb::test {
+namespace {
+
+class Swings : public testing::TestWithParam<Precision> {};
+INSTANTIATE_TEST_SUITE_P(, Swings, testing::Values(Precision::single, Precision::double_),
+                         [](const auto& which) {
+                             return which.param == Precision::single ? "single" : "double";
+                         });
+
+constexpr std::uint32_t kSubsteps[] = {1, 2, 3, 4, 5, 8, 10, 20, 40};
+
+Scene still_scene(Precision precision) {
+    Scene s;
+    s.settings.precision = precision;
+    s.settings.forbid = {"contacts"};
+    return s;
+}
+
+/// T/T₀ of a pendulum with the given amplitude [rad] against that of a small one: the
+/// arithmetic-geometric mean of 1 and cos(θ/2).
+double lengthening(double amplitude) {
+    double a = 1, g = std::cos(0.5 * amplitude);
+    for (int i = 0; i < 20; ++i) {
+        const double mean = 0.5 * (a + g);
+        g = std::sqrt(a * g), a = mean;
+    }
+    return 1 / a;
+}
+
+/// Period by the passages of a body through x = 0 [s].
+class PeriodWatch {
+public:
+    void see(double time, double dt, double x) {
+        if (seen_ && (x > 0) != (before_ > 0)) {
+            latest_ = time - dt * x / (x - before_);
+            if (++passages_ == 1) first_ = latest_;
+        }
+        seen_ = true, before_ = x;
+    }
+    double period() const { return 2 * (latest_ - first_) / (passages_ - 1); }
+
+private:
+    bool seen_ = false;
+    double before_ = 0, first_ = 0, latest_ = 0;
+    int passages_ = 0;
+};
+
+Rotation hinge_across_the_plane() {
+    return Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
+}
+
+/// Rods of 1 kg from the origin on in one line, `angle` from the vertical; the last carries a load.
+Scene chain(Precision precision, std::uint32_t links, double length, double angle, double load) {
+    Scene s = still_scene(precision);
+    s.settings.joints = JointMethod::tree;
+    const Vector along(std::sin(angle), -std::cos(angle), 0);
+    const Rotation turn = Rotation::FromTwoVectors(-Vector::UnitY(), along);
+    for (std::uint32_t i = 0; i <= links; ++i) {
+        const bool is_load = i == links;
+        BodySpec& body = is_load ? add_body(s, sphere(0.2 * length), along * length * links)
+                                 : add_body(s, box(0.05 * length, 0.5 * length, 0.05 * length),
+                                            along * length * (i + 0.5));
+        body.mass = is_load ? load : 1;
+        body.placement.rotation = turn;
+        JointSpec joint;
+        if (is_load) joint.kind = JointKind::fixed;
+        joint.body_a = i, joint.body_b = i > 0 ? i - 1 : kNoIndex;
+        joint.anchor = along * length * i;
+        s.joints.push_back(joint);
+    }
+    return s;
+}
+
+/// Period of a small swing if the chain were stiff: 2π √(I / (g Σ m r)) [s].
+double period_as_one(const World& world) {
+    double inertia = 0, moment = 0;
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) {
+        const double r = world.bodies.position[i].norm(), m = world.bodies.mass[i];
+        inertia += m * r * r + world.bodies.inertia[i].maxCoeff();
+        moment += m * r;
+    }
+    return 2 * std::numbers::pi * std::sqrt(inertia / (9.81 * moment));
+}
+
+/// A chain that bears far more than its weight swings as one, whatever the load and the substeps.
+TEST_P(Swings, ALoadedChainSwingsAsOneBody) {
+    Random random(7);
+    for (int draw = 0; draw < 40; ++draw) {
+        const std::uint32_t links = 2 + random.below(draw % 8 == 0 ? 99 : 20);
+        const double length = random.number(0.05, 0.3), angle = random.number(5, 60) / 57.29578;
+        const double load = std::pow(10, random.number(std::log10(40.0 * links), 5));
+        Scene s = chain(GetParam(), links, length, angle, load);
+        s.settings.substeps = kSubsteps[random.below(9)];
+        s.settings.dt = random.number(0.002, 0.01);
+        s.settings.position_iterations = 1 + random.below(20);
+        SCOPED_TRACE(testing::Message()
+                     << links << " links of " << length << " m under " << load << ", " << angle
+                     << " rad, " << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), "reference");
+        const World& world = simulation.world();
+        const double exact = period_as_one(world) * lengthening(angle);
+        PeriodWatch watch;
+        double widest = 0;
+        while (simulation.time() < 3.2 * exact) {
+            const StepReport report = simulation.step();
+            ASSERT_EQ(report.unsolved_trees, 0u) << "open by " << report.tree_error;
+            for (const double error : joint_errors(world)) widest = std::max(widest, error);
+            watch.see(simulation.time(), s.settings.dt, world.bodies.position[links].x());
+        }
+        EXPECT_NEAR(watch.period() / exact, 1, 0.005);
+        EXPECT_LT(widest, 1e-5 * std::max(1.0, links * length));
+    }
+}
+
+/// A tree of up to twelve bodies with loads, limits and motors, hung up askew.
+Scene random_tree(Precision precision, Random& random) {
+    constexpr JointKind kKinds[] = {JointKind::ball, JointKind::hinge, JointKind::universal,
+                                    JointKind::slider};
+    Scene s = still_scene(precision);
+    s.settings.joints = JointMethod::tree;
+    const std::uint32_t count = 2 + random.below(11);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t parent = i > 0 ? random.below(i) : kNoIndex;
+        const Vector from = i > 0 ? s.bodies[parent].placement.position : Vector::Zero();
+        const Vector to =
+            from + Vector(random.number(-0.15, 0.15), -0.2, 0.1 * random.vector().z());
+        const bool loaded = i + 1 == count || random.below(4) == 0;
+        BodySpec& body = add_body(s, box(0.02, 0.08, 0.03), to);
+        body.mass = loaded ? std::pow(10, random.number(0, 5)) : 1;
+        body.angular_velocity = random.vector(0.3);
+        JointSpec joint;
+        joint.kind = kKinds[random.below(4)];
+        joint.body_a = i, joint.body_b = parent;
+        joint.anchor = 0.5 * (from + to);
+        joint.frame = random.rotation();
+        const std::uint32_t axis = joint.kind == JointKind::slider ? kAlongX : kTurnX;
+        JointAxisSpec& free = joint.axes[axis];
+        if (joint.kind == JointKind::slider)  // what slides without an end falls without one
+            free.lower = -0.05, free.upper = 0.05;
+        else if (joint.kind != JointKind::ball && random.below(3) == 0)
+            free.lower = -0.5, free.upper = 0.5;
+        if (joint.kind == JointKind::hinge && random.below(3) == 0) {
+            free.motor.mode = MotorMode::velocity;
+            free.motor.target = random.number(-1, 1), free.motor.greatest = 0.5;
+        }
+        s.joints.push_back(joint);
+    }
+    return s;
+}
+
+/// None comes apart by more than 10 µm, unless its step says so.
+TEST_P(Swings, AThousandRandomTreesStayTogetherOrSaySo) {
+    Random random(11);
+    int unsolved = 0, open = 0;
+    for (int draw = 0; draw < 500; ++draw) {
+        Scene s = random_tree(GetParam(), random);
+        s.settings.substeps = kSubsteps[random.below(9)];
+        s.settings.dt = random.number(0.002, 0.01);
+        SCOPED_TRACE(testing::Message()
+                     << "tree " << draw << ", " << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), "reference");
+        double told = 0, widest = 0;
+        for (int i = 0; i < 60; ++i) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.finite);
+            told = std::max(told, report.tree_error);
+            for (const double error : joint_errors(simulation.world()))
+                widest = std::max(widest, error);
+        }
+        unsolved += told > 0;
+        open += widest > 1e-5;
+        EXPECT_TRUE(widest < 1e-5 || told > 0) << "open by " << widest << " without a word";
+    }
+    EXPECT_LT(unsolved, 25) << "of 500";
+    EXPECT_LT(open, 15) << "of 500";
+}
+
+/// Mean energy above the lowest in the last tenth of a minute against that in the first.
+double energy_left(const Scene& s, double lowest) {
+    Simulation simulation(s, colliders(), "reference");
+    double first = 0, last = 0;
+    int of_first = 0, of_last = 0;
+    while (simulation.time() < 60) {
+        simulation.step();
+        const double energy = total_energy(simulation) - lowest;
+        if (simulation.time() < 6) first += energy, ++of_first;
+        if (simulation.time() > 54) last += energy, ++of_last;
+    }
+    return (last / of_last) / (first / of_first);
+}
+
+/// A rod, two rods, or a light rod with a ball, on joints of one kind, let go at 30°.
+Scene pendulum(Precision precision, JointKind kind, int bodies, bool ball) {
+    constexpr double kAngle = 0.5235987756;
+    Scene s = still_scene(precision);
+    const Vector along(std::sin(kAngle), -std::cos(kAngle), 0);
+    for (int i = 0; i < bodies; ++i) {
+        BodySpec& body = add_body(s, box(0.02, 0.5, 0.02), along * (i + 0.5));
+        body.placement.rotation = Rotation::FromTwoVectors(-Vector::UnitY(), along);
+        if (ball) body.mass = 0.2;
+    }
+    if (ball) add_body(s, sphere(0.1), along).mass = 5;
+    for (std::uint32_t i = 0; i < s.bodies.size(); ++i) {
+        JointSpec joint;
+        joint.kind = kind, joint.frame = hinge_across_the_plane();
+        joint.body_a = i, joint.body_b = i > 0 ? i - 1 : kNoIndex;
+        joint.anchor = along * i;
+        s.joints.push_back(joint);
+    }
+    return s;
+}
+
+/// A ball on a rope without mass.
+Scene ball_on_a_rope(Precision precision, double angle) {
+    Scene s = still_scene(precision);
+    const Vector at(std::sin(angle), -std::cos(angle), 0);
+    add_body(s, sphere(0.1), at);
+    JointSpec joint;
+    joint.kind = JointKind::distance;
+    joint.body_a = 0, joint.anchor = at, joint.anchor_b = Vector(Vector::Zero());
+    s.joints.push_back(joint);
+    return s;
+}
+
+double lowest_energy(const Scene& s) {
+    Simulation simulation(s, colliders(), "reference");
+    double sum = 0;
+    for (std::size_t i = 0; i < simulation.world().bodies.size(); ++i)
+        sum -=
+            simulation.world().bodies.mass[i] * 9.81 * simulation.world().bodies.position[i].norm();
+    return sum;
+}
+
+TEST_P(Swings, KeepTheirEnergyForAMinute) {
+    std::vector<std::pair<std::string, Scene>> cases;
+    for (const auto& [name, kind] : {std::pair{"ball", JointKind::ball},
+                                     {"hinge", JointKind::hinge},
+                                     {"universal", JointKind::universal}}) {
+        cases.emplace_back(std::string("a rod on a ") + name, pendulum(GetParam(), kind, 1, false));
+        cases.emplace_back(std::string("two rods on a ") + name,
+                           pendulum(GetParam(), kind, 2, false));
+        cases.emplace_back(std::string("a ball on a rod, ") + name,
+                           pendulum(GetParam(), kind, 1, true));
+    }
+    cases.emplace_back("a ball on a rope", ball_on_a_rope(GetParam(), 0.5));
+    for (auto& [name, s] : cases)
+        for (const bool fine : {false, true}) {
+            if (fine) use_fine_steps(s.settings);
+            const double left = energy_left(s, lowest_energy(s));
+            EXPECT_GT(left, 0.99) << name << (fine ? ", fine" : ", coarse");
+            EXPECT_LT(left, 1.01) << name << (fine ? ", fine" : ", coarse");
+        }
+}
+
+TEST_P(Swings, HaveTheirPeriods) {
+    for (const double angle : {0.1, 0.5, 1.0})
+        for (const bool fine : {false, true}) {
+            Scene rope = ball_on_a_rope(GetParam(), angle);
+            if (fine) use_fine_steps(rope.settings);
+            Simulation simulation(rope, colliders(), "reference");
+            PeriodWatch watch;
+            while (simulation.time() < 30) {
+                simulation.step();
+                watch.see(simulation.time(), rope.settings.dt,
+                          simulation.world().bodies.position[0].x());
+            }
+            const double exact = 2 * std::numbers::pi * std::sqrt(1 / 9.81) * lengthening(angle);
+            EXPECT_NEAR(watch.period() / exact, 1, 0.001) << angle << (fine ? " fine" : " coarse");
+        }
+}
+
+}  // namespace
+}  // namespace plumb::test
