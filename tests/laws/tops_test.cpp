@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+/// Tops: on a plane, asleep above the critical spin; on joints, in steady precession.
+#include "support/random.h"
+#include "support/scenes.h"
+
+#include <iostream>
+
+namespace plumb::test {
+namespace {
+
+/// A top: a ball for a tip, at a distance below the centre of mass.
+struct Top {
+    double mass = 1, about_axis = 0.002, across = 0.003;  ///< [kg], [kg m²]
+    double height = 0.08;                                 ///< of the centre above the tip's [m]
+    double tip = 0.02;                                    ///< radius [m]
+};
+
+class Tops : public OnEveryCollider {};
+INSTANTIATE_TEST_SUITE_P(, Tops, every_collider(), where_name);
+
+/// Lean of the axis [degrees].
+double lean_of(const World& w, std::size_t body, const Vector& axis_body) {
+    const Vector up = w.bodies.orientation[body] * axis_body;
+    return std::atan2(up.cross(Vector::UnitY()).norm(), up.y()) * 180 / std::numbers::pi;
+}
+
+/// Without friction, with α = θ exp(iφ) the lean: I₁ α'' − i I₃ ω α' − m g l α = 0. At s times the
+/// critical spin 2 √(I₁ m g l) / I₃ a top that is let go leaning stays within s / √(s² − 1) of it.
+TEST_P(Tops, SleepAboveTheCriticalSpin) {
+    const Top top;
+    const double share = 1.2, lean = 1;  // [degrees]
+    const double spin =
+        share * 2 * std::sqrt(top.across * top.mass * 9.81 * top.height) / top.about_axis;
+    const double bound = lean * share / std::sqrt(share * share - 1);
+    Random random(7);
+    for (int setting = 0; setting < 4; ++setting) {
+        Scene s = scene();
+        if (setting > 0) use_fine_steps(s.settings);
+        if (setting == 0) s.settings.dt = 0.002;
+        if (setting == 2) s.settings.dt = 0.01, s.settings.substeps = 10;
+        if (setting == 3)
+            s.settings.dt = random.number(0.01, 0.02), s.settings.substeps = 10 + random.below(20);
+        s.materials[0].friction = 0;
+        add_ground(s);
+        BodySpec& b = add_body(s, sphere(top.tip), {0, top.tip, 0});
+        b.mass = top.mass;
+        b.inertia = Vector(top.across, top.about_axis, top.across);
+        b.mass_frame = Placement{{0, top.height, 0}, Rotation::Identity()};
+        const Rotation tilt(Eigen::AngleAxisd(lean * std::numbers::pi / 180, Vector::UnitX()));
+        b.placement.rotation = tilt;
+        b.angular_velocity = tilt * Vector(0, spin, 0);
+        Simulation simulation(s, colliders(), collider());
+        const World& w = simulation.world();
+        const Vector axis = w.bodies.orientation[1].conjugate() * (tilt * Vector::UnitY());
+        double most = 0;
+        const auto steps = std::llround(4 / w.settings.dt);
+        for (long long i = 0; i < steps; ++i) {
+            simulation.step();
+            most = std::max(most, lean_of(w, 1, axis));
+        }
+        std::cout << w.settings.dt << " s x " << w.settings.substeps << ", spin " << spin
+                  << " rad/s: leans to " << most << ", by the law " << bound << "\n";
+        EXPECT_LT(most, 1.25 * bound) << "setting " << setting;
+        EXPECT_GT(most, 0.8 * bound) << "setting " << setting;
+    }
+}
+
+/// Degrees per second and radius by which a horizontal axis goes round in t seconds.
+struct Round {
+    double rate;    ///< mean [rad/s]
+    double sagged;  ///< greatest departure from the level [rad]
+};
+Round precession(Simulation& simulation, std::size_t body, double seconds) {
+    const World& w = simulation.world();
+    double angle = 0, sagged = 0;
+    Vector before = w.bodies.position[body];
+    const auto steps = std::llround(seconds / w.settings.dt);
+    for (long long i = 0; i < steps; ++i) {
+        simulation.step();
+        const Vector now = w.bodies.position[body];
+        angle += std::atan2(before.z() * now.x() - before.x() * now.z(),
+                            before.x() * now.x() + before.z() * now.z());
+        sagged = std::max(sagged, std::abs(now.y()) / now.norm());
+        before = now;
+    }
+    return {angle / (static_cast<double>(steps) * w.settings.dt), sagged};
+}
+
+/// A wheel that spins about a level axis, its pivot on a ball joint, or its hub on an arm that is.
+/// Steady precession is exact here: Ω = m g l / (I_s ω_s).
+struct Flywheel {
+    double mass = 2, radius = 0.2, about_axis = 0.5 * mass * radius * radius,
+           across = 0.6 * about_axis, length = 0.3;
+
+    Scene scene(const Settings& settings, double spin, bool on_arm) const {
+        Scene s;
+        s.settings = settings;
+        const double rate = mass * 9.81 * length / (about_axis * spin);
+        BodySpec wheel;
+        wheel.mass = mass;
+        wheel.inertia = Vector(about_axis, across, across);
+        wheel.placement.position = {length, 0, 0};
+        wheel.velocity = Vector(0, rate, 0).cross(Vector(length, 0, 0));
+        wheel.angular_velocity = {spin, rate, 0};
+        s.bodies.push_back(wheel);
+        JointSpec joint;
+        joint.body_a = 0;
+        if (on_arm) {
+            BodySpec arm;
+            arm.mass = 1e-3 * mass;
+            arm.inertia = Vector::Constant(1e-3 * mass * length * length);
+            arm.placement.position = {0, 0, 0};
+            arm.angular_velocity = {0, rate, 0};
+            s.bodies.push_back(arm);
+            joint.kind = JointKind::hinge;
+            joint.body_b = 1;
+            joint.anchor = {length, 0, 0};
+            s.joints.push_back(joint);
+            joint = {};
+            joint.body_a = 1;
+        }
+        joint.anchor = Vector::Zero();
+        s.joints.push_back(joint);
+        return s;
+    }
+};
+
+TEST(Gyroscope, PrecessesByItsFormula) {
+    const Flywheel wheel;
+    for (const bool on_arm : {false, true})
+        for (const bool fine : {false, true})
+            for (const double turn : {0.05, 0.2, 0.5, 0.9}) {  // [rad] a substep
+                Settings s;
+                if (fine) use_fine_steps(s);
+                const double spin = turn * s.substeps / s.dt;
+                Simulation simulation(wheel.scene(s, spin, on_arm), colliders(), "reference");
+                const double law = wheel.mass * 9.81 * wheel.length / (wheel.about_axis * spin);
+                const Round r = precession(simulation, 0, 3);
+                std::cout << (on_arm ? "arm" : "joint") << (fine ? ", s20, " : ", h10, ") << turn
+                          << " rad a substep: precesses at " << r.rate / law
+                          << " of the law, sags by " << r.sagged << "\n";
+                EXPECT_NEAR(r.rate / law, 1, 0.02);
+            }
+}
+
+}  // namespace
+}  // namespace plumb::test
