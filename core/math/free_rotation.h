@@ -28,10 +28,12 @@ inline Vector3<T> solve_diagonal_and_cross(const Vector3<T>& d, const Vector3<T>
     return x * (T(1) / determinant);
 }
 
-/// 1 where a turn in one step is too far for the laws of free rotation to be followed, else 0.
+/// 1 where a turn in one step is too far to be made at one rate, else 0: beyond, a gyroscope on a
+/// joint begins to nod.
 template <class T>
 inline T turns_too_far(const Vector3<T>& rate, const T& h) {
-    return select_greater(dot(rate, rate) * (h * h), T(1), T(1), T(0));
+    constexpr double kTooFar = 0.5;  // [rad]
+    return select_greater(dot(rate, rate) * (h * h), T(kTooFar * kTooFar), T(1), T(0));
 }
 
 /// ω in the body's frame; `momentum`: L there [kg m²/s]; `inertia`: principal moments [kg m²].

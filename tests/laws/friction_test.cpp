@@ -101,7 +101,7 @@ TEST_P(Friction, BrakingDistanceDoesNotDependOnMass) {
     for (double d : distances) EXPECT_NEAR(d / distances[0], 1, 1e-3);
 }
 
-/// A ball that slides at first rolls at 5 v₀/7; the paper's frozen arms do not spoil it.
+/// A ball that slides at first rolls at 5 v₀/7.
 TEST_P(Friction, ASlidingBallComesToRoll) {
     Scene s = scene();
     use_fine_steps(s.settings);
