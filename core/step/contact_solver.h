@@ -177,23 +177,28 @@ private:
 
     /// Arms and masses at the poses now, and what follows from them.
     void fill_geometry(const World& world) {
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        for (std::size_t p = 0; p < pairs_.size(); ++p) {
-            const auto slot = batches_.slot(p);
-            const Contact& first = world.contacts.found[pairs_[p].first];
-            const bool hold_a = levels_ && (*levels_)[first.a] < (*levels_)[first.b];
-            const bool hold_b = levels_ && (*levels_)[first.b] < (*levels_)[first.a];
-            PairBlock<Real, W>& block = rows.blocks[slot.block];
-            if (!hold_a)
-                fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
-                          slot.lane);
-            if (!hold_b)
-                fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
-                          slot.lane);
-            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-                fill_arms(world, pairs_[p].first + i, rows.normals[block.first_row + i], slot.lane);
-        }
+        workers_.run([&](std::uint32_t worker) {
+            const Range share = workers_.share(static_cast<std::uint32_t>(pairs_.size()), worker);
+            for (std::size_t p = share.first; p < share.last; ++p) fill_pair(world, p);
+        });
         run(kernels_.prepare, {}, {});
+    }
+
+    void fill_pair(const World& world, std::size_t p) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        const auto slot = batches_.slot(p);
+        const Contact& first = world.contacts.found[pairs_[p].first];
+        PairBlock<Real, W>& block = rows.blocks[slot.block];
+        const bool hold_a = levels_ && (*levels_)[first.a] < (*levels_)[first.b];
+        const bool hold_b = levels_ && (*levels_)[first.b] < (*levels_)[first.a];
+        if (!hold_a)
+            fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
+                      slot.lane);
+        if (!hold_b)
+            fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
+                      slot.lane);
+        for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
+            fill_arms(world, pairs_[p].first + i, rows.normals[block.first_row + i], slot.lane);
     }
 
     static void fill_arms(const World& world, std::size_t contact, NormalRow<Real, W>& row,
