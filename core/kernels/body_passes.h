@@ -57,47 +57,68 @@ template <int W>
     }
 }
 
-/// x ← x + h v, q ← exp(h ω) q. Returns q before and after.
-template <int W, class T = Number<double, W>>
-struct Moved {
-    UnitQuaternion<T> before, after;
-    Vector3<T> rate;
+/// x ← x + h v.
+template <int W>
+inline void travel(const BodyColumns& b, const ItemGroup<W>& group, double h) {
+    using T = Number<double, W>;
+    const Vector3<T> x = group.vector(b.position), v = group.vector(b.velocity);
+    group.write(b.position, Vector3<T>(x + v * T(h)));
+}
 
-    Moved(const BodyColumns& b, const ItemGroup<W>& group, double h)
-        : before(group.rotation(b.orientation)) {
-        const Vector3<T> x = group.vector(b.position), v = group.vector(b.velocity);
-        rate = group.vector(b.angular_velocity);
-        after = (unit_exponential<T>(Vector3<T>(rate * T(h))) * before).normalized();
-        group.write(b.position, Vector3<T>(x + v * T(h)));
-        group.write(b.orientation, after);
-    }
-};
+/// exp(h ω) q.
+template <int W, class T = Number<double, W>>
+inline UnitQuaternion<T> turned(const BodyColumns& b, const ItemGroup<W>& group,
+                                const UnitQuaternion<T>& q, double h) {
+    const Vector3<T> rate = group.vector(b.angular_velocity);
+    return (unit_exponential<T>(Vector3<T>(rate * T(h))) * q).normalized();
+}
 
 template <int W>
 [[gnu::flatten]] void move(const BodyColumns& b, BodyList list, double h) {
-    for (std::size_t i = 0; i < list.count; i += W) Moved<W>(b, ItemGroup<W>(list, i), h);
+    using T = Number<double, W>;
+    for (std::size_t i = 0; i < list.count; i += W) {
+        const ItemGroup<W> group(list, i);
+        const UnitQuaternion<T> q = group.rotation(b.orientation);
+        travel<W>(b, group, h);
+        group.write(b.orientation, turned<W>(b, group, q, h));
+    }
 }
 
+/// 1 where a body turns by itself: nothing changed its rate, or it turns too far for what did to
+/// have been right about the pose at the end. Else 0.
+template <class T>
+inline T turns_freely(const Vector3<T>& change, const Vector3<T>& rate, const T& h) {
+    const T unmoved = select_greater(dot(change, change), T(0), T(0), T(1));
+    return max(unmoved, turns_too_far<T>(rate, h));
+}
+
+/// As `move`; L ← L + R I Rᵀ Δω decides the rate that is left. Δω is what the passes changed.
 template <int W>
 [[gnu::flatten]] void move_turning(const BodyColumns& b, BodyList list, double h) {
     using T = Number<double, W>;
     for (std::size_t i = 0; i < list.count; i += W) {
         const ItemGroup<W> group(list, i);
-        const Moved<W> q(b, group, h);
-        const Vector3<T> inertia = group.vector(b.inertia);
-        const Vector3<T> change = q.before.inverse() * group.vector(b.turn_change);
-        const Vector3<T> momentum =
-            group.vector(b.angular_momentum) + q.before * Vector3<T>(inertia.cwiseProduct(change));
+        const UnitQuaternion<T> q = group.rotation(b.orientation);
         const Vector3<T> inverse = group.vector(b.inverse_inertia);
-        const Vector3<T> after = q.after.inverse() * momentum;
-        const T too_far = turns_too_far<T>(q.rate, T(h));
-        T kept = T(1);
-        if (any_greater(too_far, T(0)))
-            kept = select_greater(
-                too_far, T(0), energy_correction<T>(q.before.inverse() * momentum, after, inverse),
-                kept);
-        group.write(b.angular_momentum, momentum * kept);
-        group.write(b.angular_velocity, q.after * Vector3<T>(inverse.cwiseProduct(after) * kept));
+        const Vector3<T> change = group.vector(b.turn_change);
+        const Vector3<T> pushed =
+            group.vector(b.inertia).cwiseProduct(Vector3<T>(q.inverse() * change));
+        const Vector3<T> momentum = group.vector(b.angular_momentum) + q * pushed;
+        UnitQuaternion<T> after = turned<W>(b, group, q, h);
+        const T is_free = turns_freely<T>(change, group.vector(b.angular_velocity), T(h));
+        if (any_greater(is_free, T(0))) {
+            Vector3<T> l = q.inverse() * momentum;
+            const UnitQuaternion<T> alone = (q * free_turn<T>(l, inverse, T(h))).normalized();
+            for (int k = 0; k < 3; ++k)
+                after.v[k] = select_greater(is_free, T(0), alone.v[k], after.v[k]);
+            after.w = select_greater(is_free, T(0), alone.w, after.w);
+        }
+        travel<W>(b, group, h);
+        group.write(b.orientation, after);
+        group.write(b.angular_momentum, momentum);
+        group.write(
+            b.angular_velocity,
+            after * Vector3<T>(inverse.cwiseProduct(Vector3<T>(after.inverse() * momentum))));
     }
 }
 

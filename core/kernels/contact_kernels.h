@@ -19,7 +19,7 @@ using ContactPass = void (*)(const ContactArrays<Real, W>& arrays, const BodyRow
 
 template <class Real, int W>
 struct ContactKernels {
-    ContactPass<Real, W> prepare;           // once a step: tangents, effective masses
+    ContactPass<Real, W> prepare;           // at new poses: tangents, effective masses
     ContactPass<Real, W> begin;             // once a substep: velocities at its start
     ContactPass<Real, W> warm_start;        // applies the impulses that the rows already hold
     ContactPass<Real, W> solve_velocities;  // one iteration

@@ -74,7 +74,7 @@ inline Tangents<T> load_tangents(const FrictionRow<Real, W>& row, const Vector3<
     return {t, cross<T>(n, t)};
 }
 
-// ---- once a step
+// ---- once a step, and in each substep that finds the bodies elsewhere
 
 template <class Real, int W, ContactVariant V>
 void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const PassSettings<Real>&,
@@ -105,12 +105,16 @@ void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const 
                 store(across.coupling_y, k_of(y, n));
                 if constexpr (V == ContactVariant::turning) {
                     TurningRow<Real, W>& turning = arrays.turnings[k];
-                    store(turning.inertia_x,
-                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, x)));
-                    store(turning.inertia_y,
-                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, y)));
+                    const TangentMass<T> inertia = rolling_inertia<T>(
+                        turning_response<T>(mass.a, mass.b, x, x),
+                        turning_response<T>(mass.a, mass.b, x, y),
+                        turning_response<T>(mass.a, mass.b, y, y), inverse_or_zero<T>);
+                    store(turning.inertia_xx, inertia.xx);
+                    store(turning.inertia_xy, inertia.xy);
+                    store(turning.inertia_yy, inertia.yy);
+                    store(turning.inertia_least, inertia.least);
                     store(turning.inertia_n,
-                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, n)));
+                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, n, n)));
                 }
             }
         }
@@ -275,17 +279,21 @@ inline void resist_turning(TurningRow<Real, W>& row, const NormalRow<Real, W>& n
     const Tangents<T> t = load_tangents(across, n);
     const Vector3<T> w = pair.a.w - pair.b.w;
     const T push = load(normal.lambda_velocity) + load(normal.lambda_position);
-    const T rolling = load(row.rolling) * push, spinning = load(row.spinning) * push;
-    auto resist = [&](Real(&torque)[W], const Real(&rate)[W], const Real(&inertia)[W],
-                      const Vector3<T>& axis, const T& bound) {
-        T sum = load(torque);
-        const T change = resist_spin<T>(sum, load(rate) + dot<T>(axis, w), load(inertia), bound);
-        store(torque, sum);
-        return Vector3<T>(axis * change);
-    };
-    const Vector3<T> torque = resist(row.torque_x, row.rate_x, row.inertia_x, t.x, rolling) +
-                              resist(row.torque_y, row.rate_y, row.inertia_y, t.y, rolling) +
-                              resist(row.torque_n, row.rate_n, row.inertia_n, n, spinning);
+    const Planar<T> rate{load(row.rate_x) + dot<T>(t.x, w), load(row.rate_y) + dot<T>(t.y, w)};
+    const TangentMass<T> inertia{load(row.inertia_xx), load(row.inertia_xy), load(row.inertia_yy),
+                                 load(row.inertia_least)};
+    Planar<T> across_sum{load(row.torque_x), load(row.torque_y)};
+    const Planar<T> rolled =
+        rub<T>(across_sum, {T(0), T(0)}, rate, inertia, T(load(row.rolling) * push));
+    store(row.torque_x, across_sum.x);
+    store(row.torque_y, across_sum.y);
+
+    T about = load(row.torque_n);
+    const T spun = resist_spin<T>(about, load(row.rate_n) + dot<T>(n, w), load(row.inertia_n),
+                                  T(load(row.spinning) * push));
+    store(row.torque_n, about);
+
+    const Vector3<T> torque = t.x * rolled.x + t.y * rolled.y + n * spun;
     apply_torque<T>(pair.a, mass.a, torque);
     apply_torque<T>(pair.b, mass.b, -torque);
 }

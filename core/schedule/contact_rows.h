@@ -55,10 +55,13 @@ struct alignas(kRowAlignment<Real, W>) FrictionRow {
 /// Against turning.
 template <class Real, int W>
 struct alignas(kRowAlignment<Real, W>) TurningRow {
-    Real rolling[W], spinning[W];                   // levers ρ, σ [m]
-    Real inertia_x[W], inertia_y[W], inertia_n[W];  // effective inertia about t₁, t₂, n [kg m²]
-    Real rate_x[W], rate_y[W], rate_n[W];           // at the start of the substep [rad/s]
-    Real torque_x[W], torque_y[W], torque_n[W];     // summed torque impulses of both passes [N m s]
+    Real rolling[W], spinning[W];  // levers ρ, σ [m]
+    Real inertia_xx[W], inertia_xy[W],
+        inertia_yy[W];                     // inverse of the tangents' response to torque [kg m²]
+    Real inertia_least[W];                 // 1 / greatest eigenvalue of that response [kg m²]
+    Real inertia_n[W];                     // effective inertia about n [kg m²]
+    Real rate_x[W], rate_y[W], rate_n[W];  // at the start of the substep [rad/s]
+    Real torque_x[W], torque_y[W], torque_n[W];  // summed torque impulses of both passes [N m s]
 };
 
 /// Which kinds of rows a batch carries.

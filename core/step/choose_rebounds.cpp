@@ -19,7 +19,7 @@ void choose_rebounds(World& world, bool first_substep) {
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const double e = world.surface_pair(c.found[i].a, c.found[i].b).restitution;
         if (e == 0 || c.bounced[i]) continue;
-        const double u = separating_velocity(world.bodies, c.found[i]);
+        const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
         if (-u <= threshold) continue;
         if (c.gap[i] > 0) {
             c.rebound[i] = ContactTable::kPassing;

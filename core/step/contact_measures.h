@@ -12,9 +12,8 @@
 namespace plumb {
 
 /// Velocity of the contact's point on a against that on b, along the normal, without the forces of
-/// the substep [m/s]; negative: they approach.
-inline double separating_velocity(const Bodies& b, const Contact& c) {
-    const Vector3d point = common_point(c);
+/// the substep [m/s]; negative: they approach. `point`: where it acts now [m].
+inline double separating_velocity(const Bodies& b, const Contact& c, const Vector3d& point) {
     const auto velocity = [&](std::uint32_t i) -> Vector3d {
         return b.velocity_now[i] + b.angular_velocity_now[i].cross(point - b.position[i]);
     };

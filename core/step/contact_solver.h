@@ -39,12 +39,20 @@ public:
     /// Rows for the pairs; `levels` (may be null) makes the lower body of a pair immovable.
     /// `exact` (may be null) takes those that it solves.
     void load(const World& world, const std::vector<std::uint32_t>* levels, IslandGroup* exact) {
+        levels_ = levels;
         find_pairs(world, levels, pairs_);
         if (exact) exact->load(world, pairs_);
         colouring_.colour(pairs_, world.dynamic_count);
         batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
-        fill_geometry(world, levels);
-        run(kernels_.prepare, {}, {});
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            fill_surface(world, contact, k, lane);
+        });
+        radii_.resize(world.contacts.found.size());
+        for (const BodyPair& pair : pairs_)
+            std::fill_n(radii_.begin() + pair.first, pair.count,
+                        smaller_radius(world.bodies, world.contacts.found[pair.first]));
+        fill_geometry(world);
+        is_fresh_ = true;
     }
 
     /// Impulses that the contacts remember of the step before. Those of an island that was solved
@@ -63,10 +71,12 @@ public:
         });
     }
 
-    /// Gaps, rebounds and drifts of the substep; sums of the pass before become the start of this
-    /// one. Returns how many overlaps are deeper than the substep may push out.
+    /// Arms, masses, gaps, rebounds and drifts of the substep; sums of the pass before become the
+    /// start of this one. Returns how many overlaps are deeper than the substep may push out.
     std::uint32_t begin(const World& world, const BodyRows<Real>& bodies,
                         const PassSettings<Real>& pass) {
+        if (!is_fresh_) fill_geometry(world);
+        is_fresh_ = false;
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
         std::uint32_t clamped = 0;
@@ -98,6 +108,8 @@ public:
                        const PassSettings<Real>& pass) {
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
+        if (!is_fresh_) fill_geometry(world);
+        is_fresh_ = true;
         resting_ = batches_;
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             NormalRow<Real, W>& row = rows.normals[k];
@@ -148,7 +160,8 @@ public:
     void end_impacts(World& world) {
         std::swap(batches_, resting_);
         for (const Given& g : given_) {
-            const double u = separating_velocity(world.bodies, world.contacts.found[g.contact]);
+            const double u = separating_velocity(world.bodies, world.contacts.found[g.contact],
+                                                 world.contacts.point[g.contact]);
             world.contacts.rebound[g.contact] = u > 0 ? ContactTable::kParting : 0;
         }
         given_.clear();
@@ -313,41 +326,52 @@ private:
         }
     }
 
-    void fill_geometry(const World& world, const std::vector<std::uint32_t>* levels) {
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        radii_.resize(world.contacts.found.size());
-        for (std::size_t p = 0; p < pairs_.size(); ++p) {
-            const auto slot = batches_.slot(p);
-            const Contact& first = world.contacts.found[pairs_[p].first];
-            std::fill_n(radii_.begin() + pairs_[p].first, pairs_[p].count,
-                        smaller_radius(world.bodies, first));
-            const bool hold_a = levels && (*levels)[first.a] < (*levels)[first.b];
-            const bool hold_b = levels && (*levels)[first.b] < (*levels)[first.a];
-            PairBlock<Real, W>& block = rows.blocks[slot.block];
-            if (!hold_a)
-                fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
-                          slot.lane);
-            if (!hold_b)
-                fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
-                          slot.lane);
-            const SurfacePair& surface = world.surface_pair(first.a, first.b);
-            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-                fill_row(world, rows, pairs_[p].first + i, block.first_row + i, slot.lane, surface);
-        }
+    /// Arms and masses at the poses now, and what follows from them.
+    void fill_geometry(const World& world) {
+        workers_.run([&](std::uint32_t worker) {
+            const Range share = workers_.share(static_cast<std::uint32_t>(pairs_.size()), worker);
+            for (std::size_t p = share.first; p < share.last; ++p) fill_pair(world, p);
+        });
+        run(kernels_.prepare, {}, {});
     }
 
-    void fill_row(const World& world, const ContactArrays<Real, W>& rows, std::size_t contact,
-                  std::uint32_t k, std::uint32_t lane, const SurfacePair& surface) {
+    void fill_pair(const World& world, std::size_t p) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        const auto slot = batches_.slot(p);
+        const Contact& first = world.contacts.found[pairs_[p].first];
+        PairBlock<Real, W>& block = rows.blocks[slot.block];
+        const bool hold_a = levels_ && (*levels_)[first.a] < (*levels_)[first.b];
+        const bool hold_b = levels_ && (*levels_)[first.b] < (*levels_)[first.a];
+        if (!hold_a)
+            fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
+                      slot.lane);
+        if (!hold_b)
+            fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
+                      slot.lane);
+        for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
+            fill_arms(world, pairs_[p].first + i, rows.normals[block.first_row + i], slot.lane);
+    }
+
+    static void fill_arms(const World& world, std::size_t contact, NormalRow<Real, W>& row,
+                          std::uint32_t lane) {
         const Contact& c = world.contacts.found[contact];
-        const Vector3d n = to_eigen(c.normal), point = common_point(c);
+        const Vector3d& point = world.contacts.point[contact];
         const Vector3d arm_a = point - world.bodies.position[c.a],
                        arm_b = point - world.bodies.position[c.b];
-        NormalRow<Real, W>& row = rows.normals[k];
         for (int i = 0; i < 3; ++i) {
-            row.normal[i][lane] = static_cast<Real>(n[i]);
             row.arm_a[i][lane] = static_cast<Real>(arm_a[i]);
             row.arm_b[i][lane] = static_cast<Real>(arm_b[i]);
         }
+    }
+
+    /// What a row keeps through all substeps.
+    void fill_surface(const World& world, std::size_t contact, std::uint32_t k,
+                      std::uint32_t lane) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        const Contact& c = world.contacts.found[contact];
+        const double normal[3] = {c.normal.x, c.normal.y, c.normal.z};
+        for (int i = 0; i < 3; ++i) rows.normals[k].normal[i][lane] = static_cast<Real>(normal[i]);
+        const SurfacePair& surface = world.surface_pair(c.a, c.b);
         if (rows.frictions) rows.frictions[k].friction[lane] = static_cast<Real>(surface.friction);
         if (!rows.turnings) return;
         rows.turnings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
@@ -416,6 +440,8 @@ private:
     ContactBatches<Real, W> batches_, resting_;
     std::vector<Given> given_;
     std::vector<double> radii_;  // [contact] of the smaller dynamic body [m]
+    const std::vector<std::uint32_t>* levels_ = nullptr;
+    bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins
 };
 
 }  // namespace plumb

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Coulomb's law on slopes and on the flat. Steps: 1/60 s with 20 substeps × (1 + 1), or 0.01 s
 /// with 5 + 5 iterations.
+#include "support/random.h"
 #include "support/scenes.h"
 
 #include <vector>
@@ -100,7 +101,7 @@ TEST_P(Friction, BrakingDistanceDoesNotDependOnMass) {
     for (double d : distances) EXPECT_NEAR(d / distances[0], 1, 1e-3);
 }
 
-/// A ball that slides at first rolls at 5 v₀/7; the paper's frozen arms do not spoil it.
+/// A ball that slides at first rolls at 5 v₀/7.
 TEST_P(Friction, ASlidingBallComesToRoll) {
     Scene s = scene();
     use_fine_steps(s.settings);
@@ -133,6 +134,50 @@ TEST_P(Friction, RollingFrictionBrakesByItsLever) {
     run_for(simulation, 1.3 * speed / deceleration);
     EXPECT_NEAR(simulation.world().bodies.position[1].x() / law, 1, 0.02);
     EXPECT_LT(simulation.world().bodies.velocity[1].norm(), 1e-3);
+}
+
+/// The same whichever way it rolls: the torque is bounded by a disc across the normal, not by a
+/// square.
+TEST_P(Friction, RollingFrictionIsTheSameInAllDirections) {
+    const double speed = 1.5, radius = 0.2, lever = 0.01;
+    const double deceleration = 5.0 / 7 * lever * 9.81 / radius,
+                 law = speed * speed / (2 * deceleration);
+    Random random(5);
+    for (int setting = 0; setting < 4; ++setting)
+        for (const bool on_slabs : {false, true}) {
+            Scene s = scene();
+            if (setting == 1) use_fine_steps(s.settings);
+            if (setting > 1) {
+                s.settings.dt = random.number(0.004, 0.02);
+                s.settings.substeps = 1 + random.below(10);
+            }
+            s.materials[0].rolling_friction = lever;
+            add_ground(s);
+            const std::vector<double> degrees{0, 22.5, 45, 70};
+            for (std::size_t i = 0; i < degrees.size(); ++i) {
+                const Vector ahead(std::cos(degrees[i] * kDegree), 0,
+                                   std::sin(degrees[i] * kDegree));
+                const Vector start(0, radius + (on_slabs ? 0.2 : 0), 20.0 * double(i));
+                BodySpec& b = add_body(s, sphere(radius), start);
+                b.velocity = speed * ahead;
+                b.angular_velocity = Vector::UnitY().cross(ahead) * (speed / radius);
+            }
+            for (std::size_t i = 0; on_slabs && i < degrees.size(); ++i)
+                add_body(s, box(8, 0.1, 8), {0, 0.1, 20.0 * double(i)}).mass = 1e6;
+            Simulation simulation(s, colliders(), collider());
+            run_for(simulation, 1.2 * speed / deceleration);
+            for (std::size_t i = 0; i < degrees.size(); ++i) {
+                const Vector ahead(std::cos(degrees[i] * kDegree), 0,
+                                   std::sin(degrees[i] * kDegree));
+                const Vector moved = simulation.world().bodies.position[1 + i] -
+                                     Vector(0, radius + (on_slabs ? 0.2 : 0), 20.0 * double(i));
+                const std::string where = std::to_string(degrees[i]) + " degrees, setting " +
+                                          std::to_string(setting) + (on_slabs ? ", on a slab" : "");
+                EXPECT_NEAR(moved.dot(ahead) / law, 1, 0.02) << where;
+                EXPECT_LT((moved - moved.dot(ahead) * ahead).norm() / law, 0.01) << where;
+                EXPECT_LT(simulation.world().bodies.velocity[1 + i].norm(), 2e-3) << where;
+            }
+        }
 }
 
 }  // namespace
