@@ -13,6 +13,7 @@
 #include "step/velocity_table.h"
 #include "world/world.h"
 
+#include <utility>
 #include <vector>
 
 namespace plumb {
@@ -42,6 +43,7 @@ public:
         batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
         fill_geometry(world, levels);
         run(kernels_.prepare, {}, {});
+        fresh_ = true;
     }
 
     /// Impulses that the contacts remember of the step before. Those of an island that was solved
@@ -65,6 +67,7 @@ public:
     std::uint32_t begin(const World& world, const BodyRows<Real>& bodies,
                         const PassSettings<Real>& pass) {
         const ContactTable& c = world.contacts;
+        if (!std::exchange(fresh_, false)) renew(world);
         const ContactArrays<Real, W> rows = batches_.arrays();
         std::uint32_t clamped = 0;
         const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
@@ -189,18 +192,54 @@ private:
         }
     }
 
-    void fill_row(const World& world, const ContactArrays<Real, W>& rows, std::size_t contact,
-                  std::uint32_t k, std::uint32_t lane, const SurfacePair& surface) {
+    /// Arms and masses of a later substep, at the poses now.
+    void renew(const World& world) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const auto slot = batches_.slot(p);
+            const Contact& first = world.contacts.found[pairs_[p].first];
+            PairBlock<Real, W>& block = rows.blocks[slot.block];
+            if (block.inverse_mass_a[slot.lane] > 0)
+                fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
+                          slot.lane);
+            if (block.inverse_mass_b[slot.lane] > 0)
+                fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
+                          slot.lane);
+        }
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            fill_arms(world, rows.normals[k], contact, lane, common_point_now(world, contact));
+        });
+        run(kernels_.prepare, {}, {});
+    }
+
+    /// Where a contact's points are that ride on the bodies, half-way between the surfaces [m].
+    static Vector3d common_point_now(const World& world, std::size_t contact) {
+        const Bodies& b = world.bodies;
         const Contact& c = world.contacts.found[contact];
-        const Vector3d n = to_eigen(c.normal), point = common_point(c);
+        const ContactTrack& track = world.contacts.track[contact];
+        const Vector3d n = to_eigen(c.normal);
+        return 0.5 * ((b.position[c.a] + b.orientation[c.a] * track.a - c.radius_a * n) +
+                      (b.position[c.b] + b.orientation[c.b] * track.b + c.radius_b * n));
+    }
+
+    static void fill_arms(const World& world, NormalRow<Real, W>& row, std::size_t contact,
+                          std::uint32_t lane, const Vector3d& point) {
+        const Contact& c = world.contacts.found[contact];
         const Vector3d arm_a = point - world.bodies.position[c.a],
                        arm_b = point - world.bodies.position[c.b];
-        NormalRow<Real, W>& row = rows.normals[k];
         for (int i = 0; i < 3; ++i) {
-            row.normal[i][lane] = static_cast<Real>(n[i]);
             row.arm_a[i][lane] = static_cast<Real>(arm_a[i]);
             row.arm_b[i][lane] = static_cast<Real>(arm_b[i]);
         }
+    }
+
+    void fill_row(const World& world, const ContactArrays<Real, W>& rows, std::size_t contact,
+                  std::uint32_t k, std::uint32_t lane, const SurfacePair& surface) {
+        const Contact& c = world.contacts.found[contact];
+        NormalRow<Real, W>& row = rows.normals[k];
+        const double n[3] = {c.normal.x, c.normal.y, c.normal.z};
+        for (int i = 0; i < 3; ++i) row.normal[i][lane] = static_cast<Real>(n[i]);
+        fill_arms(world, row, contact, lane, common_point(c));
         if (rows.frictions) rows.frictions[k].friction[lane] = static_cast<Real>(surface.friction);
         if (!rows.turnings) return;
         rows.turnings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
@@ -261,6 +300,7 @@ private:
             kernel(rows, bodies, pass, b - 1, b);
     }
 
+    bool fresh_ = false;  ///< rows are those of the substep that begins
     ContactVariant variant_;
     const ContactKernels<Real, W>& kernels_;
     Workers& workers_;

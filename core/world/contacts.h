@@ -33,11 +33,24 @@ struct ContactTrack {
     Vector3d a, b;  ///< anchors [m]
 };
 
+/// A circle that is the edge of a flat round end; body frame.
+struct Rim {
+    Vector3d centre = Vector3d::Zero(), axis = Vector3d::Zero();  ///< [m], unit
+    double radius = 0;                                            ///< [m]; 0: none
+};
+
+/// The rim on which a contact lies, and whose it is.
+struct ContactRim {
+    Rim rim;
+    std::uint32_t body = 0;
+};
+
 /// Columns of one length: [contact], sorted by (a, b, feature).
 struct ContactTable {
     std::vector<Contact> found;  ///< as the collider reported them, at the start of the step
     std::vector<ContactMemory> memory;
     std::vector<ContactTrack> track;  ///< only with more than one substep
+    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none
     std::vector<double> gap;          ///< at the start of the substep [m]
     std::vector<double>
         rebound;  ///< separating speed that restitution asks for [m/s]; only where some pair

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+#include "step/rims.h"
+
+namespace plumb {
+namespace {
+
+/// A rim flatter than this against the normal touches with its face, as colliders take it.
+constexpr double kFlat = 1e-4;
+
+/// Share of the radius by which a point may lie beside the rim's deepest one and still be it.
+constexpr double kBeside = 1e-5;
+
+/// A part of a body: its shape, and where that is in the body's frame.
+struct PlacedPart {
+    const Shape* shape;
+    Placement local;
+};
+
+PlacedPart part_of(const World& world, std::uint32_t body, std::uint32_t part) {
+    const std::uint32_t geometry = world.bodies.geometry[body];
+    if (geometry == kNoIndex) return {nullptr, {}};
+    const Shape& shape = world.shapes[geometry];
+    const Placement& local = world.bodies.geometry_in_body[body];
+    if (shape.kind != ShapeKind::compound) return {&shape, local};
+    if (part >= shape.part_count) return {nullptr, {}};
+    const ShapePart& p = shape.parts[part];
+    return {&p.shape, local * Placement{to_eigen(p.local.position), to_eigen(p.local.rotation)}};
+}
+
+/// The rim of a shape that is farthest along d, in the shape's frame; radius 0: none.
+Rim rim_towards(const Shape& shape, const Vector3d& d) {
+    const bool cone = shape.kind == ShapeKind::cone;
+    if (!cone && shape.kind != ShapeKind::cylinder) return {};
+    const double side = cone || d.y() < 0 ? -1 : 1;
+    return {{0, side * shape.half_height, 0}, Vector3d::UnitY(), shape.radius};
+}
+
+/// The rim of `body` on which `point` is the farthest along `direction`, both in the world.
+Rim rim_at(const World& world, std::uint32_t body, std::uint32_t part, const Vec3& point,
+           const Vector3d& direction) {
+    const PlacedPart placed = part_of(world, body, part);
+    if (!placed.shape) return {};
+    const Bodies& b = world.bodies;
+    const Quaterniond back = b.orientation[body].conjugate();
+    const Vector3d d = back * direction, p = back * (to_eigen(point) - b.position[body]);
+    Rim rim = rim_towards(*placed.shape, placed.local.rotation.conjugate() * d);
+    if (rim.radius == 0) return {};
+    rim.centre = placed.local.position + placed.local.rotation * rim.centre;
+    rim.axis = placed.local.rotation * rim.axis;
+    const double near = kBeside * rim.radius;
+    if (d.cross(rim.axis).norm() < kFlat) return {};
+    return (farthest_on(rim, d, p) - p).squaredNorm() < near * near ? rim : Rim{};
+}
+
+}  // namespace
+
+Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& otherwise) {
+    const Vector3d out = direction - direction.dot(rim.axis) * rim.axis;
+    const double length = out.norm();
+    return length > kFlat ? Vector3d(rim.centre + (rim.radius / length) * out) : otherwise;
+}
+
+void find_rims(World& world) {
+    ContactTable& c = world.contacts;
+    c.rims.assign(c.found.size(), {});
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Contact& contact = c.found[i];
+        if (!is_sharp(contact)) continue;
+        const Vector3d n = to_eigen(contact.normal);
+        Rim on_a = rim_at(world, contact.a, contact.part_a, contact.point_a, -n);
+        if (on_a.radius > 0) {
+            c.rims[i] = {on_a, contact.a};
+            continue;
+        }
+        const Rim on_b = rim_at(world, contact.b, contact.part_b, contact.point_b, n);
+        if (on_b.radius > 0) c.rims[i] = {on_b, contact.b};
+    }
+}
+
+void follow_rims(World& world) {
+    ContactTable& c = world.contacts;
+    const Bodies& b = world.bodies;
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Rim& rim = c.rims[i].rim;
+        if (rim.radius == 0) continue;
+        const Contact& contact = c.found[i];
+        const bool of_a = c.rims[i].body == contact.a;
+        const std::uint32_t round = of_a ? contact.a : contact.b,
+                            other = of_a ? contact.b : contact.a;
+        Vector3d &on_round = of_a ? c.track[i].a : c.track[i].b,
+                 &on_other = of_a ? c.track[i].b : c.track[i].a;
+        const Vector3d n = to_eigen(contact.normal), outward = of_a ? Vector3d(-n) : n;
+        on_round = farthest_on(rim, b.orientation[round].conjugate() * outward, on_round);
+        // its opposite is in the plane across the normal in which it was
+        const Vector3d at = b.position[round] + b.orientation[round] * on_round,
+                       was = b.position[other] + b.orientation[other] * on_other;
+        const Vector3d opposite = at + n.dot(was - at) * n;
+        on_other = b.orientation[other].conjugate() * (opposite - b.position[other]);
+    }
+}
+
+}  // namespace plumb
