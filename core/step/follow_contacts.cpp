@@ -59,7 +59,8 @@ void let_go_of_what_rolled(World& world, std::size_t i) {
     ContactMemory& m = world.contacts.memory[i];
     const Vector3d n = to_eigen(contact.normal), now = point_on_rim(b, contact, at);
     const double far = kRolledOn * at.rim.radius;
-    for (const Vector3d& was : {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
+    for (const Vector3d& was :
+         {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
         if ((now - was).cross(n).squaredNorm() < far * far) return;
     m.stick_a = in_body(b, contact.a, now);
     m.stick_b = in_body(b, contact.b, now);

@@ -35,6 +35,18 @@ Rim rim_towards(const Shape& shape, const Vector3d& d) {
     return {{0, side * shape.half_height, 0}, Vector3d::UnitY(), shape.radius};
 }
 
+/// From the centre of mass to the rim's point that is lowest against the normal [m], world frame.
+Vector3d lowest_arm(const Rim& rim, const Quaterniond& q, const Vector3d& n) {
+    return q * farthest_on(rim, q.conjugate() * -n, rim.centre);
+}
+
+/// An orientation after a time at an angular velocity.
+Quaterniond turned(const Quaterniond& q, const Vector3d& w, double time) {
+    const double speed = w.norm();
+    if (speed == 0) return q;
+    return Quaterniond(Eigen::AngleAxisd(speed * time, w / speed)) * q;
+}
+
 /// The rim of `body` on which `point` is the farthest along `direction`, both in the world.
 Rim rim_at(const World& world, std::uint32_t body, std::uint32_t part, const Vec3& point,
            const Vector3d& direction) {
@@ -63,6 +75,7 @@ Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& 
 void find_rims(World& world) {
     ContactTable& c = world.contacts;
     c.rims.assign(c.found.size(), {});
+    c.bend.assign(c.found.size(), Vector3d::Zero());
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
@@ -74,6 +87,25 @@ void find_rims(World& world) {
         }
         const Rim on_b = rim_at(world, contact.b, contact.part_b, contact.point_b, n);
         if (on_b.radius > 0) c.rims[i] = {on_b, contact.b};
+    }
+}
+
+void foresee_rims(World& world, double h) {
+    ContactTable& c = world.contacts;
+    const Bodies& b = world.bodies;
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Rim& rim = c.rims[i].rim;
+        if (rim.radius == 0) continue;
+        const std::uint32_t body = c.rims[i].body;
+        const double sign = body == c.found[i].a ? 1 : -1;
+        const Vector3d n = sign * to_eigen(c.found[i].normal), w = b.angular_velocity[body];
+        const Vector3d now = lowest_arm(rim, b.orientation[body], n),
+                       middle = lowest_arm(rim, turned(b.orientation[body], w, 0.5 * h), n),
+                       end = lowest_arm(rim, turned(b.orientation[body], w, h), n);
+        // along the normal how far it comes by the end, across it how fast it is in the middle
+        const Vector3d across = w.cross(middle - now);
+        const double along = n.dot(end - now) / h - n.dot(w.cross(now));
+        c.bend[i] = sign * (across + (along - n.dot(across)) * n);
     }
 }
 

@@ -51,6 +51,8 @@ struct ContactTable {
     std::vector<ContactMemory> memory;
     std::vector<ContactTrack> track;  ///< only with more than one substep
     std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none
+    std::vector<Vector3d> bend;       ///< mean velocity over the substep less that at its start,
+                                      ///< of points that run along a rim [m/s]
     std::vector<double> gap;          ///< at the start of the substep [m]
     std::vector<double>
         rebound;  ///< separating speed that restitution asks for [m/s]; only where some pair
