@@ -14,8 +14,7 @@ namespace plumb {
 namespace {
 
 /// Velocity of the contact's point on a against that on b, along the normal [m/s].
-double closing_velocity(const Bodies& b, const Contact& c) {
-    const Vector3d point = common_point(c);
+double closing_velocity(const Bodies& b, const Contact& c, const Vector3d& point) {
     auto velocity = [&](std::uint32_t i) -> Vector3d {
         return b.velocity[i] + b.angular_velocity[i].cross(point - b.position[i]);
     };
@@ -33,7 +32,7 @@ void choose_rebounds(World& world, bool first_substep) {
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const double e = world.surface_pair(c.found[i].a, c.found[i].b).restitution;
         if (e == 0 || c.bounced[i]) continue;
-        const double u = closing_velocity(world.bodies, c.found[i]);
+        const double u = closing_velocity(world.bodies, c.found[i], c.point[i]);
         if (-u <= threshold) continue;
         if (c.gap[i] > 0) {
             c.rebound[i] = ContactTable::kPassing;

@@ -13,7 +13,6 @@
 #include "step/velocity_table.h"
 #include "world/world.h"
 
-#include <utility>
 #include <vector>
 
 namespace plumb {
@@ -37,13 +36,16 @@ public:
     /// Rows for the pairs; `levels` (may be null) makes the lower body of a pair immovable.
     /// `exact` (may be null) takes those that it solves.
     void load(const World& world, const std::vector<std::uint32_t>* levels, IslandGroup* exact) {
+        levels_ = levels;
         find_pairs(world, levels, pairs_);
         if (exact) exact->load(world, pairs_);
         colouring_.colour(pairs_, world.dynamic_count);
         batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
-        fill_geometry(world, levels);
-        run(kernels_.prepare, {}, {});
-        fresh_ = true;
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            fill_surface(world, contact, k, lane);
+        });
+        fill_geometry(world);
+        is_fresh_ = true;
     }
 
     /// Impulses that the contacts remember of the step before. Those of an island that was solved
@@ -62,12 +64,13 @@ public:
         });
     }
 
-    /// Gaps, rebounds and drifts of the substep; sums of the pass before become the start of this
-    /// one. Returns how many overlaps are deeper than the substep may push out.
+    /// Arms, masses, gaps, rebounds and drifts of the substep; sums of the pass before become the
+    /// start of this one. Returns how many overlaps are deeper than the substep may push out.
     std::uint32_t begin(const World& world, const BodyRows<Real>& bodies,
                         const PassSettings<Real>& pass) {
+        if (!is_fresh_) fill_geometry(world);
+        is_fresh_ = false;
         const ContactTable& c = world.contacts;
-        if (!std::exchange(fresh_, false)) renew(world);
         const ContactArrays<Real, W> rows = batches_.arrays();
         std::uint32_t clamped = 0;
         const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
@@ -173,26 +176,6 @@ private:
         }
     }
 
-    void fill_geometry(const World& world, const std::vector<std::uint32_t>* levels) {
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        for (std::size_t p = 0; p < pairs_.size(); ++p) {
-            const auto slot = batches_.slot(p);
-            const Contact& first = world.contacts.found[pairs_[p].first];
-            const bool hold_a = levels && (*levels)[first.a] < (*levels)[first.b];
-            const bool hold_b = levels && (*levels)[first.b] < (*levels)[first.a];
-            PairBlock<Real, W>& block = rows.blocks[slot.block];
-            if (!hold_a)
-                fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
-                          slot.lane);
-            if (!hold_b)
-                fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
-                          slot.lane);
-            const SurfacePair& surface = world.surface_pair(first.a, first.b);
-            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-                fill_row(world, rows, pairs_[p].first + i, block.first_row + i, slot.lane, surface);
-        }
-    }
-
     /// Velocities at rims are those over the whole substep.
     void bend(const ContactTable& c) {
         const ContactArrays<Real, W> rows = batches_.arrays();
@@ -209,39 +192,31 @@ private:
         });
     }
 
-    /// Arms and masses of a later substep, at the poses now.
-    void renew(const World& world) {
+    /// Arms and masses at the poses now, and what follows from them.
+    void fill_geometry(const World& world) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
             const auto slot = batches_.slot(p);
             const Contact& first = world.contacts.found[pairs_[p].first];
+            const bool hold_a = levels_ && (*levels_)[first.a] < (*levels_)[first.b];
+            const bool hold_b = levels_ && (*levels_)[first.b] < (*levels_)[first.a];
             PairBlock<Real, W>& block = rows.blocks[slot.block];
-            if (block.inverse_mass_a[slot.lane] > 0)
+            if (!hold_a)
                 fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
                           slot.lane);
-            if (block.inverse_mass_b[slot.lane] > 0)
+            if (!hold_b)
                 fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
                           slot.lane);
+            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
+                fill_arms(world, pairs_[p].first + i, rows.normals[block.first_row + i], slot.lane);
         }
-        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
-            fill_arms(world, rows.normals[k], contact, lane, common_point_now(world, contact));
-        });
         run(kernels_.prepare, {}, {});
     }
 
-    /// Where a contact's points are that ride on the bodies, half-way between the surfaces [m].
-    static Vector3d common_point_now(const World& world, std::size_t contact) {
-        const Bodies& b = world.bodies;
+    static void fill_arms(const World& world, std::size_t contact, NormalRow<Real, W>& row,
+                          std::uint32_t lane) {
         const Contact& c = world.contacts.found[contact];
-        const ContactTrack& track = world.contacts.track[contact];
-        const Vector3d n = to_eigen(c.normal);
-        return 0.5 * ((b.position[c.a] + b.orientation[c.a] * track.a - c.radius_a * n) +
-                      (b.position[c.b] + b.orientation[c.b] * track.b + c.radius_b * n));
-    }
-
-    static void fill_arms(const World& world, NormalRow<Real, W>& row, std::size_t contact,
-                          std::uint32_t lane, const Vector3d& point) {
-        const Contact& c = world.contacts.found[contact];
+        const Vector3d& point = world.contacts.point[contact];
         const Vector3d arm_a = point - world.bodies.position[c.a],
                        arm_b = point - world.bodies.position[c.b];
         for (int i = 0; i < 3; ++i) {
@@ -250,13 +225,14 @@ private:
         }
     }
 
-    void fill_row(const World& world, const ContactArrays<Real, W>& rows, std::size_t contact,
-                  std::uint32_t k, std::uint32_t lane, const SurfacePair& surface) {
+    /// What a row keeps through all substeps.
+    void fill_surface(const World& world, std::size_t contact, std::uint32_t k,
+                      std::uint32_t lane) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
         const Contact& c = world.contacts.found[contact];
-        NormalRow<Real, W>& row = rows.normals[k];
-        const double n[3] = {c.normal.x, c.normal.y, c.normal.z};
-        for (int i = 0; i < 3; ++i) row.normal[i][lane] = static_cast<Real>(n[i]);
-        fill_arms(world, row, contact, lane, common_point(c));
+        const double normal[3] = {c.normal.x, c.normal.y, c.normal.z};
+        for (int i = 0; i < 3; ++i) rows.normals[k].normal[i][lane] = static_cast<Real>(normal[i]);
+        const SurfacePair& surface = world.surface_pair(c.a, c.b);
         if (rows.frictions) rows.frictions[k].friction[lane] = static_cast<Real>(surface.friction);
         if (!rows.turnings) return;
         rows.turnings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
@@ -317,13 +293,14 @@ private:
             kernel(rows, bodies, pass, b - 1, b);
     }
 
-    bool fresh_ = false;  ///< rows are those of the substep that begins
     ContactVariant variant_;
     const ContactKernels<Real, W>& kernels_;
     Workers& workers_;
     std::vector<BodyPair> pairs_;
     Colouring colouring_;
     ContactBatches<Real, W> batches_;
+    const std::vector<std::uint32_t>* levels_ = nullptr;
+    bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins
 };
 
 }  // namespace plumb

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// Contacts are detected once a step; through its substeps their points ride on the bodies.
+/// Contacts are detected once a step; through its substeps their points ride on the bodies, and
+/// with them the gap and the common point at which the contact acts. Only a point of now keeps
+/// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
 #include "step/rims.h"
 #include "step/stages.h"
 
@@ -17,48 +19,60 @@ Vector3d in_world(const Bodies& b, std::uint32_t i, const Vector3d& point) {
     return b.position[i] + b.orientation[i] * point;
 }
 
-void take_gaps_as_found(World& world) {
+/// Where two points of a contact slide past each other, it goes with that of the body that touches
+/// with a point: with what moves along what does not, with what is round along what is sharp, with
+/// the rounder of two that are round; half-way where nobody can tell.
+double share_of_a(const Bodies& b, const Contact& c) {
+    const bool moves_a = b.motion[c.a] == Motion::dynamic,
+               moves_b = b.motion[c.b] == Motion::dynamic;
+    if (moves_a != moves_b) return moves_a ? 1 : 0;
+    if (c.radius_a > 0 && c.radius_b > 0) return c.radius_b / (c.radius_a + c.radius_b);
+    return is_sharp(c) ? 0.5 : c.radius_a > 0 ? 1 : 0;
+}
+
+void take_as_found(World& world) {
     ContactTable& c = world.contacts;
     c.gap.resize(c.found.size());
-    for (std::size_t i = 0; i < c.found.size(); ++i) c.gap[i] = c.found[i].gap;
+    c.point.resize(c.found.size());
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        c.gap[i] = c.found[i].gap;
+        c.point[i] = common_point(c.found[i]);
+    }
     if (world.settings.substeps == 1) return;
     c.track.resize(c.found.size());
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
         c.track[i] = {in_body(world.bodies, contact.a, to_eigen(contact.point_a)),
-                      in_body(world.bodies, contact.b, to_eigen(contact.point_b))};
+                      in_body(world.bodies, contact.b, to_eigen(contact.point_b)),
+                      share_of_a(world.bodies, contact)};
     }
 }
 
-/// gap = n·(a − b) − radii, at the poses now.
-void measure_gaps(World& world) {
+/// gap = n·(a − b) − radii at the poses now, and the common point: along the normal half-way
+/// between the surfaces.
+void measure(World& world) {
     ContactTable& c = world.contacts;
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
-        const Vector3d apart = in_world(world.bodies, contact.a, c.track[i].a) -
-                               in_world(world.bodies, contact.b, c.track[i].b);
-        c.gap[i] = to_eigen(contact.normal).dot(apart) - contact.radius_a - contact.radius_b;
+        const Vector3d n = to_eigen(contact.normal);
+        const Vector3d a = in_world(world.bodies, contact.a, c.track[i].a) - contact.radius_a * n,
+                       b = in_world(world.bodies, contact.b, c.track[i].b) + contact.radius_b * n;
+        const Vector3d apart = a - b;
+        c.gap[i] = n.dot(apart);
+        const double lead = c.track[i].share - 0.5;
+        c.point[i] = 0.5 * (a + b) + lead * (apart - c.gap[i] * n);
     }
-}
-
-/// The point of a rim where its contact is now, in the world [m].
-Vector3d point_on_rim(const Bodies& b, const Contact& contact, const ContactRim& at) {
-    const Vector3d n = to_eigen(contact.normal);
-    const bool of_a = at.body == contact.a;
-    const Vector3d outward = b.orientation[at.body].conjugate() * (of_a ? Vector3d(-n) : n);
-    const Vector3d found = to_eigen(of_a ? contact.point_a : contact.point_b);
-    return in_world(b, at.body, farthest_on(at.rim, outward, in_body(b, at.body, found)));
 }
 
 /// Points that a rim has rolled away from do not hold it any more: it sticks where it is now.
 void let_go_of_what_rolled(World& world, std::size_t i) {
-    const Contact& contact = world.contacts.found[i];
-    const ContactRim& at = world.contacts.rims[i];
-    if (at.rim.radius == 0) return;
+    const ContactTable& c = world.contacts;
+    const Contact& contact = c.found[i];
+    const double far = kRolledOn * c.rims[i].rim.radius;
+    if (far == 0) return;
     const Bodies& b = world.bodies;
     ContactMemory& m = world.contacts.memory[i];
-    const Vector3d n = to_eigen(contact.normal), now = point_on_rim(b, contact, at);
-    const double far = kRolledOn * at.rim.radius;
+    const Vector3d n = to_eigen(contact.normal), &now = c.point[i];
     for (const Vector3d& was :
          {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
         if ((now - was).cross(n).squaredNorm() < far * far) return;
@@ -83,11 +97,11 @@ void measure_drifts(World& world) {
 
 void follow_contacts(World& world, const Plan& plan, bool first_substep) {
     if (first_substep) {
-        take_gaps_as_found(world);
+        take_as_found(world);
         find_rims(world);
     } else {
         follow_rims(world);
-        measure_gaps(world);
+        measure(world);
     }
     if (plan.runs(Effect::sticking_anchors)) measure_drifts(world);
 }

@@ -46,9 +46,11 @@ Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
 }
 
-/// Velocity of the contact's point on a against that on b [m/s].
-Vector3d relative_velocity(const Bodies& b, const Contact& c) {
-    const Vector3d at = common_point(c);
+/// Velocity of a contact's point on a against that on b [m/s].
+Vector3d relative_velocity(const World& world, std::uint32_t contact) {
+    const Bodies& b = world.bodies;
+    const Contact& c = world.contacts.found[contact];
+    const Vector3d& at = world.contacts.point[contact];
     return velocity_at(b, c.a, at - b.position[c.a]) - velocity_at(b, c.b, at - b.position[c.b]);
 }
 
@@ -93,6 +95,9 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     velocity_.resize(bodies_.size());
     start_.resize(bodies_.size());
     force_.resize(bodies_.size());
+    take_geometry(world);
+    take_memory(world);
+    is_fresh_ = true;
 }
 
 void IslandGroup::mark_jointed(const World& world) {
@@ -141,10 +146,8 @@ bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
     double fastest = 0, radius = 0, pull = 0;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
-        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
-            const Contact& c = world.contacts.found[k];
-            fastest = std::max(fastest, relative_velocity(b, c).norm());
-        }
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
+            fastest = std::max(fastest, relative_velocity(world, k).norm());
         const Contact& c = world.contacts.found[pair.first];
         for (const std::uint32_t body : {c.a, c.b}) {
             if (b.motion[body] != Motion::dynamic) continue;
@@ -184,14 +187,6 @@ void IslandGroup::take(const World& world, const ContactIsland& island,
     }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
-    for (std::uint32_t i = member.first_body; i < member.last_body; ++i) {
-        const Bodies& all = world.bodies;
-        IslandBody& body = bodies_[i];
-        body.mass = all.mass[body.body];
-        body.inverse_inertia = all.world_inverse_inertia[body.body];
-        body.inertia =
-            rotated_diagonal(all.orientation[body.body].toRotationMatrix(), all.inertia[body.body]);
-    }
     if (member.system.rows() == n && member.pattern == pattern_) return;
     member.pattern = pattern_;
     member.system.analyse(n, pattern_);
@@ -199,34 +194,63 @@ void IslandGroup::take(const World& world, const ContactIsland& island,
 
 void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint32_t a,
                             std::uint32_t b) {
-    const Contact& c = world.contacts.found[contact];
-    const ContactMemory& memory = world.contacts.memory[contact];
-    const SurfacePair& surface = world.surface_pair(c.a, c.b);
-    const Vector3d n = to_eigen(c.normal), at = common_point(c), x = tangent_of<double>(n);
+    const Vector3d n = to_eigen(world.contacts.found[contact].normal), x = tangent_of<double>(n);
     contacts_.push_back(contact);
     IslandPoint& p = points_.emplace_back();
     p.a = a, p.b = b;
     p.frame << n, x, n.cross(x);
+    p.length = 1;
+    p.impulse.setZero();
+}
+
+/// The impulses that the contacts remember of the step before.
+void IslandGroup::take_memory(const World& world) {
+    if (!world.settings.warm_start) return;
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+        const ContactMemory& memory = world.contacts.memory[contacts_[k]];
+        IslandPoint& p = points_[k];
+        if (!memory.matched) continue;
+        p.impulse.head<3>() = p.frame.transpose() * memory.friction_impulse;
+        p.impulse[0] = memory.normal_impulse;
+        if (p.cone.turns())
+            p.impulse.tail<3>() = p.frame.transpose() * memory.turning_impulse / p.length;
+    }
+}
+
+/// Inertia and arms at the poses now, and what follows from them.
+void IslandGroup::take_geometry(const World& world) {
+    const Bodies& all = world.bodies;
+    for (IslandBody& body : bodies_) {
+        body.mass = all.mass[body.body];
+        body.inverse_inertia = all.world_inverse_inertia[body.body];
+        body.inertia =
+            rotated_diagonal(all.orientation[body.body].toRotationMatrix(), all.inertia[body.body]);
+    }
+    for (std::size_t k = 0; k < points_.size(); ++k) take_geometry(world, points_[k], contacts_[k]);
+}
+
+void IslandGroup::take_geometry(const World& world, IslandPoint& p, std::uint32_t contact) const {
+    const Contact& c = world.contacts.found[contact];
+    const SurfacePair& surface = world.surface_pair(c.a, c.b);
+    const Vector3d n = p.frame.col(0), at = world.contacts.point[contact];
     p.arm_a = at - world.bodies.position[c.a];
     p.arm_b = at - world.bodies.position[c.b];
     const InverseMass<double> of_a = inverse_mass(world.bodies, c.a),
                               of_b = inverse_mass(world.bodies, c.b);
     p.mass = 1 / largest(point_response(of_a, p.arm_a) + point_response(of_b, p.arm_b));
     p.mass_normal = 1 / (response(of_a, p.arm_a, n, n) + response(of_b, p.arm_b, n, n));
+    const double before = p.length;
     p.length = std::sqrt(1 / (largest(of_a.inertia + of_b.inertia) * p.mass));
+    p.impulse.tail<3>() *= before / p.length;  // the torque stays
     p.cone = {surface.friction, surface.spinning_friction / p.length,
               surface.rolling_friction / p.length, 0};
-    p.impulse.setZero();
-    if (!memory.matched || !world.settings.warm_start) return;
-    p.impulse.head<3>() = p.frame.transpose() * memory.friction_impulse;
-    p.impulse[0] = memory.normal_impulse;
-    if (p.cone.turns())
-        p.impulse.tail<3>() = p.frame.transpose() * memory.turning_impulse / p.length;
 }
 
 // ---- once a substep
 
 std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) {
+    if (!is_fresh_) take_geometry(world);
+    is_fresh_ = false;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
         const std::uint32_t body = bodies_[i].body;
         start_[i] << world.bodies.velocity[body], world.bodies.angular_velocity[body];
@@ -255,8 +279,7 @@ double IslandGroup::speed_of(const World& world, const Member& member, double h,
     for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
         const Contact& contact = c.found[contacts_[k]];
         const double overlap = std::min(c.gap[contacts_[k]], 0.0);
-        const double normal =
-            to_eigen(contact.normal).dot(relative_velocity(world.bodies, contact));
+        const double normal = to_eigen(contact.normal).dot(relative_velocity(world, contacts_[k]));
         speed = std::max({speed, std::abs(normal),
                           closing_velocity(overlap, h, recovery, world.settings.stiffness)});
     }

@@ -53,6 +53,9 @@ private:
     void mark_jointed(const World& world);
     void take(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
+    void take_memory(const World& world);
+    void take_geometry(const World& world);
+    void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     double speed_of(const World& world, const Member& member, double h, double recovery) const;
     double strongest(const World& world, const Member& member, double h) const;
     void ask(const World& world, std::size_t point, double h, double recovery, double least);
@@ -67,6 +70,7 @@ private:
 
     std::vector<Member> members_;  // the first count_ are in use
     std::size_t count_ = 0;
+    bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
     std::vector<IslandPoint> points_;

@@ -35,7 +35,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
 /// step before.
 void match_contacts(World& world, const Plan& plan);
 
-/// Gaps and drifts at the start of a substep, from points that ride on the bodies.
+/// Gaps, common points and drifts at the start of a substep, from points that ride on the bodies.
 void follow_contacts(World& world, const Plan& plan, bool first_substep);
 
 /// Kinematic bodies' velocities over the coming substep of length h [s], from their scripts.

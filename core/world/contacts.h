@@ -28,9 +28,10 @@ struct ContactMemory {
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
 
-/// Where the points of a contact ride, for following its gap through substeps; body frames.
+/// Where the points of a contact ride, for following it through substeps; body frames.
 struct ContactTrack {
     Vector3d a, b;  ///< anchors [m]
+    double share;   ///< of a's point in where the contact acts, in [0, 1]; the rest is b's
 };
 
 /// A circle that is the edge of a flat round end; body frame.
@@ -54,6 +55,7 @@ struct ContactTable {
     std::vector<Vector3d> bend;       ///< mean velocity over the substep less that at its start,
                                       ///< of points that run along a rim [m/s]
     std::vector<double> gap;          ///< at the start of the substep [m]
+    std::vector<Vector3d> point;      ///< where it acts at the start of the substep [m]
     std::vector<double>
         rebound;  ///< separating speed that restitution asks for [m/s]; only where some pair
                   ///< bounces. kPassing: let it come through, it bounces once it touches
