@@ -69,7 +69,7 @@ void let_go_of_what_rolled(World& world, std::size_t i) {
     const ContactTable& c = world.contacts;
     const Contact& contact = c.found[i];
     const double far = kRolledOn * c.rims[i].rim.radius;
-    if (far == 0) return;
+    if (!c.rims[i].runs) return;
     const Bodies& b = world.bodies;
     ContactMemory& m = world.contacts.memory[i];
     const Vector3d n = to_eigen(contact.normal), &now = c.point[i];

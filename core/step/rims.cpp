@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/rims.h"
 
+#include <cmath>
+
 namespace plumb {
 namespace {
 
@@ -35,11 +37,6 @@ Rim rim_towards(const Shape& shape, const Vector3d& d) {
     return {{0, side * shape.half_height, 0}, Vector3d::UnitY(), shape.radius};
 }
 
-/// From the centre of mass to the rim's point that is lowest against the normal [m], world frame.
-Vector3d lowest_arm(const Rim& rim, const Quaterniond& q, const Vector3d& n) {
-    return q * farthest_on(rim, q.conjugate() * -n, rim.centre);
-}
-
 /// An orientation after a time at an angular velocity.
 Quaterniond turned(const Quaterniond& q, const Vector3d& w, double time) {
     const double speed = w.norm();
@@ -47,9 +44,16 @@ Quaterniond turned(const Quaterniond& q, const Vector3d& w, double time) {
     return Quaterniond(Eigen::AngleAxisd(speed * time, w / speed)) * q;
 }
 
-/// The rim of `body` on which `point` is the farthest along `direction`, both in the world.
-Rim rim_at(const World& world, std::uint32_t body, std::uint32_t part, const Vec3& point,
-           const Vector3d& direction) {
+/// Whether a point is on a rim, both in the body's frame.
+bool is_on(const Rim& rim, const Vector3d& point, double near) {
+    const Vector3d from = point - rim.centre;
+    const double along = from.dot(rim.axis);
+    return std::abs(along) < near && std::abs((from - along * rim.axis).norm() - rim.radius) < near;
+}
+
+/// The rim of `body` on which `point` is, that is farthest along `direction`; both in the world.
+ContactRim rim_at(const World& world, std::uint32_t body, std::uint32_t part, const Vec3& point,
+                  const Vector3d& direction) {
     const PlacedPart placed = part_of(world, body, part);
     if (!placed.shape) return {};
     const Bodies& b = world.bodies;
@@ -60,8 +64,16 @@ Rim rim_at(const World& world, std::uint32_t body, std::uint32_t part, const Vec
     rim.centre = placed.local.position + placed.local.rotation * rim.centre;
     rim.axis = placed.local.rotation * rim.axis;
     const double near = kBeside * rim.radius;
-    if (d.cross(rim.axis).norm() < kFlat) return {};
-    return (farthest_on(rim, d, p) - p).squaredNorm() < near * near ? rim : Rim{};
+    if (!is_on(rim, p, near)) return {};
+    const bool tilted = d.cross(rim.axis).norm() > kFlat;
+    return {rim, body, tilted && (farthest_on(rim, d, p) - p).squaredNorm() < near * near};
+}
+
+/// From the centre of mass to a contact's point on its rim [m], in the world, with the body at an
+/// orientation q; n points from the rim to what it touches.
+Vector3d arm_at(const ContactRim& at, const Quaterniond& q, const Vector3d& n,
+                const Vector3d& point) {
+    return q * (at.runs ? farthest_on(at.rim, q.conjugate() * n, point) : point);
 }
 
 }  // namespace
@@ -80,13 +92,9 @@ void find_rims(World& world) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
         const Vector3d n = to_eigen(contact.normal);
-        Rim on_a = rim_at(world, contact.a, contact.part_a, contact.point_a, -n);
-        if (on_a.radius > 0) {
-            c.rims[i] = {on_a, contact.a};
-            continue;
-        }
-        const Rim on_b = rim_at(world, contact.b, contact.part_b, contact.point_b, n);
-        if (on_b.radius > 0) c.rims[i] = {on_b, contact.b};
+        c.rims[i] = rim_at(world, contact.a, contact.part_a, contact.point_a, -n);
+        if (c.rims[i].rim.radius > 0) continue;
+        c.rims[i] = rim_at(world, contact.b, contact.part_b, contact.point_b, n);
     }
 }
 
@@ -94,14 +102,15 @@ void foresee_rims(World& world, double h) {
     ContactTable& c = world.contacts;
     const Bodies& b = world.bodies;
     for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const Rim& rim = c.rims[i].rim;
-        if (rim.radius == 0) continue;
-        const std::uint32_t body = c.rims[i].body;
-        const double sign = body == c.found[i].a ? 1 : -1;
-        const Vector3d n = sign * to_eigen(c.found[i].normal), w = b.angular_velocity[body];
-        const Vector3d now = lowest_arm(rim, b.orientation[body], n),
-                       middle = lowest_arm(rim, turned(b.orientation[body], w, 0.5 * h), n),
-                       end = lowest_arm(rim, turned(b.orientation[body], w, h), n);
+        const ContactRim& at = c.rims[i];
+        if (at.rim.radius == 0) continue;
+        const double sign = at.body == c.found[i].a ? 1 : -1;
+        const Vector3d n = -sign * to_eigen(c.found[i].normal), w = b.angular_velocity[at.body];
+        const Quaterniond& q = b.orientation[at.body];
+        const Vector3d point = q.conjugate() * (c.point[i] - b.position[at.body]);
+        const Vector3d now = arm_at(at, q, n, point),
+                       middle = arm_at(at, turned(q, w, 0.5 * h), n, point),
+                       end = arm_at(at, turned(q, w, h), n, point);
         // along the normal how far it comes by the end, across it how fast it is in the middle
         const Vector3d across = w.cross(middle - now);
         const double along = n.dot(end - now) / h - n.dot(w.cross(now));
@@ -113,8 +122,8 @@ void follow_rims(World& world) {
     ContactTable& c = world.contacts;
     const Bodies& b = world.bodies;
     for (std::size_t i = 0; i < c.found.size(); ++i) {
+        if (!c.rims[i].runs) continue;
         const Rim& rim = c.rims[i].rim;
-        if (rim.radius == 0) continue;
         const Contact& contact = c.found[i];
         const bool of_a = c.rims[i].body == contact.a;
         const std::uint32_t round = of_a ? contact.a : contact.b,

@@ -44,6 +44,7 @@ struct Rim {
 struct ContactRim {
     Rim rim;
     std::uint32_t body = 0;
+    bool runs = false;  ///< along the rim, as its deepest point does; else it rides on the body
 };
 
 /// Columns of one length: [contact], sorted by (a, b, feature).
@@ -53,7 +54,7 @@ struct ContactTable {
     std::vector<ContactTrack> track;  ///< only with more than one substep
     std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none
     std::vector<Vector3d> bend;       ///< mean velocity over the substep less that at its start,
-                                      ///< of points that run along a rim [m/s]
+                                      ///< of points on rims [m/s]
     std::vector<double> gap;          ///< at the start of the substep [m]
     std::vector<Vector3d> point;      ///< where it acts at the start of the substep [m]
     std::vector<double>
