@@ -39,12 +39,16 @@ double motion(const KeptPair& then, const KeptPair& now, double reach) {
     return (now.offset - then.offset).norm() + turned(then, now) * reach;
 }
 
-/// Whether a body has a rim, along which a contact runs when it rolls.
+/// Whether a shape has a rim, along which a contact runs when it rolls.
+bool has_rim(const Shape& shape) {
+    if (shape.kind == ShapeKind::compound)
+        return std::any_of(shape.parts, shape.parts + shape.part_count,
+                           [](const ShapePart& part) { return has_rim(part.shape); });
+    return shape.kind == ShapeKind::cylinder || shape.kind == ShapeKind::cone;
+}
 bool has_rim(const World& world, std::uint32_t body) {
     const std::uint32_t geometry = world.bodies.geometry[body];
-    if (geometry == kNoIndex) return false;
-    const ShapeKind kind = world.shapes[geometry].kind;
-    return kind == ShapeKind::cylinder || kind == ShapeKind::cone || kind == ShapeKind::compound;
+    return geometry != kNoIndex && has_rim(world.shapes[geometry]);
 }
 
 /// Whether the contacts that `then` has will do at the poses of `now`. Contacts on a rim that turns

@@ -7,7 +7,7 @@ namespace plumb {
 namespace {
 
 /// A rim flatter than this against the normal touches with its face, as colliders take it.
-constexpr double kFlat = 1e-4;
+constexpr double kFlat = 1e-5;
 
 /// Share of the radius by which a point may lie beside the rim's deepest one and still be it.
 constexpr double kBeside = 1e-5;
