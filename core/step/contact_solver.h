@@ -99,6 +99,7 @@ public:
             across.drift_y[lane] = static_cast<Real>(pull * y.dot(c.drift[contact]));
         });
         run(kernels_.begin, bodies, pass);
+        bend(c);
         return clamped;
     }
 
@@ -324,6 +325,22 @@ private:
             for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
                 visit(pairs_[p].first + i, first + i, slot.lane);
         }
+    }
+
+    /// Velocities at rims are those over the whole substep.
+    void bend(const ContactTable& c) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            if (c.rims[contact].rim.radius == 0) return;
+            NormalRow<Real, W>& row = rows.normals[k];
+            row.velocity[lane] +=
+                static_cast<Real>(to_eigen(c.found[contact].normal).dot(c.bend[contact]));
+            if (!rows.frictions) return;
+            FrictionRow<Real, W>& across = rows.frictions[k];
+            const auto [x, y] = tangents(row, across, lane);
+            across.velocity_x[lane] += static_cast<Real>(x.dot(c.bend[contact]));
+            across.velocity_y[lane] += static_cast<Real>(y.dot(c.bend[contact]));
+        });
     }
 
     /// Arms and masses at the poses now, and what follows from them.

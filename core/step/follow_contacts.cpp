@@ -2,10 +2,15 @@
 /// Contacts are detected once a step; through its substeps their points ride on the bodies, and
 /// with them the gap and the common point at which the contact acts. Only a point of now keeps
 /// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
+#include "step/rims.h"
 #include "step/stages.h"
 
 namespace plumb {
 namespace {
+
+/// A contact has rolled on once its point has come farther than this share of the rim's radius
+/// along both bodies.
+constexpr double kRolledOn = 1e-3;
 
 Vector3d in_body(const Bodies& b, std::uint32_t i, const Vector3d& point) {
     return b.orientation[i].conjugate() * (point - b.position[i]);
@@ -59,6 +64,22 @@ void measure(World& world) {
     }
 }
 
+/// Points that a rim has rolled away from do not hold it any more: it sticks where it is now.
+void let_go_of_what_rolled(World& world, std::size_t i) {
+    const ContactTable& c = world.contacts;
+    const Contact& contact = c.found[i];
+    const double far = kRolledOn * c.rims[i].rim.radius;
+    if (!c.rims[i].runs) return;
+    const Bodies& b = world.bodies;
+    ContactMemory& m = world.contacts.memory[i];
+    const Vector3d n = to_eigen(contact.normal), &now = c.point[i];
+    for (const Vector3d& was :
+         {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
+        if ((now - was).cross(n).squaredNorm() < far * far) return;
+    m.stick_a = in_body(b, contact.a, now);
+    m.stick_b = in_body(b, contact.b, now);
+}
+
 /// How far apart the points have come that met when a contact began to stick.
 void measure_drifts(World& world) {
     ContactTable& c = world.contacts;
@@ -66,6 +87,7 @@ void measure_drifts(World& world) {
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
+        let_go_of_what_rolled(world, i);
         c.drift[i] = in_world(world.bodies, contact.a, c.memory[i].stick_a) -
                      in_world(world.bodies, contact.b, c.memory[i].stick_b);
     }
@@ -74,10 +96,13 @@ void measure_drifts(World& world) {
 }  // namespace
 
 void follow_contacts(World& world, const Plan& plan, bool first_substep) {
-    if (first_substep)
+    if (first_substep) {
         take_as_found(world);
-    else
+        find_rims(world);
+    } else {
+        follow_rims(world);
         measure(world);
+    }
     if (plan.runs(Effect::sticking_anchors)) measure_drifts(world);
 }
 

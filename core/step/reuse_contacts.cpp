@@ -7,6 +7,9 @@
 namespace plumb {
 namespace {
 
+/// Share of the reuse distance by which a rim may turn while its contacts are kept.
+constexpr double kLag = 0.01;
+
 std::tuple<std::uint32_t, std::uint32_t> key(const KeptPair& p) { return {p.a, p.b}; }
 std::tuple<std::uint32_t, std::uint32_t> key(const Contact& c) { return {c.a, c.b}; }
 
@@ -25,18 +28,38 @@ void measure_pose(KeptPair& pair, const Bodies& b) {
     pair.turn = back * b.orientation[small];
 }
 
+/// Twice the sine of half the angle by which the smaller body has turned in the other's frame.
+double turned(const KeptPair& then, const KeptPair& now) {
+    return 2 * (then.turn.conjugate() * now.turn).vec().norm();
+}
+
 /// Bound on how far any point of the smaller body has moved in the other's frame [m].
 double motion(const KeptPair& then, const KeptPair& now, double reach) {
     // A turn by θ moves a point at distance r by the chord 2 r sin(θ/2).
-    const double half_chord = (then.turn.conjugate() * now.turn).vec().norm();
-    return (now.offset - then.offset).norm() + 2 * half_chord * reach;
+    return (now.offset - then.offset).norm() + turned(then, now) * reach;
 }
 
-/// Whether the contacts that `then` has will do at the poses of `now`.
+/// Whether a shape has a rim, along which a contact runs when it rolls.
+bool has_rim(const Shape& shape) {
+    if (shape.kind == ShapeKind::compound)
+        return std::any_of(shape.parts, shape.parts + shape.part_count,
+                           [](const ShapePart& part) { return has_rim(part.shape); });
+    return shape.kind == ShapeKind::cylinder || shape.kind == ShapeKind::cone;
+}
+bool has_rim(const World& world, std::uint32_t body) {
+    const std::uint32_t geometry = world.bodies.geometry[body];
+    return geometry != kNoIndex && has_rim(world.shapes[geometry]);
+}
+
+/// Whether the contacts that `then` has will do at the poses of `now`. Contacts on a rim that turns
+/// will not: they would lag behind it, and brake what rolls.
 bool will_do(const KeptPair& then, const KeptPair& now, const World& world) {
     const Bodies& b = world.bodies;
     const double distance = world.settings.reuse_distance;
     const double reach = b.reach[watched(b, now.a, now.b).small];
+    if ((has_rim(world, now.a) || has_rim(world, now.b)) &&
+        turned(then, now) * reach > kLag * distance)
+        return false;
     return then.margin >= now.margin - distance && motion(then, now, reach) <= distance;
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/step.h"
 
+#include "step/rims.h"
+
 #include <cmath>
 
 namespace plumb {
@@ -32,6 +34,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     };
 
     const double dt = world.settings.dt, h = dt / world.settings.substeps;
+    const bool watched = plan.runs(Effect::contacts) && world.settings.shared_push;
     if (plan.runs(Effect::contacts)) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
@@ -46,7 +49,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::begin, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
+        if (watched) timed(Stage::move, [&] { stepper.still_ground.note(world, h); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, stepper.motion, h); });
+        if (watched) timed(Stage::begin, [&] { foresee_rims(world, h); });
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.solve_impacts(world, h); });
@@ -60,6 +65,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         timed(Stage::move, [&] {
             solver.take_changes(world.bodies);
             move(world, stepper.motion, h);
+            if (watched) stepper.still_ground.take_back(world, h);
         });
         if (plan.runs(Effect::joints))
             timed(Stage::remember, [&] { solver.store_joint_impulses(world); });

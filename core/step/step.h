@@ -9,6 +9,7 @@
 #include "step/report.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
+#include "step/still_ground.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -45,6 +46,7 @@ struct Stepper {
     std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
+    StillGround still_ground;
     Ledger ledger;  ///< of the last step
 };
 

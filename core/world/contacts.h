@@ -34,11 +34,27 @@ struct ContactTrack {
     double share;   ///< of a's point in where the contact acts, in [0, 1]; the rest is b's
 };
 
+/// A circle that is the edge of a flat round end; body frame.
+struct Rim {
+    Vector3d centre = Vector3d::Zero(), axis = Vector3d::Zero();  ///< [m], unit
+    double radius = 0;                                            ///< [m]; 0: none
+};
+
+/// The rim on which a contact lies, and whose it is.
+struct ContactRim {
+    Rim rim;
+    std::uint32_t body = 0;
+    bool runs = false;  ///< along the rim, as its deepest point does; else it rides on the body
+};
+
 /// Columns of one length: [contact], sorted by (a, b, feature).
 struct ContactTable {
     std::vector<Contact> found;  ///< as the collider reported them, at the start of the step
     std::vector<ContactMemory> memory;
     std::vector<ContactTrack> track;  ///< only with more than one substep
+    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none
+    std::vector<Vector3d> bend;       ///< mean velocity over the substep less that at its start,
+                                      ///< of points on rims [m/s]
     std::vector<double> gap;          ///< at the start of the substep [m]
     std::vector<Vector3d> point;      ///< where it acts at the start of the substep [m]
     std::vector<double>

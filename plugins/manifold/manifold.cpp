@@ -124,9 +124,13 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
 
     if (fallback == Fallback::witness && points.deepest > pair.gap + 1e-6 * size) {
         ++stats.from_fallback;
-        const bool plane = a.shape.kind == ShapeKind::plane || b.shape.kind == ShapeKind::plane;
         Vec3 point = witness.point;
-        if (!plane) touching_point(point, a, b, pair.n, pair.gap);
+        if (b.shape.kind == ShapeKind::plane)
+            point = core_support(a, -pair.n);
+        else if (a.shape.kind == ShapeKind::plane)
+            point = core_support(b, pair.n);
+        else
+            touching_point(point, a, b, pair.n, pair.gap);
         fallback_contact(out, pair, point);
     }
     keep_near(points, margin);

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// Contacts on the rim of a flat round end.
+///
+/// Such a contact is no point of the material: it is wherever the rim is deepest, and runs around
+/// the rim as the body rolls. A point of the material in its stead rises by ½ r (ω h)² while the
+/// body is held up by it, and friction that remembers it holds on to what has long been lifted.
+#pragma once
+
+#include "world/world.h"
+
+namespace plumb {
+
+/// The rims on which the contacts lie at the poses now, into ContactTable::rims; and no bend yet.
+void find_rims(World& world);
+
+/// The point of a rim that is farthest along the unit vector `direction`, both in the body's frame;
+/// `otherwise` where the rim's plane is across it.
+Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& otherwise);
+
+/// What the coming substep of length h [s] adds to the velocities at rims, into
+/// ContactTable::bend. Bodies move from one middle of a substep to the next (a leapfrog), and what
+/// rolls does so without a loss where contacts ask for the velocities of those middles.
+void foresee_rims(World& world, double h);
+
+/// Moves the points of contacts on rims to where the rims are deepest now.
+void follow_rims(World& world);
+
+}  // namespace plumb

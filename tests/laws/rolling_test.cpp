@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: MIT
+/// What rolls, wobbles and falls over on fixed ground gains no energy at any step, keeps what
+/// nothing takes, and comes to rest where something does.
+#include "support/random.h"
+#include "support/scenes.h"
+
+#include <functional>
+#include <vector>
+
+namespace plumb::test {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180, kGravity = 9.81;
+
+Geometry round_shape(ShapeKind kind, double radius, double half_height) {
+    Geometry g;
+    g.kind = kind;
+    g.radius = radius;
+    g.half_height = half_height;
+    return g;
+}
+
+/// A prism of n sides around y.
+Geometry prism(std::uint32_t n, double radius, double half_height) {
+    Geometry g;
+    g.kind = ShapeKind::hull;
+    std::vector<std::uint32_t> bottom, top;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const double angle = 2 * std::numbers::pi * i / n;
+        for (const double y : {-half_height, half_height})
+            g.vertices.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+        const std::uint32_t a = 2 * i, b = 2 * ((i + 1) % n);
+        g.faces.push_back({a, a + 1, b + 1, b});
+        bottom.push_back(a);
+        top.push_back(2 * (n - 1 - i) + 1);
+    }
+    g.faces.push_back(bottom);
+    g.faces.push_back(top);
+    return g;
+}
+
+/// A round body around its y axis, and how it starts.
+struct Start {
+    std::string name;
+    Geometry geometry;
+    double radius, half_height;
+    double tilt;                ///< of the axis from upright [rad]
+    double about_axis;          ///< [rad/s]
+    double about_upright;       ///< [rad/s]
+    bool ring = false;          ///< all mass at the radius
+    double rests_at = 0;        ///< least height of the centre of mass over the ground [m]
+    double centre_of_mass = 0;  ///< along the axis [m]
+};
+
+Start cylinder(const std::string& name, double radius, double half_height, double tilt,
+               double about_axis, double about_upright) {
+    return {name,
+            round_shape(ShapeKind::cylinder, radius, half_height),
+            radius,
+            half_height,
+            tilt,
+            about_axis,
+            about_upright,
+            false,
+            std::min(radius, half_height)};
+}
+
+/// Ground and a body that touches it at its lowest point and does not slide there.
+Scene scene_of(Scene s, const Start& start) {
+    add_ground(s);
+    const Rotation turn(Eigen::AngleAxisd(start.tilt, Vector::UnitX()));
+    const Vector axis = turn * Vector::UnitY(), down = -Vector::UnitY();
+    const Vector flat = down - down.dot(axis) * axis;
+    const double end = axis.y() > 0 || start.geometry.kind == ShapeKind::cone ? -1 : 1;
+    const Vector out = flat.norm() > 1e-9 ? Vector(flat.normalized()) : Vector::Zero();
+    const bool ball = start.geometry.kind == ShapeKind::sphere;
+    const Vector low = ball ? Vector(start.radius * down)
+                            : Vector(end * start.half_height * axis + start.radius * out);
+    BodySpec& body = add_body(s, start.geometry, {0, -low.y(), 0});
+    body.placement.rotation = turn;
+    body.angular_velocity = start.about_axis * axis + start.about_upright * Vector::UnitY();
+    body.velocity = -body.angular_velocity.cross(low - start.centre_of_mass * axis);
+    if (start.ring) {
+        const double inertia = start.radius * start.radius;
+        body.mass = 1;
+        body.inertia = Vector(inertia / 2, inertia, inertia / 2);
+    }
+    return s;
+}
+
+double energy_above_rest(const Simulation& s, double rests_at) {
+    return total_energy(s) - s.world().bodies.mass[1] * kGravity * rests_at;
+}
+
+/// How far the energy came above its start at any step, as a share of the start.
+double worst_gain(Simulation& simulation, double rests_at, double seconds) {
+    const double start = energy_above_rest(simulation, rests_at);
+    double most = start;
+    const auto steps = std::llround(seconds / simulation.world().settings.dt);
+    for (long long i = 0; i < steps; ++i) {
+        const StepReport report = simulation.step();
+        EXPECT_TRUE(report.finite);
+        EXPECT_FALSE(report.collider_failed) << report.message;
+        most = std::max(most, energy_above_rest(simulation, rests_at));
+    }
+    return most / start - 1;
+}
+
+bool has_cylinders(const std::string& collider) { return collider != "reference"; }
+bool has_cones(const std::string& collider) { return has_cylinders(collider) && collider != "ode"; }
+
+std::vector<Start> motions(const std::string& collider) {
+    std::vector<Start> all;
+    for (const double speed : {3.0, 0.5}) {  // the reference has these alone
+        Start ball{"ball", sphere(0.2), 0.2, 0, 90 * kDegree, speed, 1};
+        ball.rests_at = 0.2;
+        all.push_back(ball);
+    }
+    if (!has_cylinders(collider)) return all;
+    all.push_back(cylinder("disk that falls over", 0.5, 0.02, 87 * kDegree, -2, 0));
+    all.push_back(cylinder("disk in a circle", 0.5, 0.02, 70 * kDegree, -4, 0));
+    all.push_back(cylinder("coin spun up", 0.012, 0.00085, 80 * kDegree, 0, 60));
+    all.push_back(cylinder("coin that wobbles", 0.012, 0.00085, 15 * kDegree, 0, 60));
+    all.push_back(cylinder("cylinder on its edge", 0.2, 0.3, 50 * kDegree, 0, 8));
+    Start hoop = cylinder("hoop", 0.3, 0.03, 85 * kDegree, -4, 0.3);
+    hoop.ring = true;
+    all.push_back(hoop);
+    Start sides = cylinder("prism of 64 sides", 0.3, 0.1, 70 * kDegree, -2, 6);
+    sides.geometry = prism(64, 0.3, 0.1);
+    all.push_back(sides);
+    if (!has_cones(collider)) return all;
+    Start cone = cylinder("cone on its edge", 0.3, 0.3, 45 * kDegree, 0, 4);
+    cone.geometry.kind = ShapeKind::cone;
+    cone.rests_at = 0.15;
+    cone.centre_of_mass = -0.15;
+    all.push_back(cone);
+    return all;
+}
+
+class Rolling : public OnEveryCollider {};
+INSTANTIATE_TEST_SUITE_P(, Rolling, every_collider(), where_name);
+
+TEST_P(Rolling, GainsNothingAtCoarseAndFineSteps) {
+    struct Steps {
+        const char* name;
+        double dt;
+        std::uint32_t substeps, iterations;
+    };
+    for (const Steps& steps : {Steps{"10 ms", 0.01, 1, 5}, Steps{"1 ms", 0.001, 1, 5},
+                               Steps{"1/60 s of 20", 1.0 / 60, 20, 1}})
+        for (const Start& start : motions(collider())) {
+            Scene s = scene();
+            s.settings.dt = steps.dt;
+            s.settings.substeps = steps.substeps;
+            s.settings.velocity_iterations = s.settings.position_iterations = steps.iterations;
+            Simulation simulation(scene_of(s, start), colliders(), collider());
+            EXPECT_LT(worst_gain(simulation, start.rests_at, 4), 1e-3)
+                << start.name << ", " << steps.name;
+        }
+}
+
+TEST_P(Rolling, GainsNothingWhateverTheSettings) {
+    Random random(7);
+    const std::vector<Start> all = motions(collider());
+    for (int draw = 0; draw < 40; ++draw) {
+        Start start = all[random.below(static_cast<std::uint32_t>(all.size()))];
+        start.tilt *= random.number(0.8, 1.0);
+        start.about_axis *= random.number(0.2, 1.5);
+        start.about_upright *= random.number(0.2, 1.5);
+        Scene s = scene();
+        s.settings.dt = 1e-4 * std::pow(100, random.number(0, 1));
+        s.settings.substeps = 1 + random.below(40);
+        s.settings.velocity_iterations = 1 + random.below(50);
+        s.settings.position_iterations = 1 + random.below(50);
+        s.materials[0].friction = random.number(0.1, 1);
+        const double seconds = std::min(3.0, 6000 * s.settings.dt / s.settings.substeps);
+        Simulation simulation(scene_of(s, start), colliders(), collider());
+        EXPECT_LT(worst_gain(simulation, start.rests_at, seconds), 1e-3)
+            << start.name << " leaning by " << start.tilt / kDegree << " degrees, turning by "
+            << start.about_axis << " and " << start.about_upright << ", dt " << s.settings.dt
+            << ", substeps " << s.settings.substeps << ", iterations "
+            << s.settings.velocity_iterations << " + " << s.settings.position_iterations
+            << ", friction " << s.materials[0].friction;
+    }
+}
+
+/// Nothing brakes a ball or a hoop that rolls straight on.
+TEST_P(Rolling, KeepsItsSpeed) {
+    for (const bool hoop : {false, true}) {
+        if (hoop && !has_cylinders(collider())) continue;
+        for (const bool fine : {false, true}) {
+            Scene s = scene();
+            if (fine) use_fine_steps(s.settings);
+            Start start = cylinder("hoop", 0.3, 0.05, 90 * kDegree, -5, 0);
+            if (!hoop) start.geometry = sphere(0.3), start.half_height = 0;
+            start.ring = hoop;
+            Simulation simulation(scene_of(s, start), colliders(), collider());
+            const double speed = simulation.world().bodies.velocity[1].norm();
+            run_for(simulation, 10);
+            EXPECT_NEAR(simulation.world().bodies.velocity[1].norm() / speed, 1, 1e-3)
+                << (hoop ? "hoop" : "ball") << (fine ? ", fine" : "");
+        }
+    }
+}
+
+/// A disk that rolls in a circle at a steady tilt θ of its axis from upright, going round at Ω.
+///
+/// Axes that go round with it: e₃ along the disk's axis, e₂ up its slope, e₁ = e₂ × e₃ level. With
+/// w the rate about e₃, ω = Ω sin θ e₂ + w e₃ and L = A Ω sin θ e₂ + C w e₃. The disk touches at
+/// −(r e₂ + b e₃), b half its height, so that its centre moves by v e₁, v = b Ω sin θ − r w, and is
+/// accelerated by Ω v (cos θ e₂ − sin θ e₃). With the ground's force F, of
+/// F₂ = m (Ω v cos θ + g sin θ) and F₃ = m (g cos θ − Ω v sin θ), the torque about the centre is
+/// (b F₂ − r F₃) e₁, and the change of L is Ω × L = (C w Ω sin θ − A Ω² sin θ cos θ) e₁. Both are
+/// equal: an equation for w. For a thin disk it is
+/// ¼ r Ω² sin θ cos θ − (3/2) r w Ω sin θ = g cos θ.
+struct SteadyCircle {
+    double radius, half_height, tilt, round;
+
+    double rate_about_axis() const {
+        const double s = std::sin(tilt), c = std::cos(tilt), r = radius, b = half_height;
+        const double inertia_a = r * r / 4 + b * b / 3, inertia_c = r * r / 2;
+        // (b F₂ − r F₃) − (C w Ω s − A Ω² s c) = rest + w · slope
+        const double v_rest = b * round * s, v_slope = -r;
+        const double rest = b * (round * v_rest * c + kGravity * s) -
+                            r * (kGravity * c - round * v_rest * s) +
+                            inertia_a * round * round * s * c;
+        const double slope = round * v_slope * (b * c + r * s) - inertia_c * round * s;
+        return -rest / slope;
+    }
+};
+
+TEST_P(Rolling, ADiskGoesRoundInItsCircleAsTheFormulaSays) {
+    if (!has_cylinders(collider())) GTEST_SKIP() << "no cylinders";
+    for (const SteadyCircle& circle :
+         {SteadyCircle{0.5, 0.005, 60 * kDegree, 2}, SteadyCircle{0.5, 0.005, 75 * kDegree, 1},
+          SteadyCircle{0.012, 0.0005, 40 * kDegree, 30}}) {
+        const double w = circle.rate_about_axis();
+        // ω = Ω (upright) + (w − Ω cos θ) (axis)
+        const Start start = cylinder("disk", circle.radius, circle.half_height, circle.tilt,
+                                     w - circle.round * std::cos(circle.tilt), circle.round);
+        Scene s = scene();
+        s.settings.dt = 1e-3;
+        s.materials[0].friction = 5;
+        Simulation simulation(scene_of(s, start), colliders(), collider());
+        const auto axis = [&]() -> Vector {
+            return geometry_placement(simulation.world().bodies, 1).rotation * Vector::UnitY();
+        };
+        double turned = 0, seconds = 5;
+        Vector before = axis();
+        for (int i = 0; i < 5000; ++i) {
+            ASSERT_TRUE(simulation.step().finite);
+            const Vector now = axis();
+            turned +=
+                std::atan2(before.cross(now).y(), before.x() * now.x() + before.z() * now.z());
+            before = now;
+        }
+        EXPECT_NEAR(turned / seconds / circle.round, 1, 0.01) << "radius " << circle.radius;
+        EXPECT_NEAR(std::acos(before.y()), circle.tilt, kDegree) << "radius " << circle.radius;
+    }
+}
+
+/// A coin that wobbles about its resting centre at a tilt θ has Ω² = 4 g / (r sin θ) and the energy
+/// (3/2) m g r sin θ, and turns by Ω sin θ about what rolls. Rolling friction of lever ρ takes
+/// ρ m g Ω sin θ cos θ from it: it lies flat after (3 r / 4 ρ) √(r/g) ∫ dθ / √(sin θ). That goes as
+/// the root of the energy, so that a share s of it is left at 1 − √s of the time.
+TEST_P(Rolling, ACoinThatWobblesLiesDownInItsTime) {
+    if (!has_cylinders(collider())) GTEST_SKIP() << "no cylinders";
+    const double radius = 0.05, lever = 1e-3, tilt = 20 * kDegree;
+    double integral = 0;
+    for (int i = 0; i < 2000; ++i) {
+        const double root = std::sqrt(tilt) * (i + 0.5) / 2000;  // θ = root², dθ = 2 root d(root)
+        integral += 2 * root / std::sqrt(std::sin(root * root)) * std::sqrt(tilt) / 2000;
+    }
+    const double left = 0.02,
+                 whole = 0.75 * radius / lever * std::sqrt(radius / kGravity) * integral,
+                 law = (1 - std::sqrt(left)) * whole;
+    const SteadyCircle circle{radius, 5e-4, tilt,
+                              std::sqrt(4 * kGravity / radius / std::sin(tilt))};
+    Scene s = scene();
+    s.settings.dt = 1e-3;
+    s.materials[0].rolling_friction = lever;
+    const Start start =
+        cylinder("coin", radius, circle.half_height, tilt,
+                 circle.rate_about_axis() - circle.round * std::cos(tilt), circle.round);
+    Simulation simulation(scene_of(s, start), colliders(), collider());
+    const double energy = energy_above_rest(simulation, start.rests_at);
+    double lay_down = 0;
+    for (int i = 0; i < 2 * whole / s.settings.dt; ++i) {
+        ASSERT_TRUE(simulation.step().finite);
+        if (energy_above_rest(simulation, start.rests_at) > left * energy)
+            lay_down = simulation.time();
+    }
+    EXPECT_GT(lay_down / law, 0.7);
+    EXPECT_LT(lay_down / law, 1.1);
+    EXPECT_LT(kinetic_energy(simulation.world()), 1e-12 * energy);
+    EXPECT_NEAR(simulation.world().bodies.position[1].y(), circle.half_height, 1e-5);
+}
+
+/// A disk that falls over as it rolls lies flat and still in the end.
+TEST_P(Rolling, WhatFallsOverComesToRestFlat) {
+    if (!has_cylinders(collider())) GTEST_SKIP() << "no cylinders";
+    for (const bool fine : {false, true}) {
+        Scene s = scene();
+        if (fine) use_fine_steps(s.settings);
+        s.materials[0].rolling_friction = s.materials[0].spinning_friction = 2e-3;
+        const Start start = cylinder("disk", 0.2, 0.01, 80 * kDegree, -3, 0);
+        Simulation simulation(scene_of(s, start), colliders(), collider());
+        const double energy = energy_above_rest(simulation, start.rests_at);
+        EXPECT_LT(worst_gain(simulation, start.rests_at, 25), 1e-3);
+        EXPECT_LT(kinetic_energy(simulation.world()), 1e-9 * energy) << (fine ? "fine" : "coarse");
+        EXPECT_NEAR(simulation.world().bodies.position[1].y(), 0.01, 5e-5);
+    }
+}
+
+}  // namespace
+}  // namespace plumb::test
