@@ -18,7 +18,9 @@
 /// characteristic polynomial is z (z − 1)² + a (z² + θ z (z − 1)² + κ (z − 1)³).)
 ///
 /// A body that turns far within a substep is another matter: rows at its start are poor rows for
-/// its end. There the lever is that of the end, which loses some energy and angular momentum.
+/// its end. There the lever is that of the end, which loses some energy and angular momentum. So
+/// are loaded levers of joints that are iterated: few iterations do not find the balance that would
+/// keep the energy, and what they leave must not add any.
 #pragma once
 
 #include "constraints/connector.h"
@@ -51,19 +53,25 @@ private:
     Turn<T> turn_;
 };
 
-/// How far a load asks its lever to turn along, from 0 to 1; `a`: (h ω)², as above.
 template <class T>
-inline T lever_turns(const T& a) {
-    return min(max(a - T(1), T(0)), T(1));
+inline T between_0_and_1(const T& x) {
+    return min(max(x, T(0)), T(1));
 }
 
-/// `turns`: lever_turns of the load; `turn`, `turn_before`: h ω₀ and h ω₋₁ [rad].
+/// Of a joint that is iterated; `a`: (h ω)², as above; `turn`: h ω₀ [rad].
 template <class T>
-inline JointLever<T> joint_lever(const T& turns, const Vector3<T>& turn,
+inline JointLever<T> iterated_lever(const T& a, const Vector3<T>& turn) {
+    const T far = max((a - T(0.05)) * T(4), (sqrt(dot(turn, turn)) - T(0.25)) * T(4));
+    return {between_0_and_1<T>(far), Vector3<T>(T(0), T(0), T(0))};
+}
+
+/// Of a joint in a tree that is solved exactly; `turn`, `turn_before`: h ω₀ and h ω₋₁ [rad].
+template <class T>
+inline JointLever<T> exact_lever(const T& a, const Vector3<T>& turn,
                                  const Vector3<T>& turn_before) {
     constexpr double kTheta = 0.5, kKappa = -0.1;
-    const T far = min(max((sqrt(dot(turn, turn)) - T(0.2)) * T(10), T(0)), T(1));
-    const T near = (T(1) - far) * turns;
+    const T far = between_0_and_1<T>((sqrt(dot(turn, turn)) - T(0.2)) * T(10));
+    const T near = (T(1) - far) * between_0_and_1<T>(a - T(1));
     return {far + near * T(kTheta + kKappa),
             (turn * T(-kTheta - 2 * kKappa) + turn_before * T(kKappa)) * near};
 }

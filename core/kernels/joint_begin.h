@@ -37,17 +37,21 @@ inline Vector3<Number<double, N>> load_part(const Real (&from)[3][W], int first)
             load_part<N>(from[2], first)};
 }
 
-/// How the lever of a ball joint turns; it rests on what cannot be moved. `arm`: world frame [m];
-/// `impulse`: of the substep before [N s].
-template <int N, class T = Number<double, N>>
+/// How the lever of a ball joint turns, in a tree or iterated; it rests on what cannot be moved.
+/// `arm`: world frame [m]; `impulse`: of the substep before [N s].
+template <int N, bool Tree, class T = Number<double, N>>
 inline JointLever<T> ball_lever(const BodyStates& columns, const ItemGroup<N>& bodies,
                                 const Vector3<T>& arm, const T& impulse, double h) {
     const T load =
         lever_load<T>(impulse, T(0), arm, bodies.symmetric(columns.world_inverse_inertia), T(h));
     const T moves = select_greater(bodies.number(columns.inverse_mass), T(0), T(1), T(0));
-    const JointLever<T> lever = joint_lever<T>(
-        lever_turns<T>(load), Vector3<T>(bodies.vector(columns.angular_velocity_now) * T(h)),
-        Vector3<T>(bodies.vector(columns.angular_velocity_before) * T(h)));
+    const Vector3<T> turn = bodies.vector(columns.angular_velocity_now) * T(h);
+    JointLever<T> lever;
+    if constexpr (Tree)
+        lever = exact_lever<T>(load, turn,
+                               Vector3<T>(bodies.vector(columns.angular_velocity_before) * T(h)));
+    else
+        lever = iterated_lever<T>(load, turn);
     return {lever.share * moves, lever.lag * moves};
 }
 
@@ -69,7 +73,7 @@ struct JointSide {
         const Symmetric3<T> i = bodies.symmetric(columns.world_inverse_inertia);
         inverse_inertia = {i.xx * used, i.yy * used, i.zz * used,
                            i.xy * used, i.xz * used, i.yz * used};
-        lever = ball_lever<N>(columns, bodies, arm, impulse, h);
+        lever = ball_lever<N, false>(columns, bodies, arm, impulse, h);
     }
 };
 

@@ -56,7 +56,7 @@ struct TreeSide {
              const T& impulse, double h) {
         arm = bodies.rotation(b.orientation) * local;
         point = bodies.vector(b.position) + arm;
-        lever = ball_lever<N>(b, bodies, arm, impulse, h);
+        lever = ball_lever<N, true>(b, bodies, arm, impulse, h);
     }
 };
 

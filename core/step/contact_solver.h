@@ -131,22 +131,21 @@ public:
         const ContactArrays<Real, W> rows = batches_.arrays();
         const double threshold = collision_threshold(world.settings);
         given_.clear();
-        each_hit_contact(impacts, [&](std::size_t contact, std::uint32_t b, std::uint32_t k,
-                                      std::uint32_t lane) {
-            if (c.rebound[contact] == ContactTable::kPassing) return;
-            c.rebound[contact] = 0;
-            const Contact& found = c.found[contact];
+        each_hit_contact(impacts, [&](const HitContact& hit) {
+            if (c.rebound[hit.contact] == ContactTable::kPassing) return;
+            c.rebound[hit.contact] = 0;
+            const Contact& found = c.found[hit.contact];
             const double e = world.surface_pair(found.a, found.b).restitution;
-            NormalRow<Real, W>& row = rows.normals[k];
-            const double lambda = double(row.lambda_velocity[lane]);
-            const bool collides = lambda > threshold * double(row.effective_mass[lane]);
-            if (!(e > 0) || !collides || c.gap[contact] > 0) return;
-            given_.push_back({contact, b, k, lane});
+            NormalRow<Real, W>& row = rows.normals[hit.row];
+            const double lambda = double(row.lambda_velocity[hit.lane]);
+            const bool collides = lambda > threshold * double(row.effective_mass[hit.lane]);
+            if (!(e > 0) || !collides || c.gap[hit.contact] > 0) return;
+            given_.push_back(hit);
             const Real impulse = static_cast<Real>(e * lambda);
-            push_normal(bodies, rows.blocks[b], row, lane, impulse);
-            row.lambda_velocity[lane] += impulse;
+            push_normal(bodies, rows.blocks[hit.block], row, hit.lane, impulse);
+            row.lambda_velocity[hit.lane] += impulse;
         });
-        for (const Given& g : given_) {
+        for (const HitContact& g : given_) {
             NormalRow<Real, W>& row = rows.normals[g.row];
             row.rebound[g.lane] =
                 std::max(Real(0), row.velocity[g.lane] +
@@ -157,13 +156,15 @@ public:
     }
 
     /// Takes the impulses that were put aside up again. What bounced parts as it does: the recovery
-    /// of its overlap adds nothing.
+    /// of its overlap adds nothing. A pair for itself keeps its speed through the substep, half of
+    /// whose forces belong before the impact; among others that would add energy.
     void end_impacts(World& world) {
         std::swap(batches_, resting_);
-        for (const Given& g : given_) {
+        for (const HitContact& g : given_) {
             const double u = separating_velocity(world.bodies, world.contacts.found[g.contact],
                                                  world.contacts.point[g.contact]);
-            world.contacts.rebound[g.contact] = u > 0 ? ContactTable::kParting : 0;
+            world.contacts.rebound[g.contact] =
+                g.alone ? std::max(u, 0.0) : (u > 0 ? ContactTable::kParting : 0);
         }
         given_.clear();
     }
@@ -242,10 +243,11 @@ private:
     /// full; none are at twice that.
     static constexpr double kTrusted = 0.02;
 
-    /// A contact that bounced, and where it is.
-    struct Given {
+    /// A contact of an island in which bodies collide, and where it is.
+    struct HitContact {
         std::size_t contact;
         std::uint32_t block, row, lane;
+        bool alone;  ///< whether its pair is an island for itself
     };
 
     static Real* change_row(const BodyRows<Real>& bodies, std::int32_t row) {
@@ -304,7 +306,7 @@ private:
         return batches_.arrays().blocks[block].first_row + point;
     }
 
-    /// Calls visit(contact, block, row, lane) for the contacts of islands that collide.
+    /// Calls visit(HitContact) for the contacts of islands in which bodies collide.
     template <class Visit>
     void each_hit_contact(const Impacts& impacts, Visit visit) {
         for (std::size_t p = 0; p < pairs_.size(); ++p) {
@@ -312,7 +314,8 @@ private:
             const auto slot = batches_.slot(p);
             const std::uint32_t first = row_of(slot.block, 0);
             for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-                visit(pairs_[p].first + i, slot.block, first + i, slot.lane);
+                visit(HitContact{pairs_[p].first + i, slot.block, first + i, slot.lane,
+                                 impacts.is_alone(p)});
         }
     }
 
@@ -455,8 +458,8 @@ private:
     std::vector<BodyPair> pairs_;
     Colouring colouring_;
     ContactBatches<Real, W> batches_, resting_;
-    std::vector<Given> given_;
-    std::vector<double> radii_;  // [contact] of the smaller dynamic body [m]
+    std::vector<HitContact> given_;  // what bounced
+    std::vector<double> radii_;      // [contact] of the smaller dynamic body [m]
     const std::vector<std::uint32_t>* levels_ = nullptr;
     bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins
 };

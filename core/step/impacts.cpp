@@ -55,7 +55,8 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
                    last = islands_.pairs().begin() + island.last_pair;
         const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
         if (!hit) continue;
-        std::for_each(first, last, [&](std::uint32_t p) { hit_[p] = 1; });
+        const std::uint8_t mark = last - first == 1 ? kAlone : kAmongOthers;
+        std::for_each(first, last, [&](std::uint32_t p) { hit_[p] = mark; });
         colliding_.push_back(island);
     }
     changes_.resize(static_cast<std::size_t>(world.dynamic_count));

@@ -33,6 +33,9 @@ public:
     /// Whether a pair belongs to such an island.
     bool is_hit(std::size_t pair) const { return hit_[pair] != 0; }
 
+    /// Whether the pair is an island for itself.
+    bool is_alone(std::size_t pair) const { return hit_[pair] == kAlone; }
+
     /// Calls visit(row) for their bodies.
     template <class Visit>
     void each_row(Visit visit) const {
@@ -48,6 +51,8 @@ public:
     void take(World& world, const std::vector<BodyPair>& pairs);
 
 private:
+    static constexpr std::uint8_t kAmongOthers = 1, kAlone = 2;
+
     double bounded_share(const World& world, const ContactIsland& island,
                          const std::vector<BodyPair>& pairs) const;
 

@@ -36,11 +36,11 @@ inline JointGeometry<double> joint_geometry(const World& world, const Joint& joi
 
 /// With levers that turn as the joint's load asks for.
 inline JointGeometry<double> loaded_joint_geometry(const World& world, const Joint& joint,
-                                                   double h) {
+                                                   JointSolve solve, double h) {
     JointGeometry<double> g = joint_geometry(world, joint, h);
-    g.lever_a = lever_of(world, joint, joint.a, g.r_a, h);
-    g.lever_b = lever_of(world, joint, joint.b, g.r_b, h);
-    if (g.length > 0) turn_line(g, world, joint, h);
+    g.lever_a = lever_of(world, joint, joint.a, g.r_a, solve, h);
+    g.lever_b = lever_of(world, joint, joint.b, g.r_b, solve, h);
+    if (g.length > 0) turn_line(g, world, joint, solve, h);
     return g;
 }
 

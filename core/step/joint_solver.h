@@ -132,7 +132,8 @@ private:
     void fill_block(const World& world, const Joint& joint, std::size_t item, double h) {
         JointBlock<Real, W>& block = blocks_.block(item);
         const std::uint32_t lane = blocks_.lane(item);
-        const JointGeometry<double> g = loaded_joint_geometry(world, joint, h);
+        const JointGeometry<double> g =
+            loaded_joint_geometry(world, joint, JointSolve::iterations, h);
         blocks_.fill_masses(item, world.bodies, joint.a, joint.b);
         put(block.arm_a, lane, g.r_a), put(block.arm_b, lane, g.r_b);
         put(block.apart, lane, g.apart);

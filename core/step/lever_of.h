@@ -8,9 +8,12 @@
 
 namespace plumb {
 
+/// How the joint is solved.
+enum class JointSolve { tree, iterations };
+
 /// `arm`: of the joint on the body, world frame [m]; `body` may be kNoIndex.
 inline JointLever<double> lever_of(const World& world, const Joint& joint, std::uint32_t body,
-                                   const Vector3d& arm, double h) {
+                                   const Vector3d& arm, JointSolve solve, double h) {
     if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic)
         return {0, Vector3d::Zero()};
     const Bodies& b = world.bodies;
@@ -18,13 +21,17 @@ inline JointLever<double> lever_of(const World& world, const Joint& joint, std::
     const double load =
         lever_load<double>(Vector3d(r[0], r[1], r[2]).norm(), Vector3d(r[3], r[4], r[5]).norm(),
                            arm, b.world_inverse_inertia[body], h);
-    return joint_lever<double>(lever_turns<double>(load),
-                               Vector3d(h * b.angular_velocity_now[body]),
-                               Vector3d(h * b.angular_velocity_before[body]));
+    const Vector3d turn = h * b.angular_velocity_now[body];
+    if (solve == JointSolve::iterations) return iterated_lever<double>(load, turn);
+    return exact_lever<double>(load, turn, Vector3d(h * b.angular_velocity_before[body]));
 }
 
-/// The same for the line of a distance joint, whose pull turns with it.
-inline void turn_line(JointGeometry<double>& g, const World& world, const Joint& joint, double h) {
+/// The same for the line of a distance joint, whose pull turns with it; that of one that is
+/// iterated is where the points are at the end.
+inline void turn_line(JointGeometry<double>& g, const World& world, const Joint& joint,
+                      JointSolve solve, double h) {
+    g.line_share = 1, g.line_lag = Vector3d::Zero();
+    if (solve == JointSolve::iterations) return;
     const Bodies& b = world.bodies;
     double response = 0;  // of the points, in any direction [1/kg]
     Vector3d moved = Vector3d::Zero(), moved_before = Vector3d::Zero();
@@ -39,8 +46,8 @@ inline void turn_line(JointGeometry<double>& g, const World& world, const Joint&
     };
     add(joint.a, g.r_a, 1), add(joint.b, g.r_b, -1);
     const double load = h * std::abs(joint.rows[kAlongX]) * response / joint.length;
-    const JointLever<double> line = joint_lever<double>(
-        lever_turns<double>(load), Vector3d(moved / joint.length), moved_before / joint.length);
+    const JointLever<double> line = exact_lever<double>(load, Vector3d(moved / joint.length),
+                                                        Vector3d(moved_before / joint.length));
     g.line_share = line.share, g.line_lag = line.lag * joint.length;
 }
 

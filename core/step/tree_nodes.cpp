@@ -104,7 +104,7 @@ void TreeNodes::begin_joint(const World& world, Node& node) {
     node.apart = own_point - point(other, is_a ? joint.frame_b : joint.frame_a, node.other_arm);
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
-    node.geometry = loaded_joint_geometry(world, joint, h_);
+    node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, h_);
     node.lever = is_a ? node.geometry.lever_a : node.geometry.lever_b;
     node.other_lever = is_a ? node.geometry.lever_b : node.geometry.lever_a;
     owe(node, h_ * world.settings.recovery_speed);
@@ -131,6 +131,16 @@ void TreeNodes::forget(std::uint32_t index) {
     node.own = {{kZero, kZero}};
     std::fill(std::begin(node.lambda), std::end(node.lambda), 0.0);
     for (DrivenAxis& axis : node.axes) axis.forget();
+}
+
+void TreeNodes::turn_levers_to_the_end(std::uint32_t index) {
+    Node& node = nodes_[index_[index]];
+    if (node.free) return;
+    node.lever = {1, kZero};
+    node.other_lever = {node.parent != tables_.ground ? 1.0 : 0.0, kZero};
+    node.geometry.lever_a = node.sign > 0 ? node.lever : node.other_lever;
+    node.geometry.lever_b = node.sign > 0 ? node.other_lever : node.lever;
+    node.geometry.line_share = 1, node.geometry.line_lag = kZero;
 }
 
 double TreeNodes::evaluate(std::uint32_t index, bool settle) {

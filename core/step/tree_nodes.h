@@ -34,6 +34,7 @@ public:
     void substitute(std::uint32_t node, bool balance);
 
     void forget(std::uint32_t node);
+    void turn_levers_to_the_end(std::uint32_t node);
     void store_impulses(JointTable& joints);
 
     template <class Real>

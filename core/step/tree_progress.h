@@ -58,10 +58,12 @@ public:
     }
 
     /// Whether one more step brings all that are left well within the tolerance, if it shrinks what
-    /// they are off as the last one did; Newton steps do better than that.
+    /// they are off as the last one did; Newton steps do better than that. Trees that are far off
+    /// may not: what they come to is to be seen.
     bool needs_one_step(double tolerance) const {
         for (std::size_t i = 0; i < active_.size(); ++i)
-            if (active_[i] && !(violation_[i] * violation_[i] < 0.1 * tolerance * before_[i]))
+            if (active_[i] && (!(violation_[i] * violation_[i] < 0.1 * tolerance * before_[i]) ||
+                               violation_[i] > kNear * tolerance))
                 return false;
         return true;
     }
@@ -88,6 +90,8 @@ public:
     }
 
 private:
+    static constexpr double kNear = 20;
+
     std::vector<std::uint32_t> tree_;                 ///< [node]
     std::vector<std::uint8_t> active_, hung_;         ///< [tree]
     std::vector<double> violation_, before_, first_;  ///< [tree]

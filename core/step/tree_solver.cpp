@@ -120,10 +120,24 @@ template <int W>
 void TreeSolver<W>::solve() {
     progress_.start();
     unsolved_ = {};
+    if (search()) return;
+    turn_levers_to_the_end();
+    forget();
+    if (search()) return;
+    unsolved_ = {progress_.active(), progress_.greatest()};
+    if (!progress_.leave_those_no_worse()) return;
+    mark_active();
+    forget();
+    unsolved_.error = std::max(unsolved_.error, progress_.greatest());
+}
+
+/// Newton's steps. Returns whether all trees are closed; the others are left active.
+template <int W>
+bool TreeSolver<W>::search() {
     for (int step = 0; step < kMostSteps; ++step) {
         evaluate(step >= kSettleSteps);
         if (fresh_) progress_.remember_start();
-        if (!fresh_ && !progress_.leave_those_within(tolerance_)) return;
+        if (!fresh_ && !progress_.leave_those_within(tolerance_)) return true;
         fresh_ = false;
         mark_active();
         const bool balance = step < kBalancedSteps;
@@ -131,15 +145,28 @@ void TreeSolver<W>::solve() {
         if (step == kBalancedSteps) forget();
         eliminate(balance);
         substitute(balance);
-        if (last) return;
+        if (last) return true;
     }
     evaluate(true);
-    if (!progress_.leave_those_within(tolerance_)) return;
-    unsolved_ = {progress_.active(), progress_.greatest()};
-    if (!progress_.leave_those_no_worse()) return;
+    const bool solved = !progress_.leave_those_within(tolerance_);
     mark_active();
-    forget();
-    unsolved_.error = std::max(unsolved_.error, progress_.greatest());
+    return solved;
+}
+
+/// Levers of the end, with which Newton's matrix is the derivative of what it closes, for trees
+/// that turn too far within the substep for their own.
+template <int W>
+void TreeSolver<W>::turn_levers_to_the_end() {
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane) {
+            if (!(balls.active[lane] > 0)) continue;
+            balls.share[lane] = 1;
+            balls.other_share[lane] = balls.parent[lane] != tables_.ground;
+            for (int k = 0; k < 3; ++k) balls.lag[k][lane] = balls.other_lag[k][lane] = 0;
+        }
+    for (const Span& span : spans_)
+        for (const std::uint32_t node : span.singles)
+            if (progress_.is_active(node)) nodes_.turn_levers_to_the_end(node);
 }
 
 /// Back to v*, where a search that led nowhere began.

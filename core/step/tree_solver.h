@@ -84,6 +84,8 @@ private:
     void give(const BodyRows<Real>& rows);
 
     void solve();
+    bool search();
+    void turn_levers_to_the_end();
     void forget();
     void evaluate(bool settle);
     void note(const Span& span, double greatest);

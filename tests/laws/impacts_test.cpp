@@ -98,7 +98,8 @@ TEST_P(Impacts, NeverAddEnergyAndKeepMomentum) {
             EXPECT_LT(most, 1.001 * before);
             const double bound = s.settings.precision == Precision::single ? 1e-6 : 1e-10;
             EXPECT_LT((linear_momentum(world) - momentum).norm(), bound * momentum.norm());
-            if (draw < 2) EXPECT_GT(kinetic_energy(world), 0.5 * before) << "elastic impacts";
+            if (draw >= 2) continue;
+            EXPECT_GT(kinetic_energy(world), 0.5 * before) << "elastic impacts";
         }
 }
 

@@ -73,9 +73,11 @@ TEST_P(JointTrees, AMobileOf4095HoldsAsWell) {
 }
 
 /// Ten rods that fall from the horizontal: a whip.
+/// It lashes so far that its links would hit each other.
 TEST_P(JointTrees, AChainGainsNoEnergy) {
     Scene s;
     s.settings.precision = GetParam();
+    s.settings.forbid = {"contacts"};
     for (std::uint32_t i = 0; i < 10; ++i) {
         add_body(s, box(0.25, 0.05, 0.05), {0.25 + 0.5 * i, 0, 0});
         JointSpec joint;

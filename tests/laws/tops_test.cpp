@@ -185,7 +185,7 @@ Settings gyroscope_settings(int setting, Random& random) {
     return s;
 }
 
-constexpr double kTurns[] = {0.1, 0.2, 0.5, 0.9, 1.5};  // [rad] a substep
+constexpr double kTurns[] = {0.1, 0.2, 0.5, 0.9, 1.0};  // [rad] a substep
 
 std::string name_of(const std::string& on, const Settings& s, double turn) {
     return on + ", " + std::to_string(s.dt) + " s x " + std::to_string(s.substeps) + ", " +
