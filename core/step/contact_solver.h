@@ -47,10 +47,14 @@ public:
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             fill_surface(world, contact, k, lane);
         });
-        radii_.resize(world.contacts.found.size());
-        for (const BodyPair& pair : pairs_)
-            std::fill_n(radii_.begin() + pair.first, pair.count,
-                        smaller_radius(world.bodies, world.contacts.found[pair.first]));
+        trusted_.resize(world.contacts.found.size());
+        const double fall = world.settings.gravity.norm() * world.settings.dt * world.settings.dt;
+        for (const BodyPair& pair : pairs_) {
+            const double radius = smaller_radius(world.bodies, world.contacts.found[pair.first]);
+            std::fill_n(
+                trusted_.begin() + pair.first, pair.count,
+                world.kinematic_count > 0 ? std::max(kTrusted * radius, fall) : kOutOfReach);
+        }
         fill_geometry(world);
         is_fresh_ = true;
     }
@@ -85,8 +89,8 @@ public:
             NormalRow<Real, W>& row = rows.normals[k];
             row.gap[lane] = static_cast<Real>(c.gap[contact]);
             clamped += -row.gap[lane] > pass.recovery;
-            if (-c.gap[contact] > kTrusted * radii_[contact])
-                doubt(rows, k, lane, -c.gap[contact] / radii_[contact]);
+            if (-c.gap[contact] > trusted_[contact])
+                doubt(rows, k, lane, -c.gap[contact] / trusted_[contact]);
             if (!c.rebound.empty()) {
                 const bool passing = c.rebound[contact] == ContactTable::kPassing;
                 row.rebound[lane] = passing ? Real(0) : static_cast<Real>(c.rebound[contact]);
@@ -194,10 +198,10 @@ public:
 
     /// A contact that its impulses could not keep from a deep overlap is squeezed by more than they
     /// can hold: they would grow with every substep, and fly apart where they act askew. `overlap`:
-    /// as a share of the radius.
+    /// over the trusted one.
     static void doubt(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
                       double overlap) {
-        const Real kept = static_cast<Real>(std::max(0.0, 2 - overlap / kTrusted));
+        const Real kept = static_cast<Real>(std::max(0.0, 2 - overlap));
         NormalRow<Real, W>& row = rows.normals[k];
         row.lambda_velocity[lane] *= kept, row.lambda_position[lane] *= kept;
         if (!rows.frictions) return;
@@ -240,7 +244,8 @@ public:
 private:
     static constexpr Real kOutOfReach = Real(1e6);  // [m]
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
-    /// full; none are at twice that.
+    /// full, if it is more than what gravity moves in a step; none are at twice that. Only bodies
+    /// that are moved by others squeeze without end: where there are none, all are carried over.
     static constexpr double kTrusted = 0.02;
 
     /// A contact of an island in which bodies collide, and where it is.
@@ -459,7 +464,7 @@ private:
     Colouring colouring_;
     ContactBatches<Real, W> batches_, resting_;
     std::vector<HitContact> given_;  // what bounced
-    std::vector<double> radii_;      // [contact] of the smaller dynamic body [m]
+    std::vector<double> trusted_;    // [contact] overlap [m]
     const std::vector<std::uint32_t>* levels_ = nullptr;
     bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins
 };

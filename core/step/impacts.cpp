@@ -40,7 +40,9 @@ double turning_energy(const Bodies& bodies, std::uint32_t i, const Vector3d& a, 
 
 bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, double h) {
     colliding_.clear();
-    const double threshold = collision_threshold(world.settings);
+    // what forces make of a body at rest within two substeps is no impact
+    const double threshold =
+        std::max(collision_threshold(world.settings), 2 * h * world.settings.gravity.norm());
     if (!may_collide(world, threshold)) return false;
     hit_.assign(pairs.size(), 0);
     bool any = false;

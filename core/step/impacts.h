@@ -27,7 +27,7 @@ public:
     };
 
     /// Finds the islands of `pairs` in which any two surfaces will meet within h [s] faster than
-    /// √(2 g ε). Returns whether there is one.
+    /// √(2 g ε) and 2 g h. Returns whether there is one.
     bool find(const World& world, const std::vector<BodyPair>& pairs, double h);
 
     /// Whether a pair belongs to such an island.
