@@ -6,7 +6,20 @@
 #include "constraints/joint_rows.h"
 #include "world/world.h"
 
+#include <algorithm>
+
 namespace plumb {
+
+/// What a joint bore in both of the last two substeps, along or about its axes: a blow is no load
+/// [N s], [N m s].
+inline double steady_impulse(const Joint& joint) {
+    const auto size = [](const auto& r) { return Vector3d(r[0], r[1], r[2]).norm(); };
+    return std::min(size(joint.rows), size(joint.rows_before));
+}
+inline double steady_moment(const Joint& joint) {
+    const auto size = [](const auto& r) { return Vector3d(r[3], r[4], r[5]).norm(); };
+    return std::min(size(joint.rows), size(joint.rows_before));
+}
 
 /// How the joint is solved.
 enum class JointSolve { tree, iterations };
@@ -17,10 +30,8 @@ inline JointLever<double> lever_of(const World& world, const Joint& joint, std::
     if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic)
         return {0, Vector3d::Zero()};
     const Bodies& b = world.bodies;
-    const auto& r = joint.rows;
-    const double load =
-        lever_load<double>(Vector3d(r[0], r[1], r[2]).norm(), Vector3d(r[3], r[4], r[5]).norm(),
-                           arm, b.world_inverse_inertia[body], h);
+    const double load = lever_load<double>(steady_impulse(joint), steady_moment(joint), arm,
+                                           b.world_inverse_inertia[body], h);
     const Vector3d turn = h * b.angular_velocity_now[body];
     if (solve == JointSolve::iterations) return iterated_lever<double>(load, turn);
     return exact_lever<double>(load, turn, Vector3d(h * b.angular_velocity_before[body]));
@@ -45,7 +56,7 @@ inline void turn_line(JointGeometry<double>& g, const World& world, const Joint&
             sign * h * (b.velocity_before[body] + b.angular_velocity_before[body].cross(arm));
     };
     add(joint.a, g.r_a, 1), add(joint.b, g.r_b, -1);
-    const double load = h * std::abs(joint.rows[kAlongX]) * response / joint.length;
+    const double load = h * steady_impulse(joint) * response / joint.length;
     const JointLever<double> line = exact_lever<double>(load, Vector3d(moved / joint.length),
                                                         Vector3d(moved_before / joint.length));
     g.line_share = line.share, g.line_lag = line.lag * joint.length;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/tree_solver.h"
 
+#include "step/lever_of.h"
+
 namespace plumb {
 namespace {
 
@@ -74,7 +76,7 @@ void TreeSolver<W>::place(const World& world, const ForestNode& from, std::uint3
         balls.other_point[k][lane] = other_frame.position[k];
         balls.impulse[k][lane] = balls.sign[lane] * joint.rows[k];
     }
-    balls.load[lane] = Vector3d(joint.rows[0], joint.rows[1], joint.rows[2]).norm();
+    balls.load[lane] = steady_impulse(joint);
 }
 
 template <int W>
@@ -247,7 +249,7 @@ void TreeSolver<W>::store_impulses(JointTable& joints) {
             joint.rows_before = joint.rows;
             joint.rows = {};
             for (int k = 0; k < 3; ++k) joint.rows[k] = balls.sign[lane] * balls.impulse[k][lane];
-            balls.load[lane] = Vector3d(joint.rows[0], joint.rows[1], joint.rows[2]).norm();
+            balls.load[lane] = steady_impulse(joint);
         }
     nodes_.store_impulses(joints);
 }
