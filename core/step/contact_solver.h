@@ -201,7 +201,7 @@ public:
     /// over the trusted one.
     static void doubt(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
                       double overlap) {
-        const Real kept = static_cast<Real>(std::max(0.0, 2 - overlap));
+        const Real kept = static_cast<Real>(std::max(kLeastKept, 2 - overlap));
         NormalRow<Real, W>& row = rows.normals[k];
         row.lambda_velocity[lane] *= kept, row.lambda_position[lane] *= kept;
         if (!rows.frictions) return;
@@ -244,9 +244,11 @@ public:
 private:
     static constexpr Real kOutOfReach = Real(1e6);  // [m]
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
-    /// full, if it is more than what gravity moves in a step; none are at twice that. Only bodies
+    /// full, if it is more than what gravity moves in a step. Only bodies
     /// that are moved by others squeeze without end: where there are none, all are carried over.
     static constexpr double kTrusted = 0.02;
+    /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
+    static constexpr double kLeastKept = 0.8;
 
     /// A contact of an island in which bodies collide, and where it is.
     struct HitContact {
