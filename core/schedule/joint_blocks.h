@@ -28,7 +28,7 @@ struct BallBlock : JointBodies<Real, W> {
 template <int W>
 struct alignas(64) BallFrames {
     double point_a[3][W], point_b[3][W];  // body frames, or the world's [m]
-    double load[W];                       // impulse that both substeps before bore [N s]
+    double load[W];                       // impulse of the substeps before [N s]
     double used[W], held[W];              // 1 where a joint sits; 1 where b is the world
     std::uint32_t body_a[W], body_b[W];   // where there is none, any other of the block's
 };

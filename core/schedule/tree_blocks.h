@@ -52,7 +52,7 @@ struct alignas(64) TreeBalls {
     double used[N], held[N];  // 1 where a body sits; 1 where it hangs from the world
     double active[N];         // 1 where the tree is still to be solved
     double hung[N];           // 1 where its root hangs by something
-    double load[N];           // impulse that both substeps before bore [N s]
+    double load[N];           // impulse of the substeps before [N s]
     double sign[N];           // 1 where the body is the joint's a, else −1
     // at the start of a substep
     double mass[N], inertia[6][N];                   // world frame [kg], [kg m²]
