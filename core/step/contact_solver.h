@@ -49,11 +49,11 @@ public:
         });
         trusted_.resize(world.contacts.found.size());
         const double fall = world.settings.gravity.norm() * world.settings.dt * world.settings.dt;
+        const bool squeezes = world.joints.size() == 0 || world.kinematic_count > 0;
         for (const BodyPair& pair : pairs_) {
             const double radius = smaller_radius(world.bodies, world.contacts.found[pair.first]);
-            std::fill_n(
-                trusted_.begin() + pair.first, pair.count,
-                world.kinematic_count > 0 ? std::max(kTrusted * radius, fall) : kOutOfReach);
+            const double trusted = squeezes ? std::max(kTrusted * radius, fall) : kOutOfReach;
+            std::fill_n(trusted_.begin() + pair.first, pair.count, trusted);
         }
         fill_geometry(world);
         is_fresh_ = true;
@@ -244,8 +244,9 @@ public:
 private:
     static constexpr Real kOutOfReach = Real(1e6);  // [m]
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
-    /// full, if it is more than what gravity moves in a step. Only bodies
-    /// that are moved by others squeeze without end: where there are none, all are carried over.
+    /// full, if it is more than what gravity moves in a step. What presses on joints opens those,
+    /// and its contacts come deep for a while: where there are joints, only bodies that are moved
+    /// by others squeeze without end.
     static constexpr double kTrusted = 0.02;
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
