@@ -40,6 +40,13 @@ public:
         clear(turnings_, variant == ContactVariant::turning ? rows : 0);
     }
 
+    /// Memory for a copy of another.
+    void reserve_as(const ContactBatches& other) {
+        blocks_.reserve(other.blocks_.size()), normals_.reserve(other.normals_.size());
+        frictions_.reserve(other.frictions_.size()), turnings_.reserve(other.turnings_.size());
+        ranges_.reserve(other.ranges_.size()), slots_.reserve(other.slots_.size());
+    }
+
     const std::vector<BlockRange>& ranges() const { return ranges_; }
     Slot slot(std::size_t pair) const { return slots_[pair]; }
     std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }

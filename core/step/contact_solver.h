@@ -107,6 +107,12 @@ public:
         return clamped;
     }
 
+    /// Memory for impacts, so that the first of them allocates none.
+    void reserve_impacts() {
+        resting_.reserve_as(batches_);
+        given_.reserve(trusted_.size());
+    }
+
     /// Puts the impulses of the substep before aside and begins from nothing: how fast contacts
     /// approach, and how far they may.
     void begin_impacts(const World& world, const BodyRows<Real>& bodies,

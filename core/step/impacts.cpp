@@ -38,6 +38,16 @@ double turning_energy(const Bodies& bodies, std::uint32_t i, const Vector3d& a, 
 
 }  // namespace
 
+void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
+    const auto bodies = static_cast<std::size_t>(world.dynamic_count);
+    if (hit_.capacity() >= pairs.size() && changes_.size() == bodies) return;
+    hit_.reserve(pairs.size());
+    islands_.find(pairs, world.dynamic_count);
+    colliding_.reserve(bodies);
+    changes_.resize(bodies);
+    body_of_.resize(bodies);
+}
+
 bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, double h) {
     colliding_.clear();
     // what forces make of a body at rest within two substeps is no impact

@@ -26,6 +26,9 @@ public:
         Vector3d v = Vector3d::Zero(), w = Vector3d::Zero();
     };
 
+    /// Takes all the memory that these pairs may need, so that an impact allocates none.
+    void reserve(const World& world, const std::vector<BodyPair>& pairs);
+
     /// Finds the islands of `pairs` in which any two surfaces will meet within h [s] faster than
     /// √(2 g ε) and 2 g h. Returns whether there is one.
     bool find(const World& world, const std::vector<BodyPair>& pairs, double h);

@@ -48,6 +48,7 @@ public:
         : settings_(world.settings),
           workers_(workers),
           shocks_(plan.runs(Effect::shock_propagation)),
+          has_impacts_(plan.runs(Effect::impacts)),
           warm_start_(settings_.warm_start && !shocks_),
           contacts_(plan, workers),
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
@@ -59,6 +60,7 @@ public:
     void load_contacts(const World& world) override {
         contacts_.load(world, nullptr, islands_ ? &*islands_ : nullptr);
         if (warm_start_) contacts_.load_impulses(world);
+        if (has_impacts_) impacts_.reserve(world, contacts_.pairs()), contacts_.reserve_impacts();
         if (!shocks_) return;
         find_levels(world, levels_);
         shock_->load(world, &levels_, nullptr);
@@ -206,7 +208,7 @@ private:
 
     const Settings settings_;
     Workers& workers_;
-    bool shocks_;
+    bool shocks_, has_impacts_;
     /// Shock propagation carries each level by itself; impulses of the step before would only stand
     /// in its way.
     bool warm_start_;
