@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+/// Judges for what can be told from one moment of a world.
+#pragma once
+
+#include "study/subject.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace plumb::study {
+
+/// The largest deviation at any moment. `deviation`: of a world at World::time, from its answer; it
+/// must not keep anything between calls.
+class LargestDeviation : public Judge {
+public:
+    using Deviation = std::function<double(const World&)>;
+    explicit LargestDeviation(Deviation deviation) : deviation_(std::move(deviation)) {}
+
+    void look(const World& world) override {
+        const double d = std::abs(deviation_(world));
+        error_ = std::isfinite(d) ? std::max(error_, d) : std::numeric_limits<double>::infinity();
+    }
+    double error() const override { return error_; }
+
+private:
+    Deviation deviation_;
+    double error_ = 0;
+};
+
+/// The deviation at the last moment.
+class LastDeviation : public Judge {
+public:
+    using Deviation = LargestDeviation::Deviation;
+    explicit LastDeviation(Deviation deviation) : deviation_(std::move(deviation)) {}
+
+    void look(const World& world) override { error_ = std::abs(deviation_(world)); }
+    double error() const override { return error_; }
+
+private:
+    Deviation deviation_;
+    double error_ = 0;
+};
+
+inline Metric largest(std::string name, std::string unit, std::string what,
+                      LargestDeviation::Deviation deviation) {
+    return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
+                return std::make_unique<LargestDeviation>(deviation);
+            }};
+}
+
+inline Metric last(std::string name, std::string unit, std::string what,
+                   LastDeviation::Deviation deviation) {
+    return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
+                return std::make_unique<LastDeviation>(deviation);
+            }};
+}
+
+}  // namespace plumb::study
