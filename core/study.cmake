@@ -1,5 +1,12 @@
 # plumb::study: what accuracy costs in time. Cases with known answers, sweeps over settings, and what they tell.
-add_library(plumb_study STATIC study/cases.cpp study/cases/pendulum.cpp)
+add_library(plumb_study STATIC
+  study/cases.cpp study/cases/pendulum.cpp
+  study/findings.cpp study/gauges.cpp study/journal.cpp study/point.cpp study/run_point.cpp study/self_reference.cpp
+  study/study_json.cpp study/sweep.cpp study/sweep_plan.cpp study/trajectory.cpp)
 add_library(plumb::study ALIAS plumb_study)
 set_target_properties(plumb_study PROPERTIES EXPORT_NAME study)
-target_link_libraries(plumb_study PUBLIC plumb::host PRIVATE $<BUILD_INTERFACE:plumb_options>)
+string(STRIP "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION} ${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} -ffp-contract=off"
+  plumb_flags)
+target_compile_definitions(plumb_study PRIVATE PLUMB_VERSION="${PROJECT_VERSION}" "PLUMB_FLAGS=\"${plumb_flags}\"")
+target_link_libraries(plumb_study PUBLIC plumb::host
+  PRIVATE plumb::reader plumb::output nlohmann_json::nlohmann_json $<BUILD_INTERFACE:plumb_options>)

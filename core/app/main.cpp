@@ -30,6 +30,8 @@ constexpr std::array kVerbs{
     Registered{"check", "validate a scene without running it", add_check},
     Registered{"compare", "measure the contact sets of several colliders against each other",
                add_compare},
+    Registered{"cost", "measure what accuracy costs in time, of known cases and of scenes",
+               add_cost},
     Registered{"export", "make a replay, picture or table of a recording", add_export},
 };
 

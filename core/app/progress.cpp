@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <cstring>
 
 namespace plumb::app {
 namespace {
@@ -54,24 +53,48 @@ Progress::~Progress() {
     if (drawn_) std::fputc('\n', stderr);
 }
 
-void Progress::show(std::uint64_t step, std::uint32_t contacts, const std::string& violation) {
-    if (!on_) return;
+bool Progress::is_due(bool last) {
+    if (!on_) return false;
     const Clock::time_point now = Clock::now();
-    if (step < steps_ && now - last_ < std::chrono::milliseconds(100)) return;
+    if (!last && now - last_ < std::chrono::milliseconds(100)) return false;
     last_ = now;
-    const double elapsed = std::chrono::duration<double>(now - start_).count();
-    const double rate = elapsed > 0 ? static_cast<double>(step) / elapsed : 0;
-    const double left = rate > 0 ? static_cast<double>(steps_ - step) / rate : 0;
-    const double share = static_cast<double>(step) / static_cast<double>(steps_);
-    char text[200];
-    std::snprintf(text, sizeof text, " %3.0f%%, %.0f steps/s, %s left, %u contacts, %s",
-                  100 * share, rate, duration_text(left).c_str(), contacts, violation.c_str());
+    return true;
+}
+
+double Progress::seconds_left(double share) const {
+    const double elapsed = std::chrono::duration<double>(last_ - start_).count();
+    return share > 0 ? elapsed / share - elapsed : 0;
+}
+
+void Progress::draw(double share, const std::string& text) {
     const int width = terminal_width() - 1;
-    const int room = width - static_cast<int>(std::strlen(text)) - 2;
+    const int room = width - static_cast<int>(text.size()) - 2;
     const std::string line = bar(share, std::clamp(room, kNarrowestBar, kWidestBar)) + text;
     std::fprintf(stderr, "\r%.*s\033[K", width, line.c_str());
     std::fflush(stderr);
     drawn_ = true;
+}
+
+void Progress::show(std::uint64_t step, std::uint32_t contacts, const std::string& violation) {
+    if (!is_due(step >= steps_)) return;
+    const double share = static_cast<double>(step) / static_cast<double>(steps_);
+    const double elapsed = std::chrono::duration<double>(last_ - start_).count();
+    const double rate = elapsed > 0 ? static_cast<double>(step) / elapsed : 0;
+    char text[200];
+    std::snprintf(text, sizeof text, " %3.0f%%, %.0f steps/s, %s left, %u contacts, %s",
+                  100 * share, rate, duration_text(seconds_left(share)).c_str(), contacts,
+                  violation.c_str());
+    draw(share, text);
+}
+
+void Progress::show_runs(std::uint64_t done, std::uint64_t all, const std::string& what) {
+    if (!is_due(done >= all)) return;
+    const double share = all > 0 ? static_cast<double>(done) / static_cast<double>(all) : 1;
+    char text[200];
+    std::snprintf(text, sizeof text, " %3.0f%%, %llu of %llu runs, %s left, %s", 100 * share,
+                  static_cast<unsigned long long>(done), static_cast<unsigned long long>(all),
+                  duration_text(seconds_left(share)).c_str(), what.c_str());
+    draw(share, text);
 }
 
 }  // namespace plumb::app

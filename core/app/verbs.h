@@ -28,5 +28,6 @@ Verb add_effects(CLI::App& command);
 Verb add_check(CLI::App& command);
 Verb add_compare(CLI::App& command);
 Verb add_export(CLI::App& command);
+Verb add_cost(CLI::App& command);
 
 }  // namespace plumb::app

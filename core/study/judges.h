@@ -43,6 +43,25 @@ private:
     double error_ = 0;
 };
 
+/// The mean over all moments but the first.
+class MeanDeviation : public Judge {
+public:
+    using Deviation = LargestDeviation::Deviation;
+    explicit MeanDeviation(Deviation deviation) : deviation_(std::move(deviation)) {}
+
+    void look(const World& world) override {
+        if (world.steps == 0) return;
+        sum_ += std::abs(deviation_(world));
+        ++count_;
+    }
+    double error() const override { return count_ > 0 ? sum_ / count_ : 0; }
+
+private:
+    Deviation deviation_;
+    double sum_ = 0;
+    double count_ = 0;
+};
+
 inline Metric largest(std::string name, std::string unit, std::string what,
                       LargestDeviation::Deviation deviation) {
     return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
@@ -54,6 +73,13 @@ inline Metric last(std::string name, std::string unit, std::string what,
                    LastDeviation::Deviation deviation) {
     return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
                 return std::make_unique<LastDeviation>(deviation);
+            }};
+}
+
+inline Metric mean_over_time(std::string name, std::string unit, std::string what,
+                             MeanDeviation::Deviation deviation) {
+    return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
+                return std::make_unique<MeanDeviation>(deviation);
             }};
 }
 

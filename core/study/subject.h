@@ -50,6 +50,9 @@ struct Subject {
     std::vector<Metric> metrics;  ///< the first is the subject's own
     double tolerance = 0;  ///< error that the scene's own settings keep within; 0: not stated
     Orders orders;         ///< of the first metric
+    double horizon = 0;    ///< until when poses can be predicted and are compared [s]; 0: all along
+    double reference_error = 0;  ///< of the reference itself, in the first metric; 0: exact
+    std::string fingerprint;     ///< of the file that the scene came from; "" of a case
 };
 
 }  // namespace plumb::study

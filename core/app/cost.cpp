@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: MIT
+/// plumb cost: what accuracy costs in time, of cases with known answers and of any scene.
+#include "app/interrupt.h"
+#include "app/plugin_path.h"
+#include "app/progress.h"
+#include "app/study_files.h"
+#include "app/study_options.h"
+#include "app/usage.h"
+#include "app/verbs.h"
+#include "scene/error.h"
+#include "scene/nearest.h"
+#include "study/cases.h"
+#include "study/findings.h"
+#include "study/journal.h"
+#include "study/sweep.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <set>
+
+namespace plumb::app {
+namespace {
+
+/// Of the budget, what the references of a scene without a formula may take.
+constexpr double kForReferences = 0.25;
+
+struct Options {
+    std::vector<std::string> subjects, colliders, curves, merge;
+    std::string out, plugin_path, budget = "5m", shard = "1/1", metric;
+    std::uint32_t repeats = 5;
+    bool list = false, quiet = false;
+};
+
+struct Shard {
+    std::uint32_t number = 1, of = 1;
+};
+
+Shard shard_of(const std::string& text) {
+    Shard s;
+    int end = 0;
+    if (std::sscanf(text.c_str(), "%u/%u%n", &s.number, &s.of, &end) != 2 ||
+        end != static_cast<int>(text.size()) || s.number < 1 || s.number > s.of)
+        throw UsageError("--shard " + text + ": must be I/N with 1 ≤ I ≤ N, such as 2/4");
+    return s;
+}
+
+void check(const Options& o) {
+    if (o.out.empty()) throw UsageError("--out is required; name a folder for the report");
+    if (!o.merge.empty() && !o.subjects.empty())
+        throw UsageError("--merge takes its cases from the folders; name none beside it");
+    const std::set<std::string> distinct(o.subjects.begin(), o.subjects.end());
+    if (distinct.size() < o.subjects.size()) throw UsageError("a case or scene is named twice");
+    for (const std::string& curve : o.curves) {
+        std::vector<std::string> names = study::curve_names();
+        if (std::find(names.begin(), names.end(), curve) == names.end())
+            throw UsageError("--curves " + curve + ": there is no such curve" +
+                             advice(curve, names));
+    }
+}
+
+int list_cases() {
+    for (const study::CaseEntry& c : study::cases())
+        std::printf("%-18s %s\n", std::string(c.name).c_str(), c.make().title.c_str());
+    return kDone;
+}
+
+std::vector<study::Subject> subjects_of(const Options& o, const ColliderLibrary& colliders,
+                                        double seconds) {
+    std::vector<std::string> names = o.subjects;
+    if (names.empty())
+        for (const study::CaseEntry& c : study::cases()) names.emplace_back(c.name);
+    std::vector<study::Subject> subjects;
+    for (const std::string& name : names) {
+        subjects.push_back(subject_named(name, colliders,
+                                         o.colliders.empty() ? "auto" : o.colliders.front(),
+                                         seconds / static_cast<double>(names.size())));
+        if (!o.metric.empty()) choose_metric(subjects.back(), o.metric);
+    }
+    return subjects;
+}
+
+/// What a person wants to know, on stdout.
+void print_findings(const study::StudyTable& table) {
+    std::size_t ran = 0, failed = 0, left = 0;
+    for (const study::Row& r : table.rows) {
+        ran += r.status == study::Status::done;
+        failed += r.status == study::Status::diverged || r.status == study::Status::refused;
+        left += r.status == study::Status::not_run;
+    }
+    for (const study::SubjectSummary& s : table.subjects) {
+        std::printf("%s: %s\n", s.name.c_str(), s.title.c_str());
+        const auto sentences = study::advice_on(table, s);
+        for (const std::string& sentence : sentences) std::printf("  %s\n", sentence.c_str());
+        if (sentences.empty()) std::printf("  no settings gave a result\n");
+    }
+    std::printf("%zu points ran, %zu failed, %zu were not run\n", ran, failed, left);
+}
+
+/// Writes what came of it, and tells it.
+int finish(const Options& o, const study::StudyTable& table) {
+    const std::vector<std::string> remarks = write_study(table, o.out);
+    print_findings(table);
+    for (const std::string& remark : remarks) std::fprintf(stderr, "plumb: %s\n", remark.c_str());
+    if (interrupted()) return kInterrupted;
+    for (const study::Row& r : table.rows)
+        if (r.status == study::Status::done) return kDone;
+    for (const study::Row& r : table.rows)
+        if (r.status == study::Status::diverged) {
+            std::fprintf(stderr, "plumb: every point that was run diverged\n");
+            return kDiverged;
+        }
+    std::fprintf(stderr, "plumb: the budget of %s was too small for a single point\n",
+                 o.budget.c_str());
+    return kUsage;
+}
+
+int measure(const Options& o) {
+    const double budget = seconds_of(o.budget, "--budget");
+    const Shard shard = shard_of(o.shard);
+    const ColliderLibrary colliders(o.plugin_path);
+    catch_interrupts();
+    const std::vector<study::Subject> subjects = subjects_of(o, colliders, kForReferences * budget);
+    study::StudyTable table = study::plan_sweep(subjects, {o.colliders, o.curves}, colliders);
+    study::Journal journal(o.out, table);
+
+    Progress progress(table.rows.size(), o.quiet);
+    study::SweepOptions options;
+    options.budget = budget;
+    options.repeats = o.repeats;
+    options.shard = shard.number;
+    options.of = shard.of;
+    options.interrupted = interrupted;
+    options.ran = [&](std::size_t row, bool judged, const study::Outcome& outcome) {
+        journal.add(row, judged, outcome);
+    };
+    options.progress = [&](const study::SweepProgress& p) {
+        progress.show_runs(p.done, p.all, p.next->point.subject + ": " + p.next->point.curve);
+    };
+    study::sweep(table, subjects, colliders, options);
+    return finish(o, table);
+}
+
+int cost(const Options& o) {
+    if (o.list) return list_cases();
+    check(o);
+    if (o.merge.empty()) return measure(o);
+    return finish(o, study::merged(o.merge));
+}
+
+}  // namespace
+
+Verb add_cost(CLI::App& command) {
+    auto o = std::make_shared<Options>();
+    command
+        .add_option("subjects", o->subjects,
+                    "cases by name (--list), scenes by file; all cases unless named")
+        ->type_name("SCENE|CASE");
+    command.add_option("--out", o->out, "folder for the tables, the charts and the report")
+        ->type_name("DIR");
+    command.add_option("--budget", o->budget, "time for all runs; 5m unless told")
+        ->type_name("TIME");
+    command.add_option("--metric", o->metric, "what is charted as the error")->type_name("NAME");
+    command
+        .add_option("--colliders", o->colliders,
+                    "run on these, separated by ','; most curves on the first")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("NAMES");
+    command.add_option("--curves", o->curves, "only these curves, separated by ','")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->type_name("NAMES");
+    command.add_option("--repeats", o->repeats, "runs of each point for its time; 5 unless told")
+        ->check(CLI::Range(1u, 1000u))
+        ->type_name("N");
+    command.add_option("--shard", o->shard, "run only the I-th of N parts of the plan")
+        ->type_name("I/N");
+    command.add_option("--merge", o->merge, "make one report of the folders of several parts")
+        ->type_name("DIR");
+    command.add_flag("--list", o->list, "name the cases");
+    command.add_flag("--quiet", o->quiet, "no progress bar");
+    add_plugin_path_option(command, o->plugin_path);
+    return [o] { return cost(*o); };
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#include "app/study_files.h"
+
+#include "output/error.h"
+#include "output/file.h"
+#include "study/journal.h"
+#include "study/study_json.h"
+
+#include <filesystem>
+
+namespace plumb::app {
+namespace {
+
+void write_whole(const std::filesystem::path& path, const std::string& text) {
+    WholeFile file(path.string());
+    file.append(text);
+    file.commit();
+}
+
+std::string title_of(const study::StudyTable& table) {
+    std::string names;
+    for (const study::SubjectSummary& s : table.subjects)
+        names.append(names.empty() ? "" : ", ").append(s.name);
+    constexpr std::size_t kMost = 3;
+    return table.subjects.size() > kMost ? "What accuracy costs" : "What accuracy costs: " + names;
+}
+
+}  // namespace
+
+std::vector<std::string> write_study(const study::StudyTable& table, const std::string& folder) {
+    const std::filesystem::path base(folder);
+    std::error_code failed;
+    std::filesystem::create_directories(base, failed);
+    if (failed) throw OutputError(folder, "cannot be made: " + failed.message());
+    write_whole(base / "points.csv", study::table_csv(table));
+    write_whole(base / "findings.json", study::study_json(table, title_of(table)));
+    return {};
+}
+
+}  // namespace plumb::app

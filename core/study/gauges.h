@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: MIT
+/// Errors that need no reference: what a world shows of itself.
+#pragma once
+
+#include "effects/plan.h"
+#include "study/subject.h"
+
+#include <vector>
+
+namespace plumb::study {
+
+/// Those that a scene calls for: of joints where there are any, of contacts where bodies touch.
+///
+///   penetration      depth, mean over the pairs that penetrate and over time [m]
+///   joints           how far a joint's points parted, at most [m]
+///   complementarity  gap at which contacts push, weighted by how hard, mean over time [m]
+///   cone             friction beyond its bound, over all that pushes, mean over time
+std::vector<Metric> gauges_of(const Plan& plan);
+
+}  // namespace plumb::study

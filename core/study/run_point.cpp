@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "study/run_point.h"
+
+#include "host/simulation.h"
+#include "scene/error.h"
+#include "study/sweep_plan.h"
+
+#include <cmath>
+#include <memory>
+
+namespace plumb::study {
+namespace {
+
+/// Farther than this from the origin nothing of use happens any more [m].
+constexpr double kReach = 1e9;
+
+bool within_reach(const World& world) {
+    for (const Vector3d& x : world.bodies.position)
+        if (!(x.cwiseAbs().maxCoeff() < kReach)) return false;
+    return true;
+}
+
+std::vector<std::unique_ptr<Judge>> judges_of(const Subject& subject) {
+    std::vector<std::unique_ptr<Judge>> judges;
+    for (const Metric& m : subject.metrics) judges.push_back(m.judge());
+    return judges;
+}
+
+Outcome ended(Status status, std::string note) { return {status, std::move(note), {}, {}}; }
+
+Outcome made(const Subject& subject, Simulation& simulation, bool judged, const Stop& stop) {
+    const Settings& s = simulation.world().settings;
+    const auto steps = static_cast<std::uint64_t>(std::llround(s.duration / s.dt));
+    std::vector<std::unique_ptr<Judge>> judges;
+    if (judged) judges = judges_of(subject);
+    std::uint64_t total = 0, solver = 0;
+    for (const auto& judge : judges) judge->look(simulation.world());
+    for (std::uint64_t i = 0; i < steps; ++i) {
+        if (stop && stop()) return ended(Status::not_run, "time was up");
+        const StepReport report = simulation.step();
+        total += simulation.ledger().step_nanoseconds;
+        solver += simulation.ledger().solver_nanoseconds();
+        if (!report.finite || !within_reach(simulation.world()))
+            return ended(Status::diverged,
+                         "ran off after " + std::to_string(simulation.time()) + " s");
+        if (report.collider_unusable) return ended(Status::refused, report.message);
+        for (const auto& judge : judges) judge->look(simulation.world());
+    }
+    Outcome outcome{Status::done, {}, {}, {}};
+    for (const auto& judge : judges) {
+        outcome.errors.push_back(judge->error());
+        if (!std::isfinite(judge->error()))
+            return ended(Status::diverged, "the error is no number");
+    }
+    const double per_second = 1e-3 / (static_cast<double>(steps) * s.dt);
+    outcome.cost = {static_cast<double>(total) * per_second,
+                    static_cast<double>(solver) * per_second};
+    return outcome;
+}
+
+}  // namespace
+
+Outcome run_point(const Subject& subject, const Point& point, const ColliderLibrary& colliders,
+                  bool judged, const Stop& stop) {
+    try {
+        Scene scene = subject.scene;
+        scene.settings = settings_at(subject, point);
+        Simulation simulation(scene, colliders, point.collider);
+        return made(subject, simulation, judged, stop);
+    } catch (const SceneError& e) {
+        return ended(Status::refused, e.what());
+    } catch (const ColliderError& e) {
+        return ended(Status::refused, e.what());
+    }
+}
+
+}  // namespace plumb::study

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+#include "study/sweep_plan.h"
+
+#include "effects/plan.h"
+#include "host/shape_pairs.h"
+#include "reader/reader.h"
+#include "world/world.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <optional>
+
+namespace plumb::study {
+namespace {
+
+constexpr std::array kSubsteps{1, 2, 4, 8, 16, 32, 64, 128, 256, 400};
+constexpr std::array kIterations{1, 2, 5, 10, 20, 50, 100, 200, 400};
+constexpr std::array kSteps{4.0,     2.0,      1.0,      1.0 / 2, 1.0 / 4,
+                            1.0 / 8, 1.0 / 16, 1.0 / 32, 1.0 / 64};  ///< times the subject's dt
+
+/// Settings that make a curve, and what must run for it to say anything.
+struct Variant {
+    const char* name;
+    const char* setting;              ///< key=value; "" for none
+    std::optional<Effect> called_by;  ///< left out where this does not run
+};
+
+/// Each departure from the paper switched off by itself, and the choices that a user has beside.
+constexpr std::array kVariants{
+    Variant{"without warm start", "warm_start=false", Effect::contacts},
+    Variant{"without alternating sweeps", "alternate_sweeps=false", Effect::contacts},
+    Variant{"without shared push", "shared_push=false", Effect::contacts},
+    Variant{"without shared cone", "shared_cone=false", Effect::friction},
+    Variant{"without anchors", "anchor_stiffness=0", Effect::sticking_anchors},
+    Variant{"without reuse of contacts", "reuse_distance=0", Effect::contact_reuse},
+    Variant{"without exact islands", "exact_islands=0", Effect::exact_islands},
+    Variant{"explicit gyroscopic term", "gyroscopic=explicit", Effect::gyroscopic},
+    Variant{"implicit gyroscopic term", "gyroscopic=implicit", Effect::gyroscopic},
+    Variant{"joints by iterations", "joints=iterate", Effect::joint_trees},
+};
+
+std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    double back = 0;
+    for (int digits = 1; digits < 17; ++digits) {
+        char shorter[32];
+        std::snprintf(shorter, sizeof shorter, "%.*g", digits, value);
+        if (std::sscanf(shorter, "%lf", &back) == 1 && back == value) return shorter;
+    }
+    return text;
+}
+
+/// Writes the points of a subject, curve by curve.
+class Planner {
+public:
+    Planner(const Subject& subject, const SweepChoice& choice, const ColliderLibrary& colliders)
+        : subject_(subject), choice_(choice), plan_(make_plan(build_world(subject.scene))) {
+        choose_colliders(colliders);
+    }
+
+    std::vector<Point> all() {
+        for (const char* precision : {"single", "double"})
+            for (const Ladder ladder : {Ladder::substeps, Ladder::iterations, Ladder::step})
+                climb("pbd", precision, ladder, colliders_.front(), "");
+        for (const Ladder ladder : {Ladder::substeps, Ladder::iterations})
+            climb("paper", "single", ladder, colliders_.front(), "preset=paper");
+        for (const Variant& v : kVariants)
+            if (!v.called_by || plan_.runs(*v.called_by))
+                climb(v.name, "single", Ladder::substeps, colliders_.front(), v.setting);
+        if (plan_.runs(Effect::joints) && !plan_.runs(Effect::joint_trees))
+            climb("joints as trees", "single", Ladder::substeps, colliders_.front(), "joints=tree");
+        for (const std::string& collider : colliders_) {
+            if (collider != colliders_.front())
+                climb("pbd", "single", Ladder::substeps, collider, "");
+            if (plan_.runs(Effect::contacts))
+                climb("raw contacts", "single", Ladder::substeps, collider, "contacts=raw");
+        }
+        return std::move(points_);
+    }
+
+private:
+    /// The one that most curves run on, then those that can do the scene, too; where nothing
+    /// touches, one is as good as any.
+    void choose_colliders(const ColliderLibrary& library) {
+        if (!choice_.colliders.empty()) {
+            for (const std::string& name : choice_.colliders)
+                library.check_abilities(library.find(name), subject_.scene);
+            colliders_ = choice_.colliders;
+        } else {
+            colliders_ = {library.choose(subject_.scene).collider->name};
+            for (const ColliderInfo& c : library.all())
+                if (c.table && c.name != colliders_.front() && can_do(library, c))
+                    colliders_.push_back(c.name);
+        }
+        if (!plan_.runs(Effect::contacts)) colliders_.resize(1);
+    }
+
+    bool can_do(const ColliderLibrary& library, const ColliderInfo& collider) const {
+        try {
+            library.check_abilities(collider, subject_.scene);
+            return true;
+        } catch (const ColliderError&) {
+            return false;
+        }
+    }
+
+    /// A point for each rung of a ladder.
+    void climb(const std::string& curve, const std::string& precision, Ladder ladder,
+               const std::string& collider, const std::string& setting) {
+        const auto& wanted = choice_.curves;
+        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), curve) == wanted.end())
+            return;
+        Point p{.subject = subject_.name,
+                .curve = curve,
+                .precision = precision,
+                .ladder = ladder,
+                .value = 0,
+                .collider = collider,
+                .contacts = setting == "contacts=raw" ? "raw" : "shared",
+                .settings = {}};
+        if (!setting.empty()) p.settings.push_back(setting);
+        p.settings.push_back("precision=" + precision);
+        const auto add = [&](double value, std::vector<std::string> rung) {
+            Point& made = points_.emplace_back(p);
+            made.value = value;
+            made.settings.insert(made.settings.end(), rung.begin(), rung.end());
+        };
+        if (ladder == Ladder::substeps)
+            for (const int n : kSubsteps)
+                add(n, {"substeps=" + std::to_string(n), "velocity_iterations=1",
+                        "position_iterations=1"});
+        if (ladder == Ladder::iterations)
+            for (const int n : kIterations)
+                add(n, {"substeps=1", "velocity_iterations=" + std::to_string(n),
+                        "position_iterations=" + std::to_string(n)});
+        if (ladder == Ladder::step)
+            for (const double share : kSteps) {
+                const double dt = share * subject_.scene.settings.dt;
+                add(dt, {"dt=" + number_text(dt)});
+            }
+    }
+
+    const Subject& subject_;
+    const SweepChoice& choice_;
+    Plan plan_;
+    std::vector<std::string> colliders_;
+    std::vector<Point> points_;
+};
+
+}  // namespace
+
+std::vector<std::string> curve_names() {
+    std::vector<std::string> names{"pbd", "paper", "joints as trees", "raw contacts"};
+    for (const Variant& v : kVariants) names.emplace_back(v.name);
+    return names;
+}
+
+std::vector<Point> points_of(const Subject& subject, const SweepChoice& choice,
+                             const ColliderLibrary& colliders) {
+    return Planner(subject, choice, colliders).all();
+}
+
+Settings settings_at(const Subject& subject, const Point& point) {
+    Settings settings = subject.scene.settings;
+    for (const std::string& setting : point.settings) apply_setting(settings, setting);
+    return settings;
+}
+
+double work_of(const Subject& subject, const Settings& s) {
+    const double substeps = s.duration / s.dt * s.substeps;
+    return substeps * static_cast<double>(subject.scene.bodies.size()) *
+           (2.0 + s.velocity_iterations + s.position_iterations);
+}
+
+}  // namespace plumb::study
