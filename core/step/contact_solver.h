@@ -49,11 +49,13 @@ public:
         });
         trusted_.resize(world.contacts.found.size());
         const double fall = world.settings.gravity.norm() * world.settings.dt * world.settings.dt;
-        const bool squeezes = world.joints.size() == 0 || world.kinematic_count > 0;
+        const bool moved = world.kinematic_count > 0;
+        const double share = moved                      ? kTrustedWhereMoved
+                             : world.joints.size() == 0 ? kTrusted
+                                                        : kOutOfReach;
         for (const BodyPair& pair : pairs_) {
             const double radius = smaller_radius(world.bodies, world.contacts.found[pair.first]);
-            const double trusted = squeezes ? std::max(kTrusted * radius, fall) : kOutOfReach;
-            std::fill_n(trusted_.begin() + pair.first, pair.count, trusted);
+            std::fill_n(trusted_.begin() + pair.first, pair.count, std::max(share * radius, fall));
         }
         fill_geometry(world);
         is_fresh_ = true;
@@ -250,10 +252,10 @@ public:
 private:
     static constexpr Real kOutOfReach = Real(1e6);  // [m]
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
-    /// full, if it is more than what gravity moves in a step. What presses on joints opens those,
-    /// and its contacts come deep for a while: where there are joints, only bodies that are moved
-    /// by others squeeze without end.
-    static constexpr double kTrusted = 0.02;
+    /// full, if it is more than what gravity moves in a step. Only bodies that are moved by others
+    /// squeeze without end; elsewhere it must be deep indeed, or heaps would creep. What presses on
+    /// joints opens those, and its contacts come deep for a while: they are carried over whole.
+    static constexpr double kTrusted = 0.1, kTrustedWhereMoved = 0.02;
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
 
