@@ -22,7 +22,7 @@ export function logTicks(low, high, mostNamed) {
     const every = Math.max(1, Math.ceil(decades.length / mostNamed));
     const named = decades.length >= 2 ? decades.filter((k) => k % every === 0).map((k) => 10 ** k)
         : minor.filter((v) => [1, 2, 5].includes(Math.round(v / 10 ** Math.floor(Math.log10(v) + 1e-9))));
-    return { named, minor: decades.length > 12 ? [] : minor, plain: low >= 0.9e-3 && high < 1e6 };
+    return { named, minor: decades.length > 12 ? [] : minor, plain: low >= 0.9e-3 && high < 2e7 };
 }
 
 /// Marks of the axis and grid of one direction.

@@ -38,12 +38,12 @@ export class ChartFigure {
         };
         const { lines, shown, extra } = this.chart;
         const choices = [button('main lines', show(shown)), button('all', show(lines.map(({ key }) => key))), button('none', show([]))];
-        this.choices = element('span', 'choices', ['Show ', ...(shown.size < lines.length ? choices : choices.slice(1))]);
+        const chooser = element('span', 'choices', ['Show ', ...(shown.size < lines.length ? choices : choices.slice(1))]);
         const fixed = extra.map(({ look, label }) => element('span', 'entry fixed', [sample(look), element('span', '', label)]));
         const first = this.items.filter((_, i) => shown.has(lines[i].key)), rest = this.items.filter((item) => !first.includes(item));
         const more = rest.length > 0 ? element('details', 'more', [element('summary', '', `${rest.length} more lines`),
             element('div', 'legend', rest)]) : null;
-        return element('div', '', [element('div', 'legend', [...fixed, ...first, this.choices]), more]);
+        return element('div', '', [element('div', 'legend', [...fixed, ...first, chooser]), more]);
     }
 
     savers() {

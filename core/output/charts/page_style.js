@@ -25,6 +25,7 @@ button { font: inherit; color: inherit; background: none; border: 1px solid var(
 button:hover { background: var(--page); } button:focus-visible { outline: 2px solid var(--accent); }
 .entry { display: inline-flex; align-items: center; gap: 6px; border-color: transparent; padding: 2px 6px; text-align: left; }
 .entry svg { flex: none; } .entry[aria-pressed=false] { opacity: .45; } .more { margin-top: 2px; font-size: 13px; }
+.more .legend { display: grid; grid-template-columns: repeat(auto-fill, minmax(250px, 1fr)); }
 .entry.fixed { padding: 2px 6px; } .choices { display: inline-flex; gap: 6px; align-items: center; color: var(--soft); margin-left: auto; }
 figcaption { display: flex; flex-wrap: wrap; gap: 6px 16px; justify-content: space-between; align-items: baseline; color: var(--soft);
     font-size: 12.5px; border-top: 1px solid var(--line); margin-top: 8px; padding-top: 8px; }

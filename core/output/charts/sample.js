@@ -6,7 +6,7 @@ import * as Plot from '@observablehq/plot';
 export function sample(look) {
     const ends = [[1, 8], [33, 8]];
     const mark = look.front
-        ? [Plot.line(ends, { stroke: 'currentColor', strokeOpacity: 0.2, strokeWidth: 7 })]
+        ? [Plot.line(ends, { stroke: 'currentColor', strokeOpacity: 0.28, strokeWidth: 6.5 })]
         : look.failure ? [Plot.dot([[17, 8]], { symbol: 'times', r: 4.2, stroke: 'currentColor', strokeWidth: 2.2 })]
             : [Plot.line(ends, { stroke: look.color, strokeWidth: look.thin ? 1.2 : 1.9, strokeDasharray: look.dash || null }),
                 ...(look.symbol ? [Plot.dot([[17, 8]], { symbol: look.symbol, r: 4.2, stroke: look.color, strokeWidth: 1.4,

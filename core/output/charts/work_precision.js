@@ -84,7 +84,7 @@ function frontMarks(subject, { low, x, visible }) {
     if (corners.length === 0) return [];
     const seen = new Set(visible.flatMap((line) => line.done));
     return [Plot.line([...corners, { us: x[1], error: corners.at(-1).error }], { x: 'us', y: 'error', curve: 'step-after',
-        stroke: 'currentColor', strokeOpacity: 0.2, strokeWidth: 7, strokeLinejoin: 'round', clip: true, ariaLabel: () => 'Pareto front' }),
+        stroke: 'currentColor', strokeOpacity: 0.28, strokeWidth: 6.5, strokeLinejoin: 'round', clip: true, ariaLabel: () => 'Pareto front' }),
     Plot.dot(corners.filter(({ row }) => !seen.has(row)), { x: 'us', y: 'error', r: 3, fill: 'currentColor', fillOpacity: 0.55,
         ariaLabel: () => 'on the Pareto front, of a hidden line' })];
 }
@@ -104,8 +104,8 @@ function floorWords(floors, { x, yPixels }) {
     const words = [];
     for (const floor of floors) {
         const last = words.at(-1);
-        if (last && yPixels * Math.log(floor.error / last.lowest) < 15) last.floors.push(floor);
-        else words.push({ lowest: floor.error, floors: [floor] });
+        if (last && yPixels * Math.log(floor.error / last.floors.at(-1).error) < 15) last.floors.push(floor);
+        else words.push({ floors: [floor] });
     }
     const precisions = (list) => [...new Set(list.map(({ precision }) => precision))].join(', ');
     return Plot.text(words, { x: () => x[0], y: ({ floors: list }) => list.at(-1).error, textAnchor: 'start', dx: 6, dy: -8, ...kHalo,
