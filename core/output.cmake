@@ -18,11 +18,15 @@ foreach(name player charts)
 endforeach()
 
 add_library(plumb_output STATIC
+  output/chart_files.cpp
+  output/chart_script.cpp
+  output/chart_stage.cpp
   output/comparison_page.cpp
   output/csv.cpp
   output/deflate.cpp
   output/exporters.cpp
   output/file.cpp
+  output/gnuplot.cpp
   output/header_json.cpp
   output/html.cpp
   output/html_json.cpp
