@@ -15,9 +15,10 @@ constexpr std::array<const char*, 9> kColors{"#0072b2", "#d55e00", "#009e73", "#
 constexpr std::array<int, 5> kMarks{7, 5, 9, 13, 11};
 constexpr std::array<const char*, 4> kDashes{"1", "(12,7)", "(3,5)", "(14,5,3,5)"};
 
-constexpr int kLeft = 92, kRight = 28, kAxis = 66, kLine = 19;  ///< [pixels]
+constexpr int kLeft = 104, kRight = 24, kAxis = 84, kLine = 24;  ///< [pixels]
+constexpr int kLetterHeight = 15, kTitleHeight = 19;             ///< 11¼ and 14¼ points
 constexpr int kWidth = kLeft + kPlotWidth + kRight;
-constexpr double kLetter = 7.9, kSmallLetter = 6.9;  ///< mean widths [pixels]
+constexpr double kLetter = 8.7, kTitleLetter = 11;  ///< mean widths [pixels]
 
 std::string text_of(double value) {
     std::array<char, 32> buffer{};
@@ -64,20 +65,20 @@ bool has_failures(const ChartStage& stage) { return stage.top > stage.y.high; }
 
 Sheet sheet_of(const Chart& chart, const ChartStage& stage) {
     Sheet sheet;
-    sheet.titles = wrapped(chart.title, static_cast<std::size_t>(kPlotWidth / 9.5));
-    sheet.captions = wrapped(chart.caption, static_cast<std::size_t>((kWidth - 40) / kSmallLetter));
+    sheet.titles = wrapped(chart.title, static_cast<std::size_t>((kWidth - 40) / kTitleLetter));
+    sheet.captions = wrapped(chart.caption, static_cast<std::size_t>((kWidth - 40) / kLetter));
     std::size_t longest = 10, entries = has_failures(stage) + !chart.front.empty();
     for (const ChartSeries& series : chart.series)
         longest = std::max(longest, letters(series.name));
     entries += chart.series.size();
-    const double column = 62 + kLetter * static_cast<double>(longest);
+    const double column = 76 + kLetter * static_cast<double>(longest);
     sheet.columns = std::clamp<std::size_t>(static_cast<std::size_t>((kWidth - 40) / column), 1,
                                             std::max<std::size_t>(entries, 1));
     const int rows = static_cast<int>((entries + sheet.columns - 1) / sheet.columns);
-    sheet.frame = 22 + 24 * static_cast<int>(sheet.titles.size());
+    sheet.frame = 22 + kLine * static_cast<int>(sheet.titles.size());
     sheet.legend = sheet.frame + kPlotHeight + kAxis;
     sheet.caption = sheet.legend + kLine * rows + 20;
-    sheet.height = sheet.caption + 17 * static_cast<int>(sheet.captions.size()) + 4;
+    sheet.height = sheet.caption + kLine * static_cast<int>(sheet.captions.size()) + 4;
     return sheet;
 }
 
@@ -106,32 +107,40 @@ std::string block(const std::string& name, const std::vector<ChartPoint>& points
     return text + "\n\n";
 }
 
+/// Ticks of a logarithmic axis: powers of ten by name, and what stands between them without; none
+/// where gnuplot's own choice is better.
+std::vector<std::string> log_ticks(const ChartAxis& axis) {
+    const int low = static_cast<int>(std::floor(std::log10(axis.low)));
+    const int high = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
+    const int each = std::max(1, (high - low + 8) / 9);
+    const bool plain = axis.low > 0.9e-3 && axis.high < 2e7;
+    std::vector<std::string> ticks;
+    for (int k = low; k <= high; ++k) {
+        const std::string power = "1e" + std::to_string(k);
+        const std::string words =
+            plain ? "sprintf('%.7g', " + power + ")" : "'10^{" + std::to_string(k) + "}'";
+        if (std::pow(10, k) >= axis.low * (1 - 1e-9))
+            ticks.push_back((k % each == 0 ? words : "''") + " " + power);
+        for (int i = 2; each == 1 && i < 10; ++i) {
+            const double value = i * std::pow(10, k);
+            if (value > axis.low && value < axis.high)
+                ticks.push_back("'' " + std::to_string(i) + "e" + std::to_string(k) + " 1");
+        }
+    }
+    return high > low ? ticks : std::vector<std::string>{};
+}
+
 std::string axis_lines(const char* name, const ChartAxis& axis, double top,
                        const std::string& label) {
     const std::string n = name;
     std::string text = "set " + n + "label " + gnuplot_string(label) + " noenhanced\n";
     text += "set " + n + "range [" + text_of(axis.low) + ":" + text_of(top) + "]\n";
     if (!axis.log) return text;
-    // The powers of ten stand alone where there are enough of them.
-    const double low = std::ceil(std::log10(axis.low) - 1e-9);
-    const double high = std::floor(std::log10(axis.high) + 1e-9);
-    const double each = std::max(1.0, std::ceil((high - low + 1) / 9));
-    text += "set logscale " + n + "\nset m" + n + "tics " + (each > 1 ? "default" : "10") + "\n";
-    if (high - low < 1) return text + "set " + n + "tics (1,2,5)\nset " + n + "tics autofreq\n";
+    text += "set logscale " + n + "\n";
+    const std::vector<std::string> ticks = log_ticks(axis);
+    if (ticks.empty()) return text;
     text += "set " + n + "tics (";
-    for (double k = low; k <= high; k += 1) {
-        const bool named = std::fmod(k - low, each) == 0;
-        const bool plain = axis.low > 0.9e-3 && axis.high < 2e7;
-        const std::string power = "1e" + text_of(k);
-        const std::string words = !named  ? "''"
-                                  : plain ? "sprintf('%.7g', " + power + ")"
-                                          : "'10^{" + text_of(k) + "}'";
-        text += (k > low ? ", " : "") + words + " " + power;
-        for (int i = 2; each == 1 && i < 10; ++i)
-            text += ", '' " + std::to_string(i) + "e" + text_of(k) + " 1";
-    }
-    for (int i = 2; each == 1 && i < 10; ++i)
-        text += ", '' " + std::to_string(i) + "e" + text_of(low - 1) + " 1";
+    for (const std::string& tick : ticks) text += (&tick == ticks.data() ? "" : ", ") + tick;
     return text + ")\n";
 }
 
@@ -147,25 +156,25 @@ std::string label_lines(const Chart& chart, const ChartStage& stage, const Sheet
     const std::string left = "screen " + text_of(20.0 / kWidth) + ", ";
     double at = 24;
     for (const std::string& line : sheet.titles) {
-        text += label_line(line, left + down(at), "left font ',15'");
-        at += 24;
+        text +=
+            label_line(line, left + down(at), "left font '," + std::to_string(kTitleHeight) + "'");
+        at += kLine;
     }
     at = sheet.caption;
     for (const std::string& line : sheet.captions) {
-        text += label_line(line, left + down(at), "left font ',11' textcolor rgb '#4a5763'");
-        at += 17;
+        text += label_line(line, left + down(at), "left textcolor rgb '#4a5763'");
+        at += kLine;
     }
     for (const ChartRule& rule : chart.rules) {
         if (!stage.y.takes(rule.y)) continue;
         text += label_line(rule.name, "graph 0.992, first " + text_of(rule.y),
-                           "right offset 0, 0.55 font ',11' front");
+                           "right offset 0, 0.6 front");
     }
     if (!has_failures(stage)) return text;
     const std::string high = text_of(stage.y.high);
     return text + "set object rectangle from graph 0, first " + high +
            " to graph 1, graph 1 fillcolor rgb '#f0f2f4' fillstyle solid noborder behind\n" +
-           label_line("failed", "graph -0.008, graph " + text_of(1 - 10.0 / kPlotHeight),
-                      "right font ',12'");
+           label_line("failed", "graph -0.008, graph " + text_of(1 - 10.0 / kPlotHeight), "right");
 }
 
 /// The plot command: front and rules beneath, then lines, then failures.
@@ -195,12 +204,12 @@ std::string plot_lines(const std::string& name, const Chart& chart, const ChartS
     }
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
         if (stage.failures[i].empty()) continue;
-        parts.push_back(of(2 + 2 * i) + "with points pt 2 ps 1.1 lw 2.4 lc rgb '" +
+        parts.push_back(of(2 + 2 * i) + "with points pt 2 ps 1.25 lw 2.4 lc rgb '" +
                         chosen(kColors, chart.series[i].color, i) + "' notitle");
     }
     if (has_failures(stage))
         parts.emplace_back(
-            "NaN with points pt 2 ps 1.1 lw 2.4 lc rgb '#1d2731' title 'failed, at the cost it "
+            "NaN with points pt 2 ps 1.25 lw 2.4 lc rgb '#1d2731' title 'failed, at the cost it "
             "had'");
     if (parts.empty()) parts.emplace_back("NaN notitle");
     std::string text = "plot ";
@@ -228,13 +237,16 @@ std::string gnuplot_string(const std::string& text) {
 }
 
 std::string chart_data(const Chart& chart, const ChartStage& stage) {
-    // The last stair of a front reaches as far as the chart.
-    std::vector<ChartPoint> front = chart.front;
-    if (!front.empty()) front.push_back({stage.x.high, front.back().y});
-    std::string text = block("Pareto front", front, chart);
+    // The last stair reaches as far as the chart.
+    const auto stairs = [&](std::vector<ChartPoint> points) {
+        if (!points.empty()) points.push_back({stage.x.high, points.back().y});
+        return points;
+    };
+    std::string text = block("Pareto front", stairs(chart.front), chart);
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
-        text += block(chart.series[i].name, chart.series[i].points, chart);
-        text += block("failures of " + chart.series[i].name, stage.failures[i], chart);
+        const ChartSeries& series = chart.series[i];
+        text += block(series.name, series.stairs ? stairs(series.points) : series.points, chart);
+        text += block("failures of " + series.name, stage.failures[i], chart);
     }
     return text;
 }
@@ -244,7 +256,7 @@ std::string chart_script(const std::string& name, const Chart& chart, const Char
     const auto across = [](int pixels) { return "at screen " + text_of(double(pixels) / kWidth); };
     std::string text = "# Run in this folder: gnuplot " + name + ".gp\nset encoding utf8\n";
     text += "set terminal svg size " + std::to_string(kWidth) + "," + std::to_string(sheet.height) +
-            " dynamic font 'DejaVu Sans,13' background '#ffffff'\n";
+            " dynamic font 'DejaVu Sans,15' background '#ffffff'\n";
     text += "set output " + gnuplot_string(name + ".svg") + "\n";
     text += "set lmargin " + across(kLeft) + "\nset rmargin " + across(kLeft + kPlotWidth) + "\n";
     text += "set tmargin at screen " + sheet.down(sheet.frame) + "\n";
@@ -253,14 +265,15 @@ std::string chart_script(const std::string& name, const Chart& chart, const Char
     text += axis_lines("y", stage.y, stage.top, chart.y_label);
     text +=
         "set tics out nomirror\nset border 3 lw 1.2 lc rgb '#4a5763'\n"
-        "set grid xtics ytics mxtics mytics lw 1 lc rgb '#d5dade', lw 0.6 lc rgb '#eceff1'\n";
+        "set grid xtics ytics mxtics mytics lt 1 lw 1 lc rgb '#d3d9de', lt 1 lw 0.6 lc rgb "
+        "'#eaedf0'\n";
     text += "set key at screen " + text_of(16.0 / kWidth) + ", screen " + sheet.down(sheet.legend) +
             " left top horizontal Left reverse samplen 3 spacing 1.15 maxcols " +
-            std::to_string(sheet.columns) + " font ',12'\n";
+            std::to_string(sheet.columns) + "\n";
     text += label_lines(chart, stage, sheet) + plot_lines(name, chart, stage);
     text += "set terminal pngcairo size " + std::to_string(2 * kWidth) + "," +
             std::to_string(2 * sheet.height) +
-            " font 'DejaVu Sans,13' fontscale 2 linewidth 2 pointscale 2 background '#ffffff'\n";
+            " font 'DejaVu Sans,15' fontscale 1.5 linewidth 2 pointscale 2 background '#ffffff'\n";
     return text + "set output " + gnuplot_string(name + ".png") + "\nreplot\nunset output\n";
 }
 

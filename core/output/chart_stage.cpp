@@ -15,6 +15,7 @@ ChartAxis axis_about(const std::vector<double>& values, bool log, double room) {
     if (values.empty()) return {log, log ? 0.1 : 0, log ? 10.0 : 1};
     const auto [least, most] = std::minmax_element(values.begin(), values.end());
     if (log) {
+        // At least a decade, so that some power of ten stands on the axis.
         const double middle = std::sqrt(*least) * std::sqrt(*most), half = std::sqrt(10);
         return {true, std::min(*least / room, middle / half),
                 std::max(*most * room, middle * half)};
