@@ -15,7 +15,7 @@ constexpr std::array<const char*, 9> kColors{"#0072b2", "#d55e00", "#009e73", "#
 constexpr std::array<int, 5> kMarks{7, 5, 9, 13, 11};
 constexpr std::array<const char*, 4> kDashes{"1", "(12,7)", "(3,5)", "(14,5,3,5)"};
 
-constexpr int kLeft = 104, kRight = 24, kAxis = 84, kLine = 24;  ///< [pixels]
+constexpr int kLeft = 104, kRight = 24, kAxis = 84, kLine = 26;  ///< [pixels]
 constexpr int kLetterHeight = 15, kTitleHeight = 19;             ///< 11¼ and 14¼ points
 constexpr int kWidth = kLeft + kPlotWidth + kRight;
 constexpr double kLetter = 8.7, kTitleLetter = 11;  ///< mean widths [pixels]
@@ -113,7 +113,7 @@ std::vector<std::string> log_ticks(const ChartAxis& axis) {
     const int low = static_cast<int>(std::floor(std::log10(axis.low)));
     const int high = static_cast<int>(std::floor(std::log10(axis.high) + 1e-9));
     const int each = std::max(1, (high - low + 8) / 9);
-    const bool plain = axis.low > 0.9e-3 && axis.high < 2e7;
+    const bool plain = axis.low > 0.9e-3 && axis.high < 1e6;
     std::vector<std::string> ticks;
     for (int k = low; k <= high; ++k) {
         const std::string power = "1e" + std::to_string(k);

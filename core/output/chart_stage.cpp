@@ -109,8 +109,12 @@ bool is_drawable(const ChartPoint& point, const Chart& chart) {
 
 ChartStage chart_stage(const Chart& chart) {
     Values values = drawn_values(chart);
-    ChartStage stage{
-        axis_about(values.x, chart.log_x, 1.35), axis_about(values.y, chart.log_y, 1.8), 1, {}};
+    // Stairs go from one edge to the other; marks need room.
+    const bool stairs = std::all_of(chart.series.begin(), chart.series.end(),
+                                    [](const ChartSeries& series) { return series.stairs; });
+    ChartStage stage;
+    stage.x = axis_about(values.x, chart.log_x, stairs ? 1 : 1.35);
+    stage.y = axis_about(values.y, chart.log_y, 1.8);
     place_failures(stage, chart, std::move(values.failed));
     return stage;
 }

@@ -5,6 +5,8 @@ import { sample } from './sample.js';
 import { kPaperHeight, kPaperWidth, savePng, saveSvg, standalone } from './save.js';
 
 const kHeight = 500, kNarrow = 560;
+/// What a sheet of paper holds where text has its usual size [pixels].
+const kPrintWidth = 720;
 
 /// chart: {title, file, lines: [{key, label, look, mark}], shown: Set of keys, extra: legend entries without a line,
 /// caption, draw(shown, {width, height, still})}
@@ -17,6 +19,8 @@ export class ChartFigure {
         this.node = element('figure', '', [this.stage, this.legend(), element('figcaption', '', [
             element('span', '', chart.caption), this.savers()])]);
         new ResizeObserver(() => this.draw()).observe(this.stage);
+        addEventListener('beforeprint', () => this.draw(kPrintWidth));
+        addEventListener('afterprint', () => this.draw());
     }
 
     item(line) {
@@ -64,8 +68,7 @@ export class ChartFigure {
     }
 
     /// Draws anew where the width changed.
-    draw() {
-        const width = Math.floor(this.stage.clientWidth);
+    draw(width = Math.floor(this.stage.clientWidth)) {
         if (width === 0 || width === this.width) return;
         this.width = width;
         this.items.forEach((item, i) =>

@@ -55,10 +55,10 @@ function subjectSection(subject, index, study, looks) {
         ...(failed ? [{ look: { failure: true }, label: 'failed, at the cost it had (grey: of a hidden line)' }] : [])];
     const figure = new ChartFigure({ title, file: `${fileName(subject.name || title)}-cost`, lines, shown, extra,
         caption: machineText(study.machine), draw: (keys, size) => workPrecision(subject, lines, keys, looks, size) });
-    const section = element('section', '', [element('h2', '', title), introduction(subject), figure.node, withoutCost(lines, subject),
+    const section = element('section', '', [element('h2', '', title), introduction(subject), lines.length > 0 ? figure.node : element('p', '', 'Nothing was run.'), withoutCost(lines, subject),
         ...(subject.slopes?.length > 0 ? slopesTable(subject.slopes) : []),
         ...(subject.departures?.length > 0 ? departuresTable(subject.departures) : []),
-        rowsDetails(subject, `${fileName(subject.name || title)}-rows`)]);
+        lines.length === 0 ? null : rowsDetails(subject, `${fileName(subject.name || title)}-rows`)]);
     section.id = `subject-${index + 1}`;
     return section;
 }

@@ -125,9 +125,11 @@ function ruleMarks(subject, { x, low, high, top, hasBand }) {
 }
 
 /// Words of the rules, above all lines.
-function ruleWords(subject, { x, low }) {
+function ruleWords(subject, { x, low, visible }) {
     const tolerance = `tolerance ${withUnit(subject.tolerance, subject.metric.unit)}`;
-    return [...(subject.tolerance > 0 ? [Plot.text([tolerance], { x: () => x[1], y: () => subject.tolerance, textAnchor: 'end', dx: -6,
+    const exact = visible.some(({ done }) => done.some(({ error }) => error <= 0));
+    return [...(exact ? [Plot.text(['at the lower edge: no error at all'], { x: () => x[1], y: () => low, textAnchor: 'end', dx: -6, dy: -9, ...kHalo })] : []),
+    ...(subject.tolerance > 0 ? [Plot.text([tolerance], { x: () => x[1], y: () => subject.tolerance, textAnchor: 'end', dx: -6,
         dy: -8, ...kHalo })] : []),
     ...(kRealTime > x[0] && kRealTime < x[1] ? [Plot.text(['as slow as real time'], { x: () => kRealTime, y: () => low, rotate: -90,
         textAnchor: 'start', dx: -8, dy: -8, ...kHalo })] : [])];
