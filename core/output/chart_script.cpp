@@ -16,8 +16,11 @@ constexpr std::array<int, 5> kMarks{7, 5, 9, 13, 11};
 constexpr std::array<const char*, 4> kDashes{"1", "(12,7)", "(3,5)", "(14,5,3,5)"};
 
 constexpr int kLeft = 104, kRight = 24, kAxis = 84, kLine = 26;  ///< [pixels]
-constexpr int kLetterHeight = 15, kTitleHeight = 19;             ///< 11¼ and 14¼ points
 constexpr int kWidth = kLeft + kPlotWidth + kRight;
+/// 15 pixels of SVG. A PNG of twice the size counts in points, of which 15 are 20 pixels, hence its
+/// scale of 1.5.
+constexpr const char* kFont = "font 'DejaVu Sans,15'";
+constexpr int kTitleHeight = 19;                    ///< [pixels]
 constexpr double kLetter = 8.7, kTitleLetter = 11;  ///< mean widths [pixels]
 
 std::string text_of(double value) {
@@ -193,14 +196,12 @@ std::string plot_lines(const std::string& name, const Chart& chart, const ChartS
     }
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
         const ChartSeries& s = chart.series[i];
-        const std::string look = std::string("dt ") + chosen(kDashes, s.dash, i / kColors.size()) +
-                                 " lc rgb '" + chosen(kColors, s.color, i) + "' lw 2 ";
-        const std::string mark =
-            s.stairs
-                ? "with steps "
-                : "with linespoints pt " + std::to_string(chosen(kMarks, s.mark, i)) + " ps 0.95 ";
-        parts.push_back(of(1 + 2 * i) + mark + look + "title " + gnuplot_string(s.name) +
-                        " noenhanced");
+        const int mark = chosen(kMarks, s.mark, i);
+        std::string part = of(1 + 2 * i);
+        part += s.stairs ? "with steps" : "with linespoints ps 0.95 pt " + std::to_string(mark);
+        part += std::string(" dt ") + chosen(kDashes, s.dash, i / kColors.size());
+        part += std::string(" lw 2 lc rgb '") + chosen(kColors, s.color, i);
+        parts.push_back(part + "' title " + gnuplot_string(s.name) + " noenhanced");
     }
     for (std::size_t i = 0; i < chart.series.size(); ++i) {
         if (stage.failures[i].empty()) continue;
@@ -256,7 +257,7 @@ std::string chart_script(const std::string& name, const Chart& chart, const Char
     const auto across = [](int pixels) { return "at screen " + text_of(double(pixels) / kWidth); };
     std::string text = "# Run in this folder: gnuplot " + name + ".gp\nset encoding utf8\n";
     text += "set terminal svg size " + std::to_string(kWidth) + "," + std::to_string(sheet.height) +
-            " dynamic font 'DejaVu Sans,15' background '#ffffff'\n";
+            " dynamic " + kFont + " background '#ffffff'\n";
     text += "set output " + gnuplot_string(name + ".svg") + "\n";
     text += "set lmargin " + across(kLeft) + "\nset rmargin " + across(kLeft + kPlotWidth) + "\n";
     text += "set tmargin at screen " + sheet.down(sheet.frame) + "\n";
@@ -272,8 +273,8 @@ std::string chart_script(const std::string& name, const Chart& chart, const Char
             std::to_string(sheet.columns) + "\n";
     text += label_lines(chart, stage, sheet) + plot_lines(name, chart, stage);
     text += "set terminal pngcairo size " + std::to_string(2 * kWidth) + "," +
-            std::to_string(2 * sheet.height) +
-            " font 'DejaVu Sans,15' fontscale 1.5 linewidth 2 pointscale 2 background '#ffffff'\n";
+            std::to_string(2 * sheet.height) + " " + kFont +
+            " fontscale 1.5 linewidth 2 pointscale 2 background '#ffffff'\n";
     return text + "set output " + gnuplot_string(name + ".png") + "\nreplot\nunset output\n";
 }
 

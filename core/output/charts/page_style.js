@@ -46,5 +46,5 @@ details { margin-top: 12px; } summary { cursor: pointer; color: var(--soft); }
 @media print { :root { color-scheme: light; --ink: #000; --soft: #444; --line: #ccc; --page: #fff; --card: #fff; --accent: #000;
         --good: #1f7a44; --good-back: #fff; --bad: #b3261e; --bad-back: #fff; }
     main { padding: 0; max-width: none; } header, section { box-shadow: none; padding: 0 0 12px; } button:not(.entry), .choices, .savers, nav { display: none; }
-    .entry[aria-pressed=false] { display: none; } figure, table { break-inside: avoid; } h2, h3, section > p { break-after: avoid; } }
+    .entry[aria-pressed=false] { display: none; } figure, table { break-inside: avoid; } h2, h3, section > p { break-after: avoid; } h1, h2, h3, p, li { break-inside: avoid; } }
 `;
