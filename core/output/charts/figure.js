@@ -9,14 +9,15 @@ const kHeight = 500, kNarrow = 560;
 const kPrintWidth = 720;
 
 /// chart: {title, file, lines: [{key, label, look, mark}], shown: Set of keys, extra: legend entries without a line,
-/// caption, draw(shown, {width, height, still})}
+/// caption, draw(shown, {width, height, still, tips}): an SVG whose data under the pointer have a text}
 export class ChartFigure {
     constructor(chart) {
         this.chart = chart;
         this.shown = new Set(chart.shown);
         this.stage = element('div', 'stage');
+        this.told = element('div', 'told');  // what a tip would say, where a chart has no room for tips
         this.items = chart.lines.map((line) => this.item(line));
-        this.node = element('figure', '', [this.stage, this.legend(), element('figcaption', '', [
+        this.node = element('figure', '', [this.stage, this.told, this.legend(), element('figcaption', '', [
             element('span', '', chart.caption), this.savers()])]);
         new ResizeObserver(() => this.draw()).observe(this.stage);
         addEventListener('beforeprint', () => this.draw(kPrintWidth));
@@ -73,7 +74,12 @@ export class ChartFigure {
         this.width = width;
         this.items.forEach((item, i) =>
             item.setAttribute('aria-pressed', String(this.shown.has(this.chart.lines[i].key))));
-        const svg = this.chart.draw(this.shown, { width, height: width < kNarrow ? 400 : kHeight });
+        const tips = width >= kNarrow;
+        const svg = this.chart.draw(this.shown, { width, height: tips ? kHeight : 400, tips });
+        this.told.textContent = tips ? '' : 'Touch a point to read its numbers here.';
+        svg.addEventListener('input', () => {
+            if (!tips && svg.value) this.told.textContent = svg.value.text;
+        });
         svg.setAttribute('role', 'img');
         svg.setAttribute('aria-label', this.chart.title);
         this.stage.replaceChildren(svg);

@@ -20,6 +20,7 @@ a { color: var(--accent); }
 nav { margin-top: 8px; display: flex; flex-wrap: wrap; gap: 2px 16px; font-size: 13.5px; }
 figure { margin: 14px 0 0; } .stage { min-height: 300px; } .stage svg { display: block; max-width: 100%; overflow: visible; }
 .stage g[class^=line-] { transition: opacity .12s; }
+.told { white-space: pre-line; font-size: 13px; overflow-wrap: anywhere; } .told:empty { display: none; }
 .legend { display: flex; flex-wrap: wrap; gap: 2px 6px; margin: 6px 0 0; align-items: center; font-size: 13px; }
 button { font: inherit; color: inherit; background: none; border: 1px solid var(--line); border-radius: 7px; padding: 2px 9px; cursor: pointer; }
 button:hover { background: var(--page); } button:focus-visible { outline: 2px solid var(--accent); }
@@ -45,6 +46,6 @@ details { margin-top: 12px; } summary { cursor: pointer; color: var(--soft); }
     h1 { font-size: 20px; } .choices { margin-left: 0; } }
 @media print { :root { color-scheme: light; --ink: #000; --soft: #444; --line: #ccc; --page: #fff; --card: #fff; --accent: #000;
         --good: #1f7a44; --good-back: #fff; --bad: #b3261e; --bad-back: #fff; }
-    main { padding: 0; max-width: none; } header, section { box-shadow: none; padding: 0 0 12px; } button:not(.entry), .choices, .savers, nav { display: none; }
+    main { padding: 0; max-width: none; } header, section { box-shadow: none; padding: 0 0 12px; } button:not(.entry), .choices, .told, .savers, nav { display: none; }
     .entry[aria-pressed=false] { display: none; } figure, table { break-inside: avoid; } h2, h3, section > p { break-after: avoid; } h1, h2, h3, p, li { break-inside: avoid; } }
 `;

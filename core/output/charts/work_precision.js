@@ -141,18 +141,20 @@ const failureMarks = ({ failures }) => failures.map((f) => Plot.dot([f], { x: 'u
     ariaLabel: () => `${f.row.status}: ${f.line.label}`, className: f.visible ? f.line.mark : 'hidden-failure' }));
 
 /// What is near the pointer says what it is: points of visible lines and of the front, and failures.
-function tipMarks(subject, lines, { visible, failures, low }, width) {
+function pointerMarks(subject, lines, { visible, failures, low }, tips) {
     const tells = (line) => line.done.filter((row) => visible.includes(line) || row.front)
         .map((row) => ({ us: row.us, y: Math.max(row.error, low), row, line }));
-    const points = [...lines.flatMap(tells), ...failures];
+    const text = ({ row, line }) => rowText(row, line, subject);
+    const points = [...lines.flatMap(tells), ...failures].map((point) => ({ ...point, text: text(point) }));
     const place = { x: 'us', y: 'y', maxRadius: 30 };
     return [Plot.dot(points, Plot.pointer({ ...place, r: 8, stroke: 'currentColor', strokeWidth: 1.6 })),
-        Plot.tip(points, Plot.pointer({ ...place, title: ({ row, line }) => rowText(row, line, subject), fill: 'var(--card)',
-            fontSize: 12.5, lineHeight: 1.3, lineWidth: Math.min(30, Math.max(14, width / 13 - 5)), textPadding: 9 }))];
+        ...(tips ? [Plot.tip(points, Plot.pointer({ ...place, title: 'text', fill: 'var(--card)', fontSize: 12.5, lineHeight: 1.3,
+            lineWidth: 30, textPadding: 9 }))] : [])];
 }
 
-/// The chart of a subject; `shown`: keys of the lines that are drawn. `still`: for a file, without tips.
-export function workPrecision(subject, lines, shown, looks, { width, height, still = false }) {
+/// The chart of a subject; `shown`: keys of the lines that are drawn. `still`: for a file, nothing answers the pointer;
+/// `tips`: what it answers is written in the chart, and else only told (figure.js).
+export function workPrecision(subject, lines, shown, looks, { width, height, still = false, tips = true }) {
     const stage = layout(lines, shown, subject, width, height);
     const { x, low, high, top } = stage;
     const floors = visibleFloors(subject, stage);
@@ -164,6 +166,6 @@ export function workPrecision(subject, lines, shown, looks, { width, height, sti
         marks: [...logAxis('y', yTicks, `${subject.metric.what || subject.metric.name}${unit}`),
             ...logAxis('x', xTicks, 'CPU time per simulated second [µs]'), Plot.frame({ strokeOpacity: 0.35 }),
             ...frontMarks(subject, stage), ...ruleMarks(subject, stage), ...floorMarks(floors, looks),
-            ...lineMarks(stage), ...failureMarks(stage), ...ruleWords(subject, stage), floorWords(floors, stage), ...(still ? [] : tipMarks(subject, lines, stage, width))],
+            ...lineMarks(stage), ...failureMarks(stage), ...ruleWords(subject, stage), floorWords(floors, stage), ...(still ? [] : pointerMarks(subject, lines, stage, tips))],
     });
 }
