@@ -62,8 +62,10 @@ std::string without_tags(std::string_view json) {
     return text;
 }
 
-std::string page_end() {
-    return "<script>\n" + std::string(player_script()) + "\n</script>\n</body>\n</html>\n";
+std::string page_end(std::string_view script) {
+    return "<script>\n" + std::string(script) + "\n</script>\n</body>\n</html>\n";
 }
+
+std::string page_end() { return page_end(player_script()); }
 
 }  // namespace plumb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What all pages have in common: one file that opens from disk, the player, and no network.
+/// What all pages have in common: one file that opens from disk, a script, and no network.
 #pragma once
 
 #include <string>
@@ -10,13 +10,16 @@ namespace plumb {
 /// From the document's type to the opened body; `title` is any text.
 std::string page_head(std::string_view title);
 
-/// An element that carries data for the player under an id. JSON must have no "<" in it.
+/// An element that carries data for the script under an id. JSON must have no "<" in it.
 std::string data_element(std::string_view id, std::string_view type, std::string_view content);
 
 /// JSON text that cannot end the element it stands in, nor open a comment.
 std::string without_tags(std::string_view json);
 
-/// The player, and the end of the document.
+/// The script that draws the page, and the end of the document.
+std::string page_end(std::string_view script);
+
+/// The same with the player.
 std::string page_end();
 
 }  // namespace plumb
