@@ -9,7 +9,7 @@
 
 namespace plumb::app {
 
-/// Writes points.csv, study.json's findings (findings.json), report.html and the charts. Returns
+/// Writes points.csv, findings.json, report.html and the folder charts/. Returns
 /// what could not be made, in sentences. Throws OutputError.
 std::vector<std::string> write_study(const study::StudyTable& table, const std::string& folder);
 

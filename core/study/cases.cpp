@@ -9,7 +9,25 @@ namespace plumb::study {
 
 const std::vector<CaseEntry>& cases() {
     static const std::vector<CaseEntry> all{
+        {"parabola", parabola},
+        {"free_top", free_top},
+        {"dzhanibekov", dzhanibekov},
+        {"gyroscope", gyroscope},
         {"pendulum", pendulum},
+        {"double_pendulum", double_pendulum},
+        {"slope_slides", slope_slides},
+        {"slope_sticks", slope_sticks},
+        {"braking", braking},
+        {"rolling_start", rolling_start},
+        {"rolling_down", rolling_down},
+        {"bouncing", bouncing},
+        {"cradle", cradle},
+        {"stack", stack},
+        {"catenary", catenary},
+        {"hanging_chain", hanging_chain},
+        {"heavy_chain", heavy_chain},
+        {"gears", gears},
+        {"springs", springs},
     };
     return all;
 }

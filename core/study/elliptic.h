@@ -24,13 +24,10 @@ inline Elliptic jacobi(double u, double k) {
         b = std::sqrt(a[n] * b);
         ++n;
     }
-    double phi = std::ldexp(a[n] * u, n), above = phi;
-    for (int i = n; i > 0; --i) {
-        above = phi;
-        phi = 0.5 * (phi + std::asin(c[i] / a[i] * std::sin(phi)));
-    }
-    const double sn = std::sin(phi), cn = std::cos(phi);
-    return {sn, cn, n == 0 ? std::sqrt(1 - k * k * sn * sn) : cn / std::cos(above - phi)};
+    double phi = std::ldexp(a[n] * u, n);
+    for (int i = n; i > 0; --i) phi = 0.5 * (phi + std::asin(c[i] / a[i] * std::sin(phi)));
+    const double cn = std::cos(phi);
+    return {std::sin(phi), cn, std::sqrt((1 - k) * (1 + k) + k * k * cn * cn)};
 }
 
 }  // namespace plumb::study

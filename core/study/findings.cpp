@@ -111,7 +111,7 @@ const CurveRows* find_curve(const std::vector<CurveRows>& curves, const std::str
 
 std::string short_number(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, value >= 1000 && value < 1e6 ? "%.0f" : "%.2g", value);
+    std::snprintf(text, sizeof text, value >= 100 && value < 1e6 ? "%.0f" : "%.2g", value);
     return text;
 }
 

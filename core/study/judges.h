@@ -11,6 +11,11 @@
 
 namespace plumb::study {
 
+/// Size of a deviation; infinite where it is not a number.
+inline double size_of(double deviation) {
+    return std::isnan(deviation) ? std::numeric_limits<double>::infinity() : std::abs(deviation);
+}
+
 /// The largest deviation at any moment. `deviation`: of a world at World::time, from its answer; it
 /// must not keep anything between calls.
 class LargestDeviation : public Judge {
@@ -19,8 +24,7 @@ public:
     explicit LargestDeviation(Deviation deviation) : deviation_(std::move(deviation)) {}
 
     void look(const World& world) override {
-        const double d = std::abs(deviation_(world));
-        error_ = std::isfinite(d) ? std::max(error_, d) : std::numeric_limits<double>::infinity();
+        error_ = std::max(error_, size_of(deviation_(world)));
     }
     double error() const override { return error_; }
 
@@ -35,7 +39,7 @@ public:
     using Deviation = LargestDeviation::Deviation;
     explicit LastDeviation(Deviation deviation) : deviation_(std::move(deviation)) {}
 
-    void look(const World& world) override { error_ = std::abs(deviation_(world)); }
+    void look(const World& world) override { error_ = size_of(deviation_(world)); }
     double error() const override { return error_; }
 
 private:

@@ -92,6 +92,7 @@ struct Heap {
     std::string name, folder;
     bool is_large;  ///< so many bodies that a start a millimetre aside hardly changes the height
     double bottom;  ///< what heights are measured from: the ground, or where valleys end [m]
+    double median_speed = 1e-3, mean_depth = 0.2e-3;  ///< at most [m/s], [m]
 
     std::filesystem::path file() const {
         return std::filesystem::path(PLUMB_TEST_ROOT) / folder / (name + ".json");
@@ -103,7 +104,7 @@ const std::string kSamples = "samples/scenes", kOwn = "tests/paper/scenes";
 
 class Heaps : public testing::TestWithParam<Heap> {};
 INSTANTIATE_TEST_SUITE_P(, Heaps,
-                         testing::Values(Heap{"pile", kSamples, true, 0},
+                         testing::Values(Heap{"pile", kSamples, true, 0, 0.4e-3, 6e-6},
                                          Heap{"tori", kSamples, false, 0},
                                          Heap{"many_tori", kOwn, true, 0},
                                          Heap{"hulls", kSamples, true, 0},
@@ -111,10 +112,10 @@ INSTANTIATE_TEST_SUITE_P(, Heaps,
                                          Heap{"heightfield", kSamples, true, -1.2}),
                          [](const auto& which) { return which.param.name; });
 
-void expect_rest(const Rest& rest) {
-    EXPECT_LE(rest.median_speed, 1e-3);
+void expect_rest(const Rest& rest, const Heap& heap) {
+    EXPECT_LE(rest.median_speed, heap.median_speed);
     EXPECT_LE(rest.p90_speed, 5e-3);
-    EXPECT_LE(rest.mean_depth, 0.2e-3);
+    EXPECT_LE(rest.mean_depth, heap.mean_depth);
     EXPECT_LE(rest.p99_depth, 1e-3);
     EXPECT_LE(rest.deepest, 20e-3);
     EXPECT_GT(rest.contacts, 2 * (rest.bodies - rest.away));
@@ -127,7 +128,7 @@ TEST_P(Heaps, ComeToRestOnEveryColliderAndAsHigh) {
     for (const std::string& collider : wanted_colliders()) {
         SCOPED_TRACE(collider);
         const Rest rest = fall(heap.file(), collider);
-        expect_rest(rest);
+        expect_rest(rest, heap);
         const double height = rest.mean_height - heap.bottom;
         if (first == 0) first = height;
         if (heap.is_large) {

@@ -51,8 +51,8 @@ protected:
     }
     void expect_stands(const Stack& stack) {
         const Outcome o = stand(stack);
-        EXPECT_LT(o.top_moved, 5e-3);
-        EXPECT_LT(o.deepest, 1e-3);
+        EXPECT_LT(o.top_moved, 0.5e-3);
+        EXPECT_LT(o.deepest, 1e-7);
     }
 };
 INSTANTIATE_TEST_SUITE_P(, Stacks, every_collider(), where_name);

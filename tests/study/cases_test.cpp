@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// The library of cases: each holds at its own settings what it says.
-#include "study/cases.h"
-#include "support/scenes.h"
+/// The library of cases: each holds at its own settings what it says, on every collider, and its
+/// judges look on whatever the steps are.
+#include "study/measured.h"
 
-#include <ostream>
-
-namespace plumb::study {
-
-void PrintTo(const CaseEntry& entry, std::ostream* out) { *out << entry.name; }
-
-}  // namespace plumb::study
+#include <set>
 
 namespace plumb::test {
 namespace {
@@ -18,20 +12,60 @@ class Case : public testing::TestWithParam<study::CaseEntry> {};
 INSTANTIATE_TEST_SUITE_P(, Case, testing::ValuesIn(study::cases()),
                          [](const auto& which) { return std::string(which.param.name); });
 
-TEST_P(Case, KeepsItsToleranceAtItsOwnSettings) {
+TEST_P(Case, SaysWhatItIs) {
     const study::Subject subject = GetParam().make();
     EXPECT_EQ(subject.name, GetParam().name);
-    Simulation simulation(subject.scene, colliders(), "auto");
-    const auto judge = subject.metrics.front().judge();
-    judge->look(simulation.world());
-    const auto steps = std::llround(subject.scene.settings.duration / subject.scene.settings.dt);
-    for (long long i = 0; i < steps; ++i) {
-        ASSERT_TRUE(simulation.step().finite);
-        judge->look(simulation.world());
+    EXPECT_EQ(study::find_case(subject.name)->make, GetParam().make);
+    EXPECT_FALSE(subject.title.empty() || subject.reference.empty());
+    std::set<std::string> names;
+    for (const study::Metric& metric : subject.metrics)
+        EXPECT_TRUE(names.insert(metric.name).second) << metric.name << " stands there twice";
+    EXPECT_GT(subject.tolerance, 0);
+}
+
+TEST_P(Case, KeepsItsToleranceAtItsOwnSettings) {
+    const study::Subject subject = GetParam().make();
+    const std::vector<double> errors = errors_of(subject);
+    for (std::size_t i = 0; i < errors.size(); ++i)
+        RecordProperty("error_" + subject.metrics[i].name, testing::PrintToString(errors[i]));
+    EXPECT_LE(errors[0], subject.tolerance) << subject.metrics[0].what;
+    EXPECT_GT(errors[0], subject.tolerance / 3) << "the tolerance says more than is measured";
+}
+
+TEST_P(Case, KeepsItOnEveryColliderAndInDouble) {
+    study::Subject subject = GetParam().make();
+    for (const Precision precision : {Precision::single, Precision::double_})
+        for (const char* collider : {"reference", "ode", "bullet", "fcl"}) {
+            subject.scene.settings.precision = precision;
+            EXPECT_LE(errors_of(subject, collider)[0], subject.tolerance) << collider;
+        }
+}
+
+/// At other steps, too, judges give a number for each metric.
+TEST_P(Case, IsJudgedAtAnySteps) {
+    struct Steps {
+        double of_dt;
+        std::uint32_t substeps, iterations;
+    };
+    for (const Steps& steps : {Steps{4, 1, 1}, {4, 20, 1}, {1, 1, 20}, {1.0 / 16, 1, 1}}) {
+        study::Subject subject = GetParam().make();
+        Settings& s = subject.scene.settings;
+        s.dt *= steps.of_dt;
+        s.duration = std::min(s.duration, 1.0);
+        s.substeps = steps.substeps;
+        s.velocity_iterations = s.position_iterations = steps.iterations;
+        for (const double error : errors_of(subject)) {
+            EXPECT_FALSE(std::isnan(error)) << s.dt << " s × " << s.substeps;
+            EXPECT_GE(error, 0) << s.dt << " s × " << s.substeps;
+        }
     }
-    RecordProperty("error", std::to_string(judge->error()));
-    EXPECT_LE(judge->error(), subject.tolerance) << subject.metrics.front().what;
-    EXPECT_GT(judge->error(), subject.tolerance / 3) << "the tolerance says more than is measured";
+}
+
+TEST(Cases, HaveNamesOfTheirOwn) {
+    std::set<std::string_view> names;
+    for (const study::CaseEntry& entry : study::cases())
+        EXPECT_TRUE(names.insert(entry.name).second) << entry.name << " stands there twice";
+    EXPECT_EQ(study::find_case("no such case"), nullptr);
 }
 
 }  // namespace

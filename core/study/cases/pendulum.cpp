@@ -11,7 +11,7 @@
 namespace plumb::study {
 namespace {
 
-constexpr double kHalfLength = 0.5, kHalfWidth = 0.02, kGravity = 9.81;  // [m], [m/s²]
+constexpr double kHalfLength = 0.5, kHalfWidth = 0.02;  // [m]
 
 /// θ(t) = 2 asin(k sn(K − ω t; k)), k = sin(θ₀/2): the angle from the vertical of a pendulum let go
 /// at θ₀, where ω is the rate of small swings (Landau, Lifshitz: Mechanics, §11).
@@ -24,15 +24,8 @@ double angle_of_pendulum(double start, double rate, double time) {
 }  // namespace
 
 Subject pendulum() {
-    Subject s;
-    s.name = "pendulum";
-    s.title = "A rod of 1 m swings about its end, let go at 90°";
-    s.reference = "the angle by Jacobi's elliptic functions";
-    s.scene.name = s.name;
-    s.scene.settings.dt = 1.0 / 60;
-    s.scene.settings.substeps = 20;
-    s.scene.settings.velocity_iterations = s.scene.settings.position_iterations = 1;
-    s.scene.settings.duration = 4;
+    Subject s = begin_subject("pendulum", "A rod of 1 m swings about its end, let go at 90°",
+                              "the angle by Jacobi's elliptic functions", 4);
     add_body(s.scene, box({kHalfLength, kHalfWidth, kHalfWidth}), {kHalfLength, 0, 0});
     add_joint(s.scene, JointKind::ball, 0, kNoIndex, Eigen::Vector3d::Zero());
 

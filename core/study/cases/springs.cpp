@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+/// A column of bodies on joints that give way.
+#include "study/cases/list.h"
+#include "study/cases/parts.h"
+#include "study/judges.h"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace plumb::study {
+namespace {
+
+/// N bodies of mass m below each other, each joint of compliance a. Let go unstretched, the column
+/// swings about the elongation a m g N (N + 1)/2, in the modes of a row of springs:
+///
+///   ωⱼ = 2/√(a m) sin(φⱼ/2),  u(i) ~ sin(i φⱼ),  φⱼ = (2j − 1) π / (2N + 1)
+struct Column {
+    static constexpr int kCount = 5;
+    double mass = 1, compliance = 1e-3;  ///< [kg], [m/N]
+
+    double elongation() const { return compliance * mass * kGravity * kCount * (kCount + 1) / 2; }
+    /// How far the lowest body has come down [m].
+    double lowered(double time) const {
+        double sum = 0;
+        for (int j = 1; j <= kCount; ++j) {
+            const double phi = (2 * j - 1) * std::numbers::pi / (2 * kCount + 1);
+            const double rate = 2 / std::sqrt(compliance * mass) * std::sin(phi / 2);
+            double push = 0;
+            for (int i = 1; i <= kCount; ++i) push += kGravity * std::sin(i * phi);
+            const double part = push / (0.25 * (2 * kCount + 1)) / (rate * rate);
+            sum += part * std::sin(kCount * phi) * (1 - std::cos(rate * time));
+        }
+        return sum;
+    }
+};
+
+constexpr double kSpacing = 0.3;  // [m]
+
+/// How much too far the lowest body has come down, of the elongation.
+double too_far(const Column& column, const World& w) {
+    const double down = -kSpacing * Column::kCount - w.bodies.position.back().y();
+    return (down - column.lowered(w.time)) / column.elongation();
+}
+
+/// The mean over time of what the lowest body is too far.
+class MeanJudge : public Judge {
+public:
+    void look(const World& w) override {
+        const double now = too_far(column_, w);
+        sum_ += 0.5 * (now + before_) * (w.time - time_);
+        before_ = now;
+        time_ = w.time;
+    }
+    double error() const override { return time_ > 0 ? size_of(sum_ / time_) : 0; }
+
+private:
+    Column column_;
+    double sum_ = 0, before_ = 0, time_ = 0;
+};
+
+}  // namespace
+
+Subject springs() {
+    Subject s = begin_subject("springs", "Five bodies swing below each other on compliant joints",
+                              "the modes of a row of springs, about a m g N (N + 1)/2", 3);
+    const Column column;
+    s.scene.settings.forbid = {"contacts"};
+    for (std::uint32_t i = 0; i < Column::kCount; ++i) {
+        const Vector3d at(0, -kSpacing * (i + 1), 0);
+        add_body(s.scene, sphere(0.05), at).mass = column.mass;
+        add_joint(s.scene, JointKind::ball, i, i > 0 ? i - 1 : kNoIndex, at).compliance =
+            column.compliance;
+    }
+    s.metrics = {largest("position", "", "largest error of the lowest body, of the elongation",
+                         [column](const World& w) { return too_far(column, w); }),
+                 {"elongation", "", "error of the mean elongation",
+                  [] { return std::make_unique<MeanJudge>(); }}};
+    s.tolerance = 0.15;
+    s.orders = {.substeps = 1, .step = 1};
+    return s;
+}
+
+}  // namespace plumb::study

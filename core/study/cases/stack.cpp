@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+/// Cubes that stand on each other.
+#include "study/cases/list.h"
+#include "study/cases/parts.h"
+#include "study/judges.h"
+
+#include <algorithm>
+
+namespace plumb::study {
+namespace {
+
+constexpr std::uint32_t kCount = 10;
+constexpr double kHalf = 0.25;  // [m]
+
+/// Force with which body a + 1 presses on body a [N], from the impulses of the last substep.
+double force_on(const World& w, std::uint32_t a) {
+    const ContactTable& contacts = w.contacts;
+    double impulse = 0;
+    for (std::size_t i = 0; i < contacts.found_before.size(); ++i)  // what this step remembered
+        if (contacts.found_before[i].a == a && contacts.found_before[i].b == a + 1)
+            impulse += contacts.memory_before[i].normal_impulse;
+    return impulse * w.settings.substeps / w.settings.dt;
+}
+
+double force_error(const World& w) {
+    double worst = 0, weight = 0;
+    for (std::uint32_t a = kCount; a-- > 0;) {
+        weight += w.bodies.mass[a + 1] * kGravity;
+        worst = std::max(worst, size_of(force_on(w, a) / weight - 1));
+    }
+    return worst;
+}
+
+/// How far the cubes are from where they were put, of an edge.
+double shift(const World& w) {
+    double worst = 0;
+    for (std::uint32_t i = 1; i <= kCount; ++i) {
+        const Vector3d start(0, kHalf * (2 * i - 1), 0);
+        worst = std::max(worst, size_of((w.bodies.position[i] - start).norm() / (2 * kHalf)));
+    }
+    return worst;
+}
+
+}  // namespace
+
+Subject stack() {
+    Subject s = begin_subject("stack", "Ten cubes stand on each other",
+                              "each level bears the weight of what is above it", 3);
+    add_ground(s.scene);
+    for (std::uint32_t i = 0; i < kCount; ++i)
+        add_body(s.scene, box(Vector3d::Constant(kHalf)), {0, kHalf * (2 * i + 1), 0});
+    s.metrics = {largest("shift", "", "largest way of a cube, of its edge", shift),
+                 last("force", "", "largest error of a level's force in the end", force_error)};
+    s.tolerance = 1e-8;
+    s.orders = {.step = 2};  // g dt² is the only length that it can be a share of
+    return s;
+}
+
+}  // namespace plumb::study

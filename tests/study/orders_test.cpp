@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+/// Errors of the cases fall as fast as the cases say: slopes of log error against log step, fitted
+/// over half, once, twice and four times the resolution, in double precision.
+#include "study/measured.h"
+
+#include <iostream>
+#include <ostream>
+#include <utility>
+
+namespace plumb::test {
+namespace {
+
+constexpr double kRounding = 1.5e-11;  ///< errors below it are not of the steps' making
+
+/// Slope of the straight line that fits the points best.
+double slope_of(const std::vector<std::pair<double, double>>& points) {
+    const double n = static_cast<double>(points.size());
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (const auto& [a, b] : points) x += a, y += b, xx += a * a, xy += a * b;
+    return (n * xy - x * y) / (n * xx - x * x);
+}
+
+/// Order at which the first metric falls; `refine` makes the steps finer by a factor, and says
+/// whether it could.
+double order_of(const study::CaseEntry& entry, bool (*refine)(Settings&, double)) {
+    std::vector<std::pair<double, double>> points;
+    for (const double finer : {0.5, 1.0, 2.0, 4.0}) {
+        study::Subject subject = entry.make();
+        subject.scene.settings.precision = Precision::double_;
+        if (!refine(subject.scene.settings, finer)) continue;
+        const double error = errors_of(subject)[0];
+        std::cout << "  " << error;
+        if (error > kRounding) points.emplace_back(std::log(finer), std::log(error));
+    }
+    const double order = -slope_of(points);
+    std::cout << ": order " << order << "\n";
+    return order;
+}
+
+bool refine_substeps(Settings& s, double finer) {
+    const double substeps = s.substeps * finer;
+    s.substeps = static_cast<std::uint32_t>(substeps);
+    return s.substeps == substeps;
+}
+
+bool refine_step(Settings& s, double finer) {
+    s.dt /= finer;
+    return true;
+}
+
+/// What a case says of one way of refining.
+struct Stated {
+    study::CaseEntry entry;
+    const char* way;
+    double order;
+    bool (*refine)(Settings&, double);
+};
+
+void PrintTo(const Stated& stated, std::ostream* out) { *out << stated.entry.name; }
+
+std::vector<Stated> stated_orders() {
+    std::vector<Stated> all;
+    for (const study::CaseEntry& entry : study::cases()) {
+        const study::Orders orders = entry.make().orders;
+        if (orders.substeps > 0)
+            all.push_back({entry, "substeps", orders.substeps, refine_substeps});
+        if (orders.step > 0) all.push_back({entry, "step", orders.step, refine_step});
+    }
+    return all;
+}
+
+class Order : public testing::TestWithParam<Stated> {};
+INSTANTIATE_TEST_SUITE_P(, Order, testing::ValuesIn(stated_orders()), [](const auto& which) {
+    return std::string(which.param.entry.name) + "_by_" + which.param.way;
+});
+
+TEST_P(Order, IsAsStated) {
+    EXPECT_NEAR(order_of(GetParam().entry, GetParam().refine), GetParam().order, 0.15);
+}
+
+}  // namespace
+}  // namespace plumb::test
