@@ -2,6 +2,7 @@
 #include "step/impacts.h"
 
 #include "step/contact_measures.h"
+#include "world/body_momentum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,12 +29,6 @@ bool collides(const World& world, std::size_t i, double threshold, double h) {
     if (!c.rebound.empty() && c.rebound[i] == ContactTable::kPassing) return false;
     const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
     return -u > threshold && c.gap[i] + h * u < 0;
-}
-
-/// I a · b, for vectors of the world's frame.
-double turning_energy(const Bodies& bodies, std::uint32_t i, const Vector3d& a, const Vector3d& b) {
-    const Quaterniond back = bodies.orientation[i].conjugate();
-    return (back * a).cwiseProduct(bodies.inertia[i]).dot(back * b);
 }
 
 }  // namespace
@@ -97,8 +92,9 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
         const std::uint32_t body = body_of_[row];
         const Change& d = changes_[row];
         const Vector3d &v = bodies.velocity_now[body], &w = bodies.angular_velocity_now[body];
-        b += bodies.mass[body] * v.dot(d.v) + turning_energy(bodies, body, w, d.w);
-        a += 0.5 * (bodies.mass[body] * d.v.squaredNorm() + turning_energy(bodies, body, d.w, d.w));
+        b += bodies.mass[body] * v.dot(d.v) + turning_product(bodies, body, w, d.w);
+        a +=
+            0.5 * (bodies.mass[body] * d.v.squaredNorm() + turning_product(bodies, body, d.w, d.w));
     }
     return a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 1;
 }
@@ -111,10 +107,9 @@ void Impacts::take(World& world, const std::vector<BodyPair>& pairs) {
             const std::int32_t row = islands_.bodies()[i];
             const std::uint32_t body = body_of_[row];
             const Vector3d dv = share * changes_[row].v, dw = share * changes_[row].w;
-            const Quaterniond& q = b.orientation[body];
             b.velocity[body] += dv, b.velocity_now[body] += dv;
             b.angular_velocity[body] += dw, b.angular_velocity_now[body] += dw;
-            b.angular_momentum[body] += q * b.inertia[body].cwiseProduct(q.conjugate() * dw);
+            b.angular_momentum[body] += spin_momentum(b, body, dw);
         }
     }
 }
