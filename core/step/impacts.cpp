@@ -63,14 +63,19 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
         const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
         if (!hit) continue;
         const std::uint8_t mark = last - first == 1 ? kAlone : kAmongOthers;
-        std::for_each(first, last, [&](std::uint32_t p) { hit_[p] = mark; });
+        std::for_each(first, last, [&](std::uint32_t p) {
+            hit_[p] = mark;
+            take_bodies(world, pairs[p]);
+        });
         colliding_.push_back(island);
     }
-    changes_.resize(static_cast<std::size_t>(world.dynamic_count));
-    body_of_.resize(static_cast<std::size_t>(world.dynamic_count));
-    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies.motion[i] == Motion::dynamic) body_of_[world.bodies.row[i]] = i;
     return true;
+}
+
+void Impacts::take_bodies(const World& world, const BodyPair& pair) {
+    const Contact& contact = world.contacts.found[pair.first];
+    if (pair.row_a < world.dynamic_count) body_of_[pair.row_a] = contact.a;
+    if (pair.row_b < world.dynamic_count) body_of_[pair.row_b] = contact.b;
 }
 
 /// The greatest share of the changes, at most 1, with which the island has no more energy than
