@@ -64,9 +64,8 @@ private:
         bool free, hung;  ///< a root that hangs by nothing; the tree's root hangs by something
         double sign;      ///< 1 where the body is the joint's a, else −1
         double mass;
-        Symmetric3<double> inertia;  ///< world frame, at the start [kg m²]
-        Vector3d arm, other_arm;     ///< of the joint's point, at the start [m]
-        JointLever<double> lever, other_lever;
+        Symmetric3<double> inertia;     ///< world frame, at the start [kg m²]
+        Vector3d arm, other_arm;        ///< of the joint's point, at the start [m]
         Vector3d apart;                 ///< child's point − parent's, at the start [m]
         Change start, held;             ///< velocity at the start; of an immovable parent
         Change given, own, written;     ///< changes by others, by this solver, and their sum when
@@ -80,6 +79,9 @@ private:
         std::vector<DrivenAxis> axes;  ///< that the joint leaves free
         int first_axis_row;            ///< of theirs in `elimination`
         BodyBlock<double> block;
+
+        JointLever<double>& lever() { return sign > 0 ? geometry.lever_a : geometry.lever_b; }
+        JointLever<double>& other_lever() { return sign > 0 ? geometry.lever_b : geometry.lever_a; }
     };
 
     template <class Real>
