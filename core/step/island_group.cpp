@@ -46,12 +46,11 @@ Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
 }
 
-/// Velocity of a contact's point on a against that on b [m/s].
+/// Of a contact's point on a against that on b, forces included [m/s].
 Vector3d relative_velocity(const World& world, std::uint32_t contact) {
     const Bodies& b = world.bodies;
-    const Contact& c = world.contacts.found[contact];
-    const Vector3d& at = world.contacts.point[contact];
-    return velocity_at(b, c.a, at - b.position[c.a]) - velocity_at(b, c.b, at - b.position[c.b]);
+    return relative_velocity(b, b.velocity, b.angular_velocity, world.contacts.found[contact],
+                             world.contacts.point[contact]);
 }
 
 /// How fast gravity and the constant force would make a body in a second [m/s²].
