@@ -2,6 +2,7 @@
 /// Contacts are detected once a step; through its substeps their points ride on the bodies, and
 /// with them the gap and the common point at which the contact acts. Only a point of now keeps
 /// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
+#include "step/anchors.h"
 #include "step/rims.h"
 #include "step/stages.h"
 
@@ -11,13 +12,6 @@ namespace {
 /// A contact has rolled on once its point has come farther than this share of the rim's radius
 /// along both bodies.
 constexpr double kRolledOn = 1e-3;
-
-Vector3d in_body(const Bodies& b, std::uint32_t i, const Vector3d& point) {
-    return b.orientation[i].conjugate() * (point - b.position[i]);
-}
-Vector3d in_world(const Bodies& b, std::uint32_t i, const Vector3d& point) {
-    return b.position[i] + b.orientation[i] * point;
-}
 
 /// Where two points of a contact slide past each other, it goes with that of the body that touches
 /// with a point: with what moves along what does not, with what is round along what is sharp, with
@@ -76,8 +70,7 @@ void let_go_of_what_rolled(World& world, std::size_t i) {
     for (const Vector3d& was :
          {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
         if ((now - was).cross(n).squaredNorm() < far * far) return;
-    m.stick_a = in_body(b, contact.a, now);
-    m.stick_b = in_body(b, contact.b, now);
+    set_anchors(m, b, contact, now, Vector3d::Zero());
 }
 
 /// How far apart the points have come that met when a contact began to stick.
@@ -88,8 +81,7 @@ void measure_drifts(World& world) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
         let_go_of_what_rolled(world, i);
-        c.drift[i] = in_world(world.bodies, contact.a, c.memory[i].stick_a) -
-                     in_world(world.bodies, contact.b, c.memory[i].stick_b);
+        c.drift[i] = drift_of(world.bodies, contact, c.memory[i]);
     }
 }
 

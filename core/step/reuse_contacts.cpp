@@ -108,13 +108,10 @@ void compact(KeptContacts& kept) {
 }
 
 Contact in_bodies(const Contact& c, const Bodies& b) {
-    const auto back = [&](std::uint32_t body, const Vec3& v, const Vector3d& origin) {
-        return to_plain(Vector3d(b.orientation[body].conjugate() * (to_eigen(v) - origin)));
-    };
     Contact local = c;
-    local.point_a = back(c.a, c.point_a, b.position[c.a]);
-    local.point_b = back(c.b, c.point_b, b.position[c.b]);
-    local.normal = back(c.a, c.normal, Vector3d::Zero());
+    local.point_a = to_plain(in_body(b, c.a, to_eigen(c.point_a)));
+    local.point_b = to_plain(in_body(b, c.b, to_eigen(c.point_b)));
+    local.normal = to_plain(Vector3d(b.orientation[c.a].conjugate() * to_eigen(c.normal)));
     return local;
 }
 
