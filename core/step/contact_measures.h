@@ -29,6 +29,19 @@ inline double separating_velocity(const Bodies& b, const Contact& c, const Vecto
         relative_velocity(b, b.velocity_now, b.angular_velocity_now, c, point));
 }
 
+/// A gap that nothing closes within a substep [m].
+inline constexpr double kOutOfReach = 1e6;
+
+/// Gap that a contact keeps its surfaces from closing [m].
+inline double gap_in_substep(const ContactTable& c, std::size_t i) {
+    return c.is_passing(i) ? kOutOfReach : c.gap[i];
+}
+
+/// Separating speed that restitution asks of a contact [m/s]; 0: none.
+inline double asked_rebound(const ContactTable& c, std::size_t i) {
+    return c.rebound.empty() || c.is_passing(i) ? 0 : c.rebound[i];
+}
+
 /// Bounding radius of the smaller of the bodies that can move [m].
 inline double smaller_radius(const Bodies& b, const Contact& c) {
     double radius = std::numeric_limits<double>::infinity();

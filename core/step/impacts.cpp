@@ -26,7 +26,7 @@ bool may_collide(const World& world, double threshold) {
 /// through before it rebounds does not.
 bool collides(const World& world, std::size_t i, double threshold, double h) {
     const ContactTable& c = world.contacts;
-    if (!c.rebound.empty() && c.rebound[i] == ContactTable::kPassing) return false;
+    if (c.is_passing(i)) return false;
     const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
     return -u > threshold && c.gap[i] + h * u < 0;
 }

@@ -12,9 +12,6 @@
 namespace plumb {
 namespace {
 
-/// A gap that nothing closes within a substep: of a collision that comes through [m].
-constexpr double kOutOfReach = 1e6;
-
 /// Islands of so many bodies are solved exactly however they move.
 constexpr std::uint32_t kVerySmall = 8;
 
@@ -300,9 +297,8 @@ void IslandGroup::ask(const World& world, std::size_t k, double h, double recove
     const std::uint32_t contact = contacts_[k];
     IslandPoint& p = points_[k];
 
-    const double rebound = c.rebound.empty() ? 0 : c.rebound[contact];
-    const double gap = rebound == ContactTable::kPassing ? kOutOfReach : c.gap[contact];
-    double normal = closing_velocity(gap, h, recovery, s.stiffness);
+    const double rebound = asked_rebound(c, contact);
+    double normal = closing_velocity(gap_in_substep(c, contact), h, recovery, s.stiffness);
     if (std::abs(normal) < least) normal = 0;
     if (rebound > 0) normal = rebound;
 

@@ -9,6 +9,7 @@
 #include "schedule/tree_blocks.h"
 #include "step/driven_axis.h"
 #include "step/tree_progress.h"
+#include "step/velocity_table.h"
 #include "world/world.h"
 
 #include <vector>
@@ -86,17 +87,13 @@ private:
 
     template <class Real>
     static Change read(const Real* rows, std::int32_t row) {
-        const Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        return {{{double(r[0]), double(r[1]), double(r[2])},
-                 {double(r[4]), double(r[5]), double(r[6])}}};
+        const Velocity<Real> x = velocity_in(rows, row);
+        return {{x.v.template cast<double>(), x.w.template cast<double>()}};
     }
     template <class Real>
     static void write(Real* rows, std::int32_t row, const Change& change) {
-        Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        for (int k = 0; k < 3; ++k) {
-            r[k] = static_cast<Real>(change.v[k]);
-            r[4 + k] = static_cast<Real>(change.w[k]);
-        }
+        put_velocity<Real>(rows, row,
+                           {change.v.template cast<Real>(), change.w.template cast<Real>()});
     }
 
     static void add_axes(const World& world, Node& node);

@@ -75,6 +75,9 @@ struct ContactTable {
     std::uint64_t rejected =
         0;  ///< contacts left out since the start: a number not finite, or an id unknown
 
+    /// Whether a contact comes through before it rebounds.
+    bool is_passing(std::size_t i) const { return !rebound.empty() && rebound[i] == kPassing; }
+
     static constexpr double kPassing = -1;
     static constexpr double kParting = 1e-9;  ///< a rebound that has happened already [m/s]
 };
