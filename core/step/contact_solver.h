@@ -216,6 +216,7 @@ private:
 
     /// Velocities at rims are those over the whole substep.
     void bend(const ContactTable& c) {
+        if (c.bend.empty()) return;
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             if (c.rims[contact].rim.radius == 0) return;

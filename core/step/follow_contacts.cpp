@@ -62,8 +62,8 @@ void measure(World& world) {
 void let_go_of_what_rolled(World& world, std::size_t i) {
     const ContactTable& c = world.contacts;
     const Contact& contact = c.found[i];
-    const double far = kRolledOn * c.rims[i].rim.radius;
     if (!c.rims[i].runs) return;
+    const double far = kRolledOn * c.rims[i].rim.radius;
     const Bodies& b = world.bodies;
     ContactMemory& m = world.contacts.memory[i];
     const Vector3d n = to_eigen(contact.normal), &now = c.point[i];
@@ -80,7 +80,7 @@ void measure_drifts(World& world) {
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
-        let_go_of_what_rolled(world, i);
+        if (!c.rims.empty()) let_go_of_what_rolled(world, i);
         c.drift[i] = drift_of(world.bodies, contact, c.memory[i]);
     }
 }
@@ -88,11 +88,12 @@ void measure_drifts(World& world) {
 }  // namespace
 
 void follow_contacts(World& world, const Plan& plan, bool first_substep) {
+    const bool rims = plan.runs(Effect::rims);
     if (first_substep) {
         take_as_found(world);
-        find_rims(world);
+        rims ? find_rims(world) : forget_rims(world);
     } else {
-        follow_rims(world);
+        if (rims) follow_rims(world);
         measure(world);
     }
     if (plan.runs(Effect::sticking_anchors)) measure_drifts(world);

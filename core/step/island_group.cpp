@@ -310,7 +310,8 @@ void IslandGroup::ask(const World& world, std::size_t k, double h, double recove
     }
 
     // what is immovable may move by itself, and a rim runs on
-    Vector3d moving = c.bend[contact], turning = Vector3d::Zero();
+    Vector3d moving = Vector3d::Zero(), turning = Vector3d::Zero();
+    if (!c.bend.empty()) moving = c.bend[contact];
     const auto add = [&](std::uint32_t body, const Vector3d& arm, double sign) {
         moving += sign * velocity_at(world.bodies, body, arm);
         turning += sign * world.bodies.angular_velocity[body];

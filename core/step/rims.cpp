@@ -2,6 +2,7 @@
 #include "step/rims.h"
 
 #include "math/rotation.h"
+#include "world/has_rim.h"
 
 #include <cmath>
 
@@ -33,9 +34,8 @@ PlacedPart part_of(const World& world, std::uint32_t body, std::uint32_t part) {
 
 /// The rim of a shape that is farthest along d, in the shape's frame; radius 0: none.
 Rim rim_towards(const Shape& shape, const Vector3d& d) {
-    const bool cone = shape.kind == ShapeKind::cone;
-    if (!cone && shape.kind != ShapeKind::cylinder) return {};
-    const double side = cone || d.y() < 0 ? -1 : 1;
+    if (!has_rim(shape.kind)) return {};
+    const double side = shape.kind == ShapeKind::cone || d.y() < 0 ? -1 : 1;
     return {{0, side * shape.half_height, 0}, Vector3d::UnitY(), shape.radius};
 }
 
@@ -91,6 +91,11 @@ void find_rims(World& world) {
         if (c.rims[i].rim.radius > 0) continue;
         c.rims[i] = rim_at(world, contact.b, contact.part_b, contact.point_b, n);
     }
+}
+
+void forget_rims(World& world) {
+    world.contacts.rims.clear();
+    world.contacts.bend.clear();
 }
 
 void foresee_rims(World& world, double h) {
