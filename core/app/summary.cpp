@@ -130,6 +130,7 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
           Stage::positions, Stage::remember}},
         {Effect::contact_reuse, {Stage::reuse}},
         {Effect::restitution, {Stage::restitution}},
+        {Effect::still_ground, {Stage::still_ground}},
         {Effect::exact_islands, {Stage::islands}},
         {Effect::kinematics, {Stage::kinematics}},
         {Effect::shock_propagation, {Stage::shock}}};

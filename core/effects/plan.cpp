@@ -4,6 +4,7 @@
 #include "effects/meetings.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
+#include "world/has_rim.h"
 
 #include <algorithm>
 
@@ -71,6 +72,26 @@ Wish sticking_anchors(const World& w) {
     if (!(w.settings.anchor_stiffness > 0)) return {false, "anchor_stiffness is 0"};
     return {true, "friction that sticks remembers where (anchor_stiffness > 0)"};
 }
+bool may_touch(const World& w) {
+    return contacts(w).wanted &&
+           std::count(w.settings.forbid.begin(), w.settings.forbid.end(), "contacts") == 0;
+}
+Wish rims(const World& w) {
+    if (!may_touch(w)) return {false, "there are no contacts"};
+    return counted(
+        count_bodies(w, [&](std::size_t i) { return has_rim(w, static_cast<std::uint32_t>(i)); }),
+        "bodies have flat round ends, on whose rims they roll", "no body has a flat round end");
+}
+Wish still_ground(const World& w) {
+    if (!may_touch(w)) return {false, "there are no contacts"};
+    if (!w.settings.shared_push)
+        return {false, "what stands still may give energy, as in the paper (shared_push)"};
+    const auto stands = [&](std::size_t i) {
+        return w.bodies.motion[i] == Motion::fixed && w.bodies.reach[i] > 0;
+    };
+    return counted(count_bodies(w, stands), "fixed bodies give no energy to what touches them",
+                   "nothing with a shape is fixed");
+}
 Wish exact_islands(const World& w) {
     if (!contacts(w).wanted) return {false, "there are no contacts"};
     const std::uint32_t most = w.settings.exact_islands;
@@ -124,6 +145,8 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"restitution", restitution},
     {"impacts", impacts},
     {"sticking_anchors", sticking_anchors},
+    {"rims", rims},
+    {"still_ground", still_ground},
     {"gyroscopic", gyroscopic},
     {"exact_islands", exact_islands},
     {"joints", joints},

@@ -25,6 +25,8 @@ enum class Effect : std::uint32_t {
     restitution,
     impacts,
     sticking_anchors,
+    rims,
+    still_ground,
     gyroscopic,
     exact_islands,
     joints,
@@ -32,7 +34,7 @@ enum class Effect : std::uint32_t {
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 13;
+inline constexpr std::size_t kEffectCount = 15;
 
 struct Decision {
     std::string_view name;

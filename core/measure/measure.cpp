@@ -2,17 +2,13 @@
 #include "measure/measure.h"
 
 #include "step/joint_state.h"
+#include "world/body_momentum.h"
 
 #include <algorithm>
 #include <cstring>
 
 namespace plumb {
 namespace {
-
-Vector3d spin_momentum(const Bodies& b, std::size_t i) {
-    const Quaterniond& q = b.orientation[i];
-    return q * b.inertia[i].cwiseProduct(q.conjugate() * b.angular_velocity[i]);
-}
 
 /// The contacts of the last detection: kept as those "before" once a step is done.
 const std::vector<Contact>& last_contacts(const World& world) {
@@ -22,11 +18,8 @@ const std::vector<Contact>& last_contacts(const World& world) {
 }  // namespace
 
 double kinetic_energy(const World& world) {
-    const Bodies& b = world.bodies;
     double sum = 0;
-    for (std::size_t i = 0; i < b.size(); ++i)
-        sum += 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() +
-                      b.angular_velocity[i].dot(spin_momentum(b, i)));
+    for (std::size_t i = 0; i < world.bodies.size(); ++i) sum += kinetic_energy(world.bodies, i);
     return sum;
 }
 
@@ -50,7 +43,8 @@ Vector3d angular_momentum(const World& world) {
     const Bodies& b = world.bodies;
     Vector3d sum = Vector3d::Zero();
     for (std::size_t i = 0; i < b.size(); ++i)
-        sum += b.position[i].cross(b.mass[i] * b.velocity[i]) + spin_momentum(b, i);
+        sum += b.position[i].cross(b.mass[i] * b.velocity[i]) +
+               spin_momentum(b, i, b.angular_velocity[i]);
     return sum;
 }
 

@@ -10,6 +10,12 @@
 
 namespace plumb {
 
+/// Where a contact sits: its lane of a row, and the block of its pair.
+struct ContactPlace {
+    std::size_t contact, pair;
+    std::uint32_t block, row, lane;
+};
+
 template <class Real, int W>
 class ContactBatches {
 public:
@@ -40,16 +46,21 @@ public:
         clear(turnings_, variant == ContactVariant::turning ? rows : 0);
     }
 
-    /// Memory for a copy of another.
-    void reserve_as(const ContactBatches& other) {
-        blocks_.reserve(other.blocks_.size()), normals_.reserve(other.normals_.size());
-        frictions_.reserve(other.frictions_.size()), turnings_.reserve(other.turnings_.size());
-        ranges_.reserve(other.ranges_.size()), slots_.reserve(other.slots_.size());
+    /// Calls visit(ContactPlace) for all contacts of the pairs that were laid out, in their order.
+    template <class Visit>
+    void each_contact(const std::vector<BodyPair>& pairs, Visit visit) const {
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            const auto [block, lane] = slots_[p];
+            const std::uint32_t first = blocks_[block].first_row;
+            for (std::uint32_t i = 0; i < pairs[p].count; ++i)
+                visit(ContactPlace{pairs[p].first + i, p, block, first + i, lane});
+        }
     }
 
     const std::vector<BlockRange>& ranges() const { return ranges_; }
     Slot slot(std::size_t pair) const { return slots_[pair]; }
     std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
+    std::size_t row_count() const { return normals_.size(); }
     ContactArrays<Real, W> arrays() {
         return {blocks_.data(), normals_.data(), frictions_.data(), turnings_.data()};
     }

@@ -7,6 +7,8 @@
 #include "kernels/contact_kernels.h"
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
+#include "step/contact_impacts.h"
+#include "step/contact_impulses.h"
 #include "step/contact_measures.h"
 #include "step/contact_pairs.h"
 #include "step/fill_mass.h"
@@ -89,15 +91,11 @@ public:
         const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             NormalRow<Real, W>& row = rows.normals[k];
-            row.gap[lane] = static_cast<Real>(c.gap[contact]);
-            clamped += -row.gap[lane] > pass.recovery;
+            row.gap[lane] = static_cast<Real>(gap_in_substep(c, contact));
+            row.rebound[lane] = static_cast<Real>(asked_rebound(c, contact));
+            clamped += -static_cast<Real>(c.gap[contact]) > pass.recovery;
             if (-c.gap[contact] > trusted_[contact])
                 doubt(rows, k, lane, -c.gap[contact] / trusted_[contact]);
-            if (!c.rebound.empty()) {
-                const bool passing = c.rebound[contact] == ContactTable::kPassing;
-                row.rebound[lane] = passing ? Real(0) : static_cast<Real>(c.rebound[contact]);
-                if (passing) row.gap[lane] = kOutOfReach;
-            }
             if (!rows.frictions || c.drift.empty()) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
             const auto [x, y] = tangents(row, across, lane);
@@ -110,76 +108,20 @@ public:
     }
 
     /// Memory for impacts, so that the first of them allocates none.
-    void reserve_impacts() {
-        resting_.reserve_as(batches_);
-        given_.reserve(trusted_.size());
-    }
+    void reserve_impacts() { impacts_.reserve(batches_, trusted_.size()); }
 
-    /// Puts the impulses of the substep before aside and begins from nothing: how fast contacts
-    /// approach, and how far they may.
+    /// What an impact does to the rows is said in step/contact_impacts.h.
     void begin_impacts(const World& world, const BodyRows<Real>& bodies,
                        const PassSettings<Real>& pass) {
-        const ContactTable& c = world.contacts;
-        const ContactArrays<Real, W> rows = batches_.arrays();
         if (!is_fresh_) fill_geometry(world);
         is_fresh_ = true;
-        resting_ = batches_;
-        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
-            NormalRow<Real, W>& row = rows.normals[k];
-            const bool passing = !c.rebound.empty() && c.rebound[contact] == ContactTable::kPassing;
-            row.gap[lane] = passing ? kOutOfReach : static_cast<Real>(c.gap[contact]);
-            row.rebound[lane] = 0;
-            if (rows.frictions)
-                rows.frictions[k].drift_x[lane] = rows.frictions[k].drift_y[lane] = 0;
-        });
+        impacts_.begin(world.contacts, pairs_, batches_);
         run(kernels_.begin, bodies, pass);
     }
-
-    /// Restitution of the contacts that collided, after their compression. Returns whether there
-    /// is any.
     bool give_back(World& world, const Impacts& impacts, const BodyRows<Real>& bodies) {
-        ContactTable& c = world.contacts;
-        if (c.rebound.empty()) return false;
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        const double threshold = collision_threshold(world.settings);
-        given_.clear();
-        each_hit_contact(impacts, [&](const HitContact& hit) {
-            if (c.rebound[hit.contact] == ContactTable::kPassing) return;
-            c.rebound[hit.contact] = 0;
-            const Contact& found = c.found[hit.contact];
-            const double e = world.surface_pair(found.a, found.b).restitution;
-            NormalRow<Real, W>& row = rows.normals[hit.row];
-            const double lambda = double(row.lambda_velocity[hit.lane]);
-            const bool collides = lambda > threshold * double(row.effective_mass[hit.lane]);
-            if (!(e > 0) || !collides || c.gap[hit.contact] > 0) return;
-            given_.push_back(hit);
-            const Real impulse = static_cast<Real>(e * lambda);
-            push_normal(bodies, rows.blocks[hit.block], row, hit.lane, impulse);
-            row.lambda_velocity[hit.lane] += impulse;
-        });
-        for (const HitContact& g : given_) {
-            NormalRow<Real, W>& row = rows.normals[g.row];
-            row.rebound[g.lane] =
-                std::max(Real(0), row.velocity[g.lane] +
-                                      change_along(bodies, rows.blocks[g.block], row, g.lane));
-            c.bounced[g.contact] = 1;
-        }
-        return !given_.empty();
+        return impacts_.give_back(world, impacts, pairs_, batches_, bodies);
     }
-
-    /// Takes the impulses that were put aside up again. What bounced parts as it does: the recovery
-    /// of its overlap adds nothing. A pair for itself keeps its speed through the substep, half of
-    /// whose forces belong before the impact; among others that would add energy.
-    void end_impacts(World& world) {
-        std::swap(batches_, resting_);
-        for (const HitContact& g : given_) {
-            const double u = separating_velocity(world.bodies, world.contacts.found[g.contact],
-                                                 world.contacts.point[g.contact]);
-            world.contacts.rebound[g.contact] =
-                g.alone ? std::max(u, 0.0) : (u > 0 ? ContactTable::kParting : 0);
-        }
-        given_.clear();
-    }
+    void end_impacts(World& world) { impacts_.end(world, batches_); }
 
     void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
         run(kernels_.warm_start, bodies, pass);
@@ -210,12 +152,7 @@ public:
     static void doubt(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
                       double overlap) {
         const Real kept = static_cast<Real>(std::max(kLeastKept, 2 - overlap));
-        NormalRow<Real, W>& row = rows.normals[k];
-        row.lambda_velocity[lane] *= kept, row.lambda_position[lane] *= kept;
-        if (!rows.frictions) return;
-        FrictionRow<Real, W>& across = rows.frictions[k];
-        for (Real* sum : {across.held_x, across.held_y, across.rubbed_x, across.rubbed_y})
-            sum[lane] *= kept;
+        each_sum(rows, k, [&](Real* sum) { sum[lane] *= kept; });
     }
 
     /// Takes over another solver's summed impulses: what shock propagation adds to.
@@ -250,7 +187,6 @@ public:
     }
 
 private:
-    static constexpr Real kOutOfReach = Real(1e6);  // [m]
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
     /// full, if it is more than what gravity moves in a step. Only bodies that are moved by others
     /// squeeze without end; elsewhere it must be deep indeed, or heaps would creep. What presses on
@@ -258,55 +194,6 @@ private:
     static constexpr double kTrusted = 0.1, kTrustedWhereMoved = 0.02;
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
-
-    /// A contact of an island in which bodies collide, and where it is.
-    struct HitContact {
-        std::size_t contact;
-        std::uint32_t block, row, lane;
-        bool alone;  ///< whether its pair is an island for itself
-    };
-
-    static Real* change_row(const BodyRows<Real>& bodies, std::int32_t row) {
-        return bodies.change + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-    }
-    static Vector3<Real> column(const Real (&x)[3][W], std::uint32_t lane) {
-        return {x[0][lane], x[1][lane], x[2][lane]};
-    }
-    static Symmetric3<Real> column(const Real (&x)[6][W], std::uint32_t lane) {
-        return {x[0][lane], x[1][lane], x[2][lane], x[3][lane], x[4][lane], x[5][lane]};
-    }
-
-    /// An impulse along the normal [N s].
-    static void push_normal(const BodyRows<Real>& bodies, const PairBlock<Real, W>& block,
-                            const NormalRow<Real, W>& row, std::uint32_t lane, Real impulse) {
-        const Vector3<Real> p = column(row.normal, lane) * impulse;
-        const auto push = [&](std::int32_t body, Real mass, const Symmetric3<Real>& inertia,
-                              const Vector3<Real>& arm, Real sign) {
-            if (body >= bodies.dynamic_count) return;
-            Real* change = change_row(bodies, body);
-            const Vector3<Real> turn = inertia * Vector3<Real>(arm.cross(p));
-            for (int i = 0; i < 3; ++i) {
-                change[i] += sign * mass * p[i];
-                change[4 + i] += sign * turn[i];
-            }
-        };
-        push(block.row_a[lane], block.inverse_mass_a[lane], column(block.inverse_inertia_a, lane),
-             column(row.arm_a, lane), 1);
-        push(block.row_b[lane], block.inverse_mass_b[lane], column(block.inverse_inertia_b, lane),
-             column(row.arm_b, lane), -1);
-    }
-
-    /// How the separating velocity has changed since the start of the substep [m/s].
-    static Real change_along(const BodyRows<Real>& bodies, const PairBlock<Real, W>& block,
-                             const NormalRow<Real, W>& row, std::uint32_t lane) {
-        const auto velocity = [&](std::int32_t body, const Vector3<Real>& arm) -> Vector3<Real> {
-            const Real* x = change_row(bodies, body);
-            return Vector3<Real>(x[0], x[1], x[2]) + Vector3<Real>(x[4], x[5], x[6]).cross(arm);
-        };
-        return column(row.normal, lane)
-            .dot(velocity(block.row_a[lane], column(row.arm_a, lane)) -
-                 velocity(block.row_b[lane], column(row.arm_b, lane)));
-    }
 
     struct TangentPair {
         Vector3d x, y;
@@ -322,32 +209,16 @@ private:
         return batches_.arrays().blocks[block].first_row + point;
     }
 
-    /// Calls visit(HitContact) for the contacts of islands in which bodies collide.
-    template <class Visit>
-    void each_hit_contact(const Impacts& impacts, Visit visit) {
-        for (std::size_t p = 0; p < pairs_.size(); ++p) {
-            if (!impacts.is_hit(p)) continue;
-            const auto slot = batches_.slot(p);
-            const std::uint32_t first = row_of(slot.block, 0);
-            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-                visit(HitContact{pairs_[p].first + i, slot.block, first + i, slot.lane,
-                                 impacts.is_alone(p)});
-        }
-    }
-
     /// Calls visit(contact, row, lane) for all contacts, in their order.
     template <class Visit>
     void each_contact(Visit visit) {
-        for (std::size_t p = 0; p < pairs_.size(); ++p) {
-            const auto slot = batches_.slot(p);
-            const std::uint32_t first = row_of(slot.block, 0);
-            for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-                visit(pairs_[p].first + i, first + i, slot.lane);
-        }
+        batches_.each_contact(pairs_,
+                              [&](const ContactPlace& at) { visit(at.contact, at.row, at.lane); });
     }
 
     /// Velocities at rims are those over the whole substep.
     void bend(const ContactTable& c) {
+        if (c.bend.empty()) return;
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             if (c.rims[contact].rim.radius == 0) return;
@@ -473,9 +344,9 @@ private:
     Workers& workers_;
     std::vector<BodyPair> pairs_;
     Colouring colouring_;
-    ContactBatches<Real, W> batches_, resting_;
-    std::vector<HitContact> given_;  // what bounced
-    std::vector<double> trusted_;    // [contact] overlap [m]
+    ContactBatches<Real, W> batches_;
+    ContactImpacts<Real, W> impacts_;
+    std::vector<double> trusted_;  // [contact] overlap [m]
     const std::vector<std::uint32_t>* levels_ = nullptr;
     bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins
 };

@@ -2,6 +2,7 @@
 /// Contacts are detected once a step; through its substeps their points ride on the bodies, and
 /// with them the gap and the common point at which the contact acts. Only a point of now keeps
 /// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
+#include "step/anchors.h"
 #include "step/rims.h"
 #include "step/stages.h"
 
@@ -11,13 +12,6 @@ namespace {
 /// A contact has rolled on once its point has come farther than this share of the rim's radius
 /// along both bodies.
 constexpr double kRolledOn = 1e-3;
-
-Vector3d in_body(const Bodies& b, std::uint32_t i, const Vector3d& point) {
-    return b.orientation[i].conjugate() * (point - b.position[i]);
-}
-Vector3d in_world(const Bodies& b, std::uint32_t i, const Vector3d& point) {
-    return b.position[i] + b.orientation[i] * point;
-}
 
 /// Where two points of a contact slide past each other, it goes with that of the body that touches
 /// with a point: with what moves along what does not, with what is round along what is sharp, with
@@ -68,16 +62,15 @@ void measure(World& world) {
 void let_go_of_what_rolled(World& world, std::size_t i) {
     const ContactTable& c = world.contacts;
     const Contact& contact = c.found[i];
-    const double far = kRolledOn * c.rims[i].rim.radius;
     if (!c.rims[i].runs) return;
+    const double far = kRolledOn * c.rims[i].rim.radius;
     const Bodies& b = world.bodies;
     ContactMemory& m = world.contacts.memory[i];
     const Vector3d n = to_eigen(contact.normal), &now = c.point[i];
     for (const Vector3d& was :
          {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
         if ((now - was).cross(n).squaredNorm() < far * far) return;
-    m.stick_a = in_body(b, contact.a, now);
-    m.stick_b = in_body(b, contact.b, now);
+    set_anchors(m, b, contact, now, Vector3d::Zero());
 }
 
 /// How far apart the points have come that met when a contact began to stick.
@@ -87,20 +80,20 @@ void measure_drifts(World& world) {
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
-        let_go_of_what_rolled(world, i);
-        c.drift[i] = in_world(world.bodies, contact.a, c.memory[i].stick_a) -
-                     in_world(world.bodies, contact.b, c.memory[i].stick_b);
+        if (!c.rims.empty()) let_go_of_what_rolled(world, i);
+        c.drift[i] = drift_of(world.bodies, contact, c.memory[i]);
     }
 }
 
 }  // namespace
 
 void follow_contacts(World& world, const Plan& plan, bool first_substep) {
+    const bool rims = plan.runs(Effect::rims);
     if (first_substep) {
         take_as_found(world);
-        find_rims(world);
+        rims ? find_rims(world) : forget_rims(world);
     } else {
-        follow_rims(world);
+        if (rims) follow_rims(world);
         measure(world);
     }
     if (plan.runs(Effect::sticking_anchors)) measure_drifts(world);

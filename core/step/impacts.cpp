@@ -2,6 +2,7 @@
 #include "step/impacts.h"
 
 #include "step/contact_measures.h"
+#include "world/body_momentum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,15 +26,9 @@ bool may_collide(const World& world, double threshold) {
 /// through before it rebounds does not.
 bool collides(const World& world, std::size_t i, double threshold, double h) {
     const ContactTable& c = world.contacts;
-    if (!c.rebound.empty() && c.rebound[i] == ContactTable::kPassing) return false;
+    if (c.is_passing(i)) return false;
     const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
     return -u > threshold && c.gap[i] + h * u < 0;
-}
-
-/// I a · b, for vectors of the world's frame.
-double turning_energy(const Bodies& bodies, std::uint32_t i, const Vector3d& a, const Vector3d& b) {
-    const Quaterniond back = bodies.orientation[i].conjugate();
-    return (back * a).cwiseProduct(bodies.inertia[i]).dot(back * b);
 }
 
 }  // namespace
@@ -68,14 +63,19 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
         const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
         if (!hit) continue;
         const std::uint8_t mark = last - first == 1 ? kAlone : kAmongOthers;
-        std::for_each(first, last, [&](std::uint32_t p) { hit_[p] = mark; });
+        std::for_each(first, last, [&](std::uint32_t p) {
+            hit_[p] = mark;
+            take_bodies(world, pairs[p]);
+        });
         colliding_.push_back(island);
     }
-    changes_.resize(static_cast<std::size_t>(world.dynamic_count));
-    body_of_.resize(static_cast<std::size_t>(world.dynamic_count));
-    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies.motion[i] == Motion::dynamic) body_of_[world.bodies.row[i]] = i;
     return true;
+}
+
+void Impacts::take_bodies(const World& world, const BodyPair& pair) {
+    const Contact& contact = world.contacts.found[pair.first];
+    if (pair.row_a < world.dynamic_count) body_of_[pair.row_a] = contact.a;
+    if (pair.row_b < world.dynamic_count) body_of_[pair.row_b] = contact.b;
 }
 
 /// The greatest share of the changes, at most 1, with which the island has no more energy than
@@ -97,8 +97,9 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
         const std::uint32_t body = body_of_[row];
         const Change& d = changes_[row];
         const Vector3d &v = bodies.velocity_now[body], &w = bodies.angular_velocity_now[body];
-        b += bodies.mass[body] * v.dot(d.v) + turning_energy(bodies, body, w, d.w);
-        a += 0.5 * (bodies.mass[body] * d.v.squaredNorm() + turning_energy(bodies, body, d.w, d.w));
+        b += bodies.mass[body] * v.dot(d.v) + turning_product(bodies, body, w, d.w);
+        a +=
+            0.5 * (bodies.mass[body] * d.v.squaredNorm() + turning_product(bodies, body, d.w, d.w));
     }
     return a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 1;
 }
@@ -111,10 +112,9 @@ void Impacts::take(World& world, const std::vector<BodyPair>& pairs) {
             const std::int32_t row = islands_.bodies()[i];
             const std::uint32_t body = body_of_[row];
             const Vector3d dv = share * changes_[row].v, dw = share * changes_[row].w;
-            const Quaterniond& q = b.orientation[body];
             b.velocity[body] += dv, b.velocity_now[body] += dv;
             b.angular_velocity[body] += dw, b.angular_velocity_now[body] += dw;
-            b.angular_momentum[body] += q * b.inertia[body].cwiseProduct(q.conjugate() * dw);
+            b.angular_momentum[body] += spin_momentum(b, body, dw);
         }
     }
 }

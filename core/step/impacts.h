@@ -56,13 +56,14 @@ public:
 private:
     static constexpr std::uint8_t kAmongOthers = 1, kAlone = 2;
 
+    void take_bodies(const World& world, const BodyPair& pair);
     double bounded_share(const World& world, const ContactIsland& island,
                          const std::vector<BodyPair>& pairs) const;
 
     ContactIslands islands_;
     std::vector<ContactIsland> colliding_;
     std::vector<std::uint8_t> hit_;       // [pair]
-    std::vector<std::uint32_t> body_of_;  // [row]
+    std::vector<std::uint32_t> body_of_;  // [row], of the rows above
     std::vector<Change> changes_;         // [row]
 };
 

@@ -12,9 +12,6 @@
 namespace plumb {
 namespace {
 
-/// A gap that nothing closes within a substep: of a collision that comes through [m].
-constexpr double kOutOfReach = 1e6;
-
 /// Islands of so many bodies are solved exactly however they move.
 constexpr std::uint32_t kVerySmall = 8;
 
@@ -46,12 +43,11 @@ Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
 }
 
-/// Velocity of a contact's point on a against that on b [m/s].
+/// Of a contact's point on a against that on b, forces included [m/s].
 Vector3d relative_velocity(const World& world, std::uint32_t contact) {
     const Bodies& b = world.bodies;
-    const Contact& c = world.contacts.found[contact];
-    const Vector3d& at = world.contacts.point[contact];
-    return velocity_at(b, c.a, at - b.position[c.a]) - velocity_at(b, c.b, at - b.position[c.b]);
+    return relative_velocity(b, b.velocity, b.angular_velocity, world.contacts.found[contact],
+                             world.contacts.point[contact]);
 }
 
 /// How fast gravity and the constant force would make a body in a second [m/s²].
@@ -301,9 +297,8 @@ void IslandGroup::ask(const World& world, std::size_t k, double h, double recove
     const std::uint32_t contact = contacts_[k];
     IslandPoint& p = points_[k];
 
-    const double rebound = c.rebound.empty() ? 0 : c.rebound[contact];
-    const double gap = rebound == ContactTable::kPassing ? kOutOfReach : c.gap[contact];
-    double normal = closing_velocity(gap, h, recovery, s.stiffness);
+    const double rebound = asked_rebound(c, contact);
+    double normal = closing_velocity(gap_in_substep(c, contact), h, recovery, s.stiffness);
     if (std::abs(normal) < least) normal = 0;
     if (rebound > 0) normal = rebound;
 
@@ -315,7 +310,8 @@ void IslandGroup::ask(const World& world, std::size_t k, double h, double recove
     }
 
     // what is immovable may move by itself, and a rim runs on
-    Vector3d moving = c.bend[contact], turning = Vector3d::Zero();
+    Vector3d moving = Vector3d::Zero(), turning = Vector3d::Zero();
+    if (!c.bend.empty()) moving = c.bend[contact];
     const auto add = [&](std::uint32_t body, const Vector3d& arm, double sign) {
         moving += sign * velocity_at(world.bodies, body, arm);
         turning += sign * world.bodies.angular_velocity[body];

@@ -59,7 +59,7 @@ public:
             joint.rows_before = rows;
             const std::uint32_t lane = balls_.lane(i);
             for (int k = 0; k < 3; ++k) rows[k] = double(balls_.block(i).impulse[k][lane]);
-            frames_[balls_.index(i)].load[lane] = load_of(joint, JointSolve::iterations);
+            frames_[balls_.index(i)].load[lane] = load_of(joint, kAlongX, JointSolve::iterations);
         }
         for (std::size_t i = 0; i < block_joints_.size(); ++i) {
             Joint& joint = table.joints[block_joints_[i]];
@@ -120,7 +120,7 @@ private:
         const std::uint32_t lane = balls_.lane(item);
         frames.used[lane] = 1;
         frames.held[lane] = joint.b == kNoIndex;
-        frames.load[lane] = load_of(joint, JointSolve::iterations);
+        frames.load[lane] = load_of(joint, kAlongX, JointSolve::iterations);
         frames.body_a[lane] = joint.a;
         frames.body_b[lane] = joint.b == kNoIndex ? joint.a : joint.b;
         for (int k = 0; k < 3; ++k) {

@@ -13,16 +13,12 @@ namespace plumb {
 /// How the joint is solved.
 enum class JointSolve { tree, iterations };
 
-/// What a joint bore: of those that are iterated in both of the last two substeps, for what a blow
-/// leaves with them is no load [N s].
-inline double load_of(const Joint& joint, JointSolve solve) {
-    const auto size = [](const auto& r) { return Vector3d(r[0], r[1], r[2]).norm(); };
-    if (solve == JointSolve::tree) return size(joint.rows);
-    return std::min(size(joint.rows), size(joint.rows_before));
-}
-/// The same about its axes [N m s].
-inline double moment_of(const Joint& joint, JointSolve solve) {
-    const auto size = [](const auto& r) { return Vector3d(r[3], r[4], r[5]).norm(); };
+/// What a joint bore along its axes (first: kAlongX) [N s] or about them (kTurnX) [N m s]: of those
+/// that are iterated in both of the last two substeps, for what a blow leaves with them is no load.
+inline double load_of(const Joint& joint, std::uint32_t first, JointSolve solve) {
+    const auto size = [first](const auto& rows) {
+        return Vector3d(rows[first], rows[first + 1], rows[first + 2]).norm();
+    };
     if (solve == JointSolve::tree) return size(joint.rows);
     return std::min(size(joint.rows), size(joint.rows_before));
 }
@@ -33,8 +29,9 @@ inline JointLever<double> lever_of(const World& world, const Joint& joint, std::
     if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic)
         return {0, Vector3d::Zero()};
     const Bodies& b = world.bodies;
-    const double load = lever_load<double>(load_of(joint, solve), moment_of(joint, solve), arm,
-                                           b.world_inverse_inertia[body], h);
+    const double load =
+        lever_load<double>(load_of(joint, kAlongX, solve), load_of(joint, kTurnX, solve), arm,
+                           b.world_inverse_inertia[body], h);
     const Vector3d turn = h * b.angular_velocity_now[body];
     if (solve == JointSolve::iterations) return iterated_lever<double>(load, turn);
     return exact_lever<double>(load, turn, Vector3d(h * b.angular_velocity_before[body]));
@@ -59,7 +56,7 @@ inline void turn_line(JointGeometry<double>& g, const World& world, const Joint&
             sign * h * (b.velocity_before[body] + b.angular_velocity_before[body].cross(arm));
     };
     add(joint.a, g.r_a, 1), add(joint.b, g.r_b, -1);
-    const double load = h * load_of(joint, solve) * response / joint.length;
+    const double load = h * load_of(joint, kAlongX, solve) * response / joint.length;
     const JointLever<double> line = exact_lever<double>(load, Vector3d(moved / joint.length),
                                                         Vector3d(moved_before / joint.length));
     g.line_share = line.share, g.line_lag = line.lag * joint.length;

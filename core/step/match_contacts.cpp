@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Contacts of this step and of the step before are both sorted, so one walk along both finds what
 /// stayed.
+#include "step/anchors.h"
 #include "step/stages.h"
 
 namespace plumb {
@@ -67,25 +68,6 @@ void match_pair(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>&
     hand_on_impulses(c, run, used);
 }
 
-/// Anchors of a contact that begins to stick where it is, with a drift behind it already [m].
-void set_anchors(World& world, std::size_t i, const Vector3d& drift) {
-    const Bodies& b = world.bodies;
-    const Contact& contact = world.contacts.found[i];
-    ContactMemory& m = world.contacts.memory[i];
-    const Vector3d point = common_point(contact);
-    m.stick_a =
-        b.orientation[contact.a].conjugate() * (point + 0.5 * drift - b.position[contact.a]);
-    m.stick_b =
-        b.orientation[contact.b].conjugate() * (point - 0.5 * drift - b.position[contact.b]);
-}
-
-/// Distance of the points that met when an old contact began to stick, at the poses now.
-Vector3d drift_of(const World& world, const Contact& contact, const ContactMemory& m) {
-    const Bodies& b = world.bodies;
-    return (b.position[contact.a] + b.orientation[contact.a] * m.stick_a) -
-           (b.position[contact.b] + b.orientation[contact.b] * m.stick_b);
-}
-
 /// The nearest contact of the step before that stuck; run.old_end where none did.
 std::size_t nearest_sticking(const ContactTable& c, const PairRuns& run, const Vector3d& point) {
     std::size_t best = run.old_end;
@@ -105,15 +87,15 @@ std::size_t nearest_sticking(const ContactTable& c, const PairRuns& run, const V
 void anchor_pair(World& world, const PairRuns& run) {
     ContactTable& c = world.contacts;
     for (std::size_t i = run.now; i < run.now_end; ++i) {
-        const ContactMemory& m = c.memory[i];
+        ContactMemory& m = c.memory[i];
         if (m.sticks || !is_sharp(c.found[i])) continue;
         const bool slid = m.known && m.normal_impulse > 0;
-        const std::size_t from =
-            slid ? run.old_end : nearest_sticking(c, run, common_point(c.found[i]));
+        const Vector3d point = common_point(c.found[i]);
+        const std::size_t from = slid ? run.old_end : nearest_sticking(c, run, point);
         Vector3d drift = Vector3d::Zero();
         if (from < run.old_end)
-            drift = drift_of(world, c.found_before[from], c.memory_before[from]);
-        set_anchors(world, i, drift);
+            drift = drift_of(world.bodies, c.found_before[from], c.memory_before[from]);
+        set_anchors(m, world.bodies, c.found[i], point, drift);
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/reuse_contacts.h"
 
+#include "world/has_rim.h"
+
 #include <algorithm>
 #include <tuple>
 
@@ -37,18 +39,6 @@ double turned(const KeptPair& then, const KeptPair& now) {
 double motion(const KeptPair& then, const KeptPair& now, double reach) {
     // A turn by θ moves a point at distance r by the chord 2 r sin(θ/2).
     return (now.offset - then.offset).norm() + turned(then, now) * reach;
-}
-
-/// Whether a shape has a rim, along which a contact runs when it rolls.
-bool has_rim(const Shape& shape) {
-    if (shape.kind == ShapeKind::compound)
-        return std::any_of(shape.parts, shape.parts + shape.part_count,
-                           [](const ShapePart& part) { return has_rim(part.shape); });
-    return shape.kind == ShapeKind::cylinder || shape.kind == ShapeKind::cone;
-}
-bool has_rim(const World& world, std::uint32_t body) {
-    const std::uint32_t geometry = world.bodies.geometry[body];
-    return geometry != kNoIndex && has_rim(world.shapes[geometry]);
 }
 
 /// Whether the contacts that `then` has will do at the poses of `now`. Contacts on a rim that turns
@@ -108,13 +98,10 @@ void compact(KeptContacts& kept) {
 }
 
 Contact in_bodies(const Contact& c, const Bodies& b) {
-    const auto back = [&](std::uint32_t body, const Vec3& v, const Vector3d& origin) {
-        return to_plain(Vector3d(b.orientation[body].conjugate() * (to_eigen(v) - origin)));
-    };
     Contact local = c;
-    local.point_a = back(c.a, c.point_a, b.position[c.a]);
-    local.point_b = back(c.b, c.point_b, b.position[c.b]);
-    local.normal = back(c.a, c.normal, Vector3d::Zero());
+    local.point_a = to_plain(in_body(b, c.a, to_eigen(c.point_a)));
+    local.point_b = to_plain(in_body(b, c.b, to_eigen(c.point_b)));
+    local.normal = to_plain(Vector3d(b.orientation[c.a].conjugate() * to_eigen(c.normal)));
     return local;
 }
 

@@ -2,6 +2,7 @@
 #include "step/rims.h"
 
 #include "math/rotation.h"
+#include "world/has_rim.h"
 
 #include <cmath>
 
@@ -33,9 +34,8 @@ PlacedPart part_of(const World& world, std::uint32_t body, std::uint32_t part) {
 
 /// The rim of a shape that is farthest along d, in the shape's frame; radius 0: none.
 Rim rim_towards(const Shape& shape, const Vector3d& d) {
-    const bool cone = shape.kind == ShapeKind::cone;
-    if (!cone && shape.kind != ShapeKind::cylinder) return {};
-    const double side = cone || d.y() < 0 ? -1 : 1;
+    if (!has_rim(shape.kind)) return {};
+    const double side = shape.kind == ShapeKind::cone || d.y() < 0 ? -1 : 1;
     return {{0, side * shape.half_height, 0}, Vector3d::UnitY(), shape.radius};
 }
 
@@ -53,7 +53,7 @@ ContactRim rim_at(const World& world, std::uint32_t body, std::uint32_t part, co
     if (!placed.shape) return {};
     const Bodies& b = world.bodies;
     const Quaterniond back = b.orientation[body].conjugate();
-    const Vector3d d = back * direction, p = back * (to_eigen(point) - b.position[body]);
+    const Vector3d d = back * direction, p = in_body(b, body, to_eigen(point));
     Rim rim = rim_towards(*placed.shape, placed.local.rotation.conjugate() * d);
     if (rim.radius == 0) return {};
     rim.centre = placed.local.position + placed.local.rotation * rim.centre;
@@ -93,6 +93,11 @@ void find_rims(World& world) {
     }
 }
 
+void forget_rims(World& world) {
+    world.contacts.rims.clear();
+    world.contacts.bend.clear();
+}
+
 void foresee_rims(World& world, double h) {
     ContactTable& c = world.contacts;
     const Bodies& b = world.bodies;
@@ -102,7 +107,7 @@ void foresee_rims(World& world, double h) {
         const double sign = at.body == c.found[i].a ? 1 : -1;
         const Vector3d n = -sign * to_eigen(c.found[i].normal), w = b.angular_velocity[at.body];
         const Quaterniond& q = b.orientation[at.body];
-        const Vector3d point = q.conjugate() * (c.point[i] - b.position[at.body]);
+        const Vector3d point = in_body(b, at.body, c.point[i]);
         const Vector3d now = arm_at(at, q, n, point),
                        middle = arm_at(at, turned(q, 0.5 * h * w), n, point),
                        end = arm_at(at, turned(q, h * w), n, point);
@@ -128,10 +133,8 @@ void follow_rims(World& world) {
         const Vector3d n = to_eigen(contact.normal), outward = of_a ? Vector3d(-n) : n;
         on_round = farthest_on(rim, b.orientation[round].conjugate() * outward, on_round);
         // its opposite is in the plane across the normal in which it was
-        const Vector3d at = b.position[round] + b.orientation[round] * on_round,
-                       was = b.position[other] + b.orientation[other] * on_other;
-        const Vector3d opposite = at + n.dot(was - at) * n;
-        on_other = b.orientation[other].conjugate() * (opposite - b.position[other]);
+        const Vector3d at = in_world(b, round, on_round), was = in_world(b, other, on_other);
+        on_other = in_body(b, other, at + n.dot(was - at) * n);
     }
 }
 

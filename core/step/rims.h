@@ -13,6 +13,9 @@ namespace plumb {
 /// The rims on which the contacts lie at the poses now, into ContactTable::rims; and no bend yet.
 void find_rims(World& world);
 
+/// Empties those tables: where contacts run on no rims.
+void forget_rims(World& world);
+
 /// The point of a rim that is farthest along the unit vector `direction`, both in the body's frame;
 /// `otherwise` where the rim's plane is across it.
 Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& otherwise);

@@ -101,11 +101,9 @@ public:
         sweep_impacts(pass);
         if (contacts_.give_back(world, impacts_, table_.rows())) sweep_impacts(pass);
         impacts_.each_row([&](std::int32_t row) {
-            const Real* change = table_.rows().change + std::ptrdiff_t(row) * kBodyRowSize;
-            for (int k = 0; k < 3; ++k) {
-                impacts_.changes()[row].v[k] = static_cast<double>(change[k]);
-                impacts_.changes()[row].w[k] = static_cast<double>(change[4 + k]);
-            }
+            const Velocity<Real> change = velocity_in(table_.rows().change, row);
+            impacts_.changes()[row] = {change.v.template cast<double>(),
+                                       change.w.template cast<double>()};
         });
         impacts_.take(world, contacts_.pairs());
         contacts_.end_impacts(world);

@@ -34,7 +34,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     };
 
     const double dt = world.settings.dt, h = dt / world.settings.substeps;
-    const bool watched = plan.runs(Effect::contacts) && world.settings.shared_push;
+    // to the paper's letter, velocities are those of a substep's start
+    const bool foresees = plan.runs(Effect::rims) && world.settings.shared_push;
+    const bool watches = plan.runs(Effect::still_ground);
     if (plan.runs(Effect::contacts)) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
@@ -49,9 +51,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::begin, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
-        if (watched) timed(Stage::move, [&] { stepper.still_ground.note(world, h); });
+        if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
         timed(Stage::integrate, [&] { integrate_velocities(world, plan, stepper.motion, h); });
-        if (watched) timed(Stage::begin, [&] { foresee_rims(world, h); });
+        if (foresees) timed(Stage::begin, [&] { foresee_rims(world, h); });
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.solve_impacts(world, h); });
@@ -65,8 +67,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         timed(Stage::move, [&] {
             solver.take_changes(world.bodies);
             move(world, stepper.motion, h);
-            if (watched) stepper.still_ground.take_back(world, h);
         });
+        if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });
         if (plan.runs(Effect::joints))
             timed(Stage::remember, [&] { solver.store_joint_impulses(world); });
         world.time += h;

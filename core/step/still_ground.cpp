@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/still_ground.h"
 
+#include "world/body_momentum.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,11 +17,6 @@ constexpr double kRounding = 1e-12;
 /// Share of its kinetic energy by which a body may be above what it had, for as long as the sum
 /// half a substep back is not: small swings are left alone, and cannot add up.
 constexpr double kSlack = 8e-4;
-
-double kinetic_energy_of(const Bodies& b, std::uint32_t i) {
-    const Vector3d w = b.orientation[i].conjugate() * b.angular_velocity[i];
-    return 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() + w.dot(b.inertia[i].cwiseProduct(w)));
-}
 
 /// The larger of both sums, less the potential energy [J]; swing: ½ h F·v.
 double larger_sum(double kinetic, double swing) {
@@ -53,7 +50,7 @@ void StillGround::note(const World& world, double h) {
     for (std::uint32_t i = 0; i < b.size(); ++i) {
         if (touches_[i] != fixed_only || b.motion[i] != Motion::dynamic) continue;
         const double swing = 0.5 * h * force_on(world, i).dot(b.velocity[i]);
-        had_.push_back({i, larger_sum(kinetic_energy_of(b, i), swing), b.position[i]});
+        had_.push_back({i, larger_sum(kinetic_energy(b, i), swing), b.position[i]});
     }
 }
 
@@ -61,7 +58,7 @@ void StillGround::take_back(World& world, double h) const {
     Bodies& b = world.bodies;
     for (const Had& had : had_) {
         const std::uint32_t i = had.body;
-        const double kinetic = kinetic_energy_of(b, i);
+        const double kinetic = kinetic_energy(b, i);
         if (kinetic == 0) continue;
         const Vector3d force = force_on(world, i);
         const double fallen = force.dot(b.position[i] - had.position),

@@ -105,8 +105,6 @@ void TreeNodes::begin_joint(const World& world, Node& node) {
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, h_);
-    node.lever = is_a ? node.geometry.lever_a : node.geometry.lever_b;
-    node.other_lever = is_a ? node.geometry.lever_b : node.geometry.lever_a;
     owe(node, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, h_);
 }
@@ -136,10 +134,8 @@ void TreeNodes::forget(std::uint32_t index) {
 void TreeNodes::turn_levers_to_the_end(std::uint32_t index) {
     Node& node = nodes_[index_[index]];
     if (node.free) return;
-    node.lever = {1, kZero};
-    node.other_lever = {node.parent != tables_.ground ? 1.0 : 0.0, kZero};
-    node.geometry.lever_a = node.sign > 0 ? node.lever : node.other_lever;
-    node.geometry.lever_b = node.sign > 0 ? node.other_lever : node.lever;
+    node.lever() = {1, kZero};
+    node.other_lever() = {node.parent != tables_.ground ? 1.0 : 0.0, kZero};
     node.geometry.line_share = 1, node.geometry.line_lag = kZero;
 }
 
@@ -185,7 +181,7 @@ double TreeNodes::violation_of(const Node& node) const {
 /// h ω [rad]; `opened`: by how much the points have moved apart [m].
 void TreeNodes::place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn,
                               const Vector3d& opened) {
-    const JointLever<double>&lever = node.lever, &other = node.other_lever;
+    const JointLever<double>&lever = node.lever(), &other = node.other_lever();
     node.acting = node.arm + unit_exponential<double>(lever.angle(turn)).change(node.arm);
     node.other_acting =
         node.other_arm + unit_exponential<double>(other.angle(other_turn)).change(node.other_arm);
@@ -201,7 +197,8 @@ void TreeNodes::load_block(Node& node, bool balance, bool leaf) {
         leaf ? TreeShare<double>::none() : share_of<double>(share_row(tables_.share, node.node));
     Symmetric3<double> stiffness{0, 0, 0, 0, 0, 0};
     if (!node.free)
-        stiffness = turning_stiffness<double>(node.acting, impulse_of(node), node.lever.share * h_);
+        stiffness =
+            turning_stiffness<double>(node.acting, impulse_of(node), node.lever().share * h_);
     add_body<double>(whole, node.mass, node.inertia, stiffness, node.own, balance);
     node.block = whole.block;
 }
@@ -236,7 +233,7 @@ void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool le
     for (const DrivenAxis& axis : node.axes) axis.push_parent(parent.block, node.sign, balance);
     parent.stiffness =
         parent.stiffness + turning_stiffness<double>(node.other_acting, -impulse_of(node),
-                                                     node.other_lever.share * h_);
+                                                     node.other_lever().share * h_);
     put_share(parent, row);
 }
 

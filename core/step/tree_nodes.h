@@ -9,6 +9,7 @@
 #include "schedule/tree_blocks.h"
 #include "step/driven_axis.h"
 #include "step/tree_progress.h"
+#include "step/velocity_table.h"
 #include "world/world.h"
 
 #include <vector>
@@ -64,9 +65,8 @@ private:
         bool free, hung;  ///< a root that hangs by nothing; the tree's root hangs by something
         double sign;      ///< 1 where the body is the joint's a, else −1
         double mass;
-        Symmetric3<double> inertia;  ///< world frame, at the start [kg m²]
-        Vector3d arm, other_arm;     ///< of the joint's point, at the start [m]
-        JointLever<double> lever, other_lever;
+        Symmetric3<double> inertia;     ///< world frame, at the start [kg m²]
+        Vector3d arm, other_arm;        ///< of the joint's point, at the start [m]
         Vector3d apart;                 ///< child's point − parent's, at the start [m]
         Change start, held;             ///< velocity at the start; of an immovable parent
         Change given, own, written;     ///< changes by others, by this solver, and their sum when
@@ -80,21 +80,20 @@ private:
         std::vector<DrivenAxis> axes;  ///< that the joint leaves free
         int first_axis_row;            ///< of theirs in `elimination`
         BodyBlock<double> block;
+
+        JointLever<double>& lever() { return sign > 0 ? geometry.lever_a : geometry.lever_b; }
+        JointLever<double>& other_lever() { return sign > 0 ? geometry.lever_b : geometry.lever_a; }
     };
 
     template <class Real>
     static Change read(const Real* rows, std::int32_t row) {
-        const Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        return {{{double(r[0]), double(r[1]), double(r[2])},
-                 {double(r[4]), double(r[5]), double(r[6])}}};
+        const Velocity<Real> x = velocity_in(rows, row);
+        return {{x.v.template cast<double>(), x.w.template cast<double>()}};
     }
     template <class Real>
     static void write(Real* rows, std::int32_t row, const Change& change) {
-        Real* r = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        for (int k = 0; k < 3; ++k) {
-            r[k] = static_cast<Real>(change.v[k]);
-            r[4 + k] = static_cast<Real>(change.w[k]);
-        }
+        put_velocity<Real>(rows, row,
+                           {change.v.template cast<Real>(), change.w.template cast<Real>()});
     }
 
     static void add_axes(const World& world, Node& node);

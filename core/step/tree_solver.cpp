@@ -76,7 +76,7 @@ void TreeSolver<W>::place(const World& world, const ForestNode& from, std::uint3
         balls.other_point[k][lane] = other_frame.position[k];
         balls.impulse[k][lane] = balls.sign[lane] * joint.rows[k];
     }
-    balls.load[lane] = load_of(joint, JointSolve::tree);
+    balls.load[lane] = load_of(joint, kAlongX, JointSolve::tree);
 }
 
 template <int W>
@@ -249,7 +249,7 @@ void TreeSolver<W>::store_impulses(JointTable& joints) {
             joint.rows_before = joint.rows;
             joint.rows = {};
             for (int k = 0; k < 3; ++k) joint.rows[k] = balls.sign[lane] * balls.impulse[k][lane];
-            balls.load[lane] = load_of(joint, JointSolve::tree);
+            balls.load[lane] = load_of(joint, kAlongX, JointSolve::tree);
         }
     nodes_.store_impulses(joints);
 }

@@ -7,12 +7,25 @@
 /// steps.
 #pragma once
 
+#include "constraints/connector.h"
 #include "schedule/contact_rows.h"
 #include "world/world.h"
 
 #include <vector>
 
 namespace plumb {
+
+/// One row of such a table.
+template <class Real>
+inline Velocity<Real> velocity_in(const Real* rows, std::int32_t row) {
+    const Real* x = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+    return {{x[0], x[1], x[2]}, {x[4], x[5], x[6]}};
+}
+template <class Real>
+inline void put_velocity(Real* rows, std::int32_t row, const Velocity<Real>& velocity) {
+    Real* x = rows + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+    for (int k = 0; k < 3; ++k) x[k] = velocity.v[k], x[4 + k] = velocity.w[k];
+}
 
 template <class Real>
 class VelocityTable {

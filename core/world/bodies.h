@@ -52,11 +52,18 @@ struct Bodies {
     std::size_t size() const { return motion.size(); }
 };
 
+/// A point in the frame of body i, and in the world [m].
+inline Vector3d in_body(const Bodies& bodies, std::size_t i, const Vector3d& point) {
+    return bodies.orientation[i].conjugate() * (point - bodies.position[i]);
+}
+inline Vector3d in_world(const Bodies& bodies, std::size_t i, const Vector3d& point) {
+    return bodies.position[i] + bodies.orientation[i] * point;
+}
+
 /// Where the body's geometry is in the world.
 inline Placement geometry_placement(const Bodies& bodies, std::size_t i) {
     const Placement& local = bodies.geometry_in_body[i];
-    return {bodies.position[i] + bodies.orientation[i] * local.position,
-            bodies.orientation[i] * local.rotation};
+    return {in_world(bodies, i, local.position), bodies.orientation[i] * local.rotation};
 }
 
 }  // namespace plumb

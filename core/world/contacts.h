@@ -52,7 +52,8 @@ struct ContactTable {
     std::vector<Contact> found;  ///< as the collider reported them, at the start of the step
     std::vector<ContactMemory> memory;
     std::vector<ContactTrack> track;  ///< only with more than one substep
-    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none
+    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none; this and the
+                                      ///< next only where shapes have rims
     std::vector<Vector3d> bend;       ///< mean velocity over the substep less that at its start,
                                       ///< of points on rims [m/s]
     std::vector<double> gap;          ///< at the start of the substep [m]
@@ -74,6 +75,9 @@ struct ContactTable {
 
     std::uint64_t rejected =
         0;  ///< contacts left out since the start: a number not finite, or an id unknown
+
+    /// Whether a contact comes through before it rebounds.
+    bool is_passing(std::size_t i) const { return !rebound.empty() && rebound[i] == kPassing; }
 
     static constexpr double kPassing = -1;
     static constexpr double kParting = 1e-9;  ///< a rebound that has happened already [m/s]

@@ -11,11 +11,8 @@
 namespace plumb::test {
 namespace {
 
-class Chains : public testing::TestWithParam<Precision> {};
-INSTANTIATE_TEST_SUITE_P(, Chains, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+class Chains : public InEachPrecision {};
+INSTANTIATE_TEST_SUITE_P(, Chains, each_precision(), precision_name);
 
 /// Slopes of the links of a catenary: tan θ_i = (i − (N − 1)/2) w/H, w a link's weight and H the
 /// horizontal force, by bisection on the span.

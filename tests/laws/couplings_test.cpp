@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kGravity = 9.81;
 
-class Couplings : public testing::TestWithParam<Precision> {
+class Couplings : public InEachPrecision {
 protected:
     /// Without gravity, on joints of the same kind to the world: body 0, a cube of 1 m and 1000 kg
     /// at the origin, and body 1, a cube of 0.8 m and 512 kg at x = 300.
@@ -32,10 +32,7 @@ protected:
     }
     static constexpr double kInertia = 1000.0 / 6, kInertiaB = 512 * 0.64 / 6;
 };
-INSTANTIATE_TEST_SUITE_P(, Couplings, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+INSTANTIATE_TEST_SUITE_P(, Couplings, each_precision(), precision_name);
 
 double position(const Simulation& s, std::uint32_t joint, std::uint32_t axis) {
     return s.joint_motion(joint, axis).position;

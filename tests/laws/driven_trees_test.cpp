@@ -46,11 +46,8 @@ double widest_angle(Simulation& s) {
     return widest;
 }
 
-class DrivenTrees : public testing::TestWithParam<Precision> {};
-INSTANTIATE_TEST_SUITE_P(, DrivenTrees, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+class DrivenTrees : public InEachPrecision {};
+INSTANTIATE_TEST_SUITE_P(, DrivenTrees, each_precision(), precision_name);
 
 TEST_P(DrivenTrees, FrictionHoldsALoadedArmWithoutCreep) {
     Scene s = arm(GetParam(), 0.01, 1);

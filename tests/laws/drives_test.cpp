@@ -34,12 +34,12 @@ protected:
 };
 std::string case_name(const testing::TestParamInfo<Case>& which) {
     const auto [joints, precision] = which.param;
-    return std::string(joints == JointMethod::tree ? "tree" : "iterated") +
-           (precision == Precision::single ? "_single" : "_double");
+    return std::string(joints == JointMethod::tree ? "tree" : "iterated") + "_" +
+           word_of(precision);
 }
 INSTANTIATE_TEST_SUITE_P(, Drives,
                          testing::Combine(testing::Values(JointMethod::tree, JointMethod::iterate),
-                                          testing::Values(Precision::single, Precision::double_)),
+                                          each_precision()),
                          case_name);
 
 double position(const Simulation& s, std::uint32_t joint, std::uint32_t axis) {

@@ -31,13 +31,12 @@ using Solver = std::tuple<Precision, JointMethod>;
 
 std::string name_of(const testing::TestParamInfo<Solver>& which) {
     const auto [precision, method] = which.param;
-    return std::string(precision == Precision::single ? "single" : "double") +
-           (method == JointMethod::tree ? "Tree" : "Iterate");
+    return word_of(precision) + (method == JointMethod::tree ? "Tree" : "Iterate");
 }
 
 class FarAnchors : public testing::TestWithParam<Solver> {};
 INSTANTIATE_TEST_SUITE_P(, FarAnchors,
-                         testing::Combine(testing::Values(Precision::single, Precision::double_),
+                         testing::Combine(each_precision(),
                                           testing::Values(JointMethod::iterate, JointMethod::tree)),
                          name_of);
 

@@ -11,11 +11,8 @@
 namespace plumb::test {
 namespace {
 
-class JointTrees : public testing::TestWithParam<Precision> {};
-INSTANTIATE_TEST_SUITE_P(, JointTrees, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+class JointTrees : public InEachPrecision {};
+INSTANTIATE_TEST_SUITE_P(, JointTrees, each_precision(), precision_name);
 
 /// §8: a full binary tree of rods, each on a ball joint above its middle, hung up and turning.
 Scene mobile(int levels, Precision precision) {

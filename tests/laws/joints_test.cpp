@@ -59,13 +59,10 @@ protected:
     Vector axis(int k) const { return joint().frame * Vector::Unit(k % 3); }
 };
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-    return std::string(std::get<0>(info.param).name) +
-           (std::get<1>(info.param) == Precision::single ? "_single" : "_double");
+    return std::string(std::get<0>(info.param).name) + "_" + word_of(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(, EveryJoint,
-                         testing::Combine(testing::ValuesIn(kKinds),
-                                          testing::Values(Precision::single, Precision::double_)),
-                         case_name);
+                         testing::Combine(testing::ValuesIn(kKinds), each_precision()), case_name);
 
 /// Pushed along or turned about each axis in turn for 0.5 s: by ten times its weight where the
 /// joint is locked, by a force that moves it 0.125 m or 0.125 rad where it is free.

@@ -13,7 +13,7 @@ struct Bar {
     Vector from, to;
 };
 
-class Loops : public testing::TestWithParam<Precision> {
+class Loops : public InEachPrecision {
 protected:
     Loops() {
         use_fine_steps(s_.settings);
@@ -62,10 +62,7 @@ protected:
 
     Scene s_;
 };
-INSTANTIATE_TEST_SUITE_P(, Loops, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+INSTANTIATE_TEST_SUITE_P(, Loops, each_precision(), precision_name);
 
 TEST_P(Loops, AFourBarHolds) {
     const Vector a(0, 0, 0), b(0, 0.3, 0), c(1.1, 0.8, 0), d(1, 0, 0);

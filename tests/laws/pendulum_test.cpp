@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// A rod on a ball joint, and a chain: 1/60 s × 20 substeps × 1 iteration.
+#include "support/pendulum.h"
 #include "support/scenes.h"
 
 #include <algorithm>
@@ -10,11 +11,8 @@
 namespace plumb::test {
 namespace {
 
-class Pendulum : public testing::TestWithParam<Precision> {};
-INSTANTIATE_TEST_SUITE_P(, Pendulum, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+class Pendulum : public InEachPrecision {};
+INSTANTIATE_TEST_SUITE_P(, Pendulum, each_precision(), precision_name);
 
 TEST_P(Pendulum, ARodStaysOnItsJoint) {
     Scene s;
@@ -52,28 +50,19 @@ double period_of_rod(Precision precision, std::uint32_t substeps) {
     joint.body_a = 0;
     s.joints.push_back(joint);
     Simulation simulation(s, colliders(), "reference");
-    double last = 0.5, first = 0, latest = 0, crossings = -1;
+    PeriodWatch watch;
     while (simulation.time() < 10) {
         simulation.step();
-        const double x = simulation.world().bodies.position[0].x();
-        if ((last > 0) != (x > 0)) {
-            latest = simulation.time() - s.settings.dt * x / (x - last);
-            if (++crossings == 0) first = latest;
-        }
-        last = x;
+        watch.see(simulation.time(), s.settings.dt, simulation.world().bodies.position[0].x());
     }
-    return 2 * (latest - first) / crossings;
+    return watch.period();
 }
 
-/// T = 4 √(I/(m g l)) K(sin θ₀/2); I about the joint, K by the arithmetic-geometric mean.
+/// T = 2π √(I/(m g l)) times the lengthening at 90°; I about the joint.
 TEST_P(Pendulum, ARodSwingsInItsPeriod) {
     const double about_joint = 1.0 / 3 + 0.02 * 0.02 / 3;  // I/m [m²]
-    double a = 1, g = std::cos(std::numbers::pi / 4);
-    for (int i = 0; i < 8; ++i) {
-        const double mean = 0.5 * (a + g);
-        g = std::sqrt(a * g), a = mean;
-    }
-    const double exact = 4 * std::sqrt(about_joint / (9.81 * 0.5)) * std::numbers::pi / (2 * a);
+    const double exact = 2 * std::numbers::pi * std::sqrt(about_joint / (9.81 * 0.5)) *
+                         lengthening(std::numbers::pi / 2);
     double errors[3];
     const std::uint32_t substeps[3] = {5, 10, 20};
     for (int i = 0; i < 3; ++i)

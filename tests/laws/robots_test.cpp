@@ -10,11 +10,10 @@ namespace {
 constexpr const char* kQuadruped = PLUMB_SAMPLES "/scenes/robots/quadruped.urdf";
 
 class RobotLaws : public OnEveryCollider {};
-INSTANTIATE_TEST_SUITE_P(, RobotLaws,
-                         testing::Combine(testing::Values(std::string("ode"),
-                                                          std::string("bullet")),
-                                          testing::Values(Precision::single, Precision::double_)),
-                         where_name);
+INSTANTIATE_TEST_SUITE_P(
+    , RobotLaws,
+    testing::Combine(testing::Values(std::string("ode"), std::string("bullet")), each_precision()),
+    where_name);
 
 /// Bent legs, and the motors' limits those of the file.
 UrdfOptions standing() {

@@ -64,12 +64,12 @@ protected:
     Scene s_;
 };
 std::string case_name(const testing::TestParamInfo<Case>& info) {
-    return std::string(std::get<0>(info.param) == JointMethod::tree ? "tree" : "iterated") +
-           (std::get<1>(info.param) == Precision::single ? "_single" : "_double");
+    return std::string(std::get<0>(info.param) == JointMethod::tree ? "tree" : "iterated") + "_" +
+           word_of(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(, Statics,
                          testing::Combine(testing::Values(JointMethod::tree, JointMethod::iterate),
-                                          testing::Values(Precision::single, Precision::double_)),
+                                          each_precision()),
                          case_name);
 
 /// Five bars of 10 kg and 0.5 m, fixed to each other and to a wall, with 200 N at the end.

@@ -2,6 +2,7 @@
 /// What swings on joints: chains under any load, trees of all kinds, and pendulums over a minute.
 /// The step is drawn, or one of the two usual ones: 10 ms with 5 + 5 iterations, and 1/60 s with 20
 /// substeps of 1 + 1.
+#include "support/pendulum.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
@@ -12,11 +13,8 @@
 namespace plumb::test {
 namespace {
 
-class Swings : public testing::TestWithParam<Precision> {};
-INSTANTIATE_TEST_SUITE_P(, Swings, testing::Values(Precision::single, Precision::double_),
-                         [](const auto& which) {
-                             return which.param == Precision::single ? "single" : "double";
-                         });
+class Swings : public InEachPrecision {};
+INSTANTIATE_TEST_SUITE_P(, Swings, each_precision(), precision_name);
 
 constexpr std::uint32_t kSubsteps[] = {1, 2, 3, 4, 5, 8, 10, 20, 40};
 
@@ -26,35 +24,6 @@ Scene still_scene(Precision precision) {
     s.settings.forbid = {"contacts"};
     return s;
 }
-
-/// T/T₀ of a pendulum with the given amplitude [rad] against that of a small one: the
-/// arithmetic-geometric mean of 1 and cos(θ/2).
-double lengthening(double amplitude) {
-    double a = 1, g = std::cos(0.5 * amplitude);
-    for (int i = 0; i < 20; ++i) {
-        const double mean = 0.5 * (a + g);
-        g = std::sqrt(a * g), a = mean;
-    }
-    return 1 / a;
-}
-
-/// Period by the passages of a body through x = 0 [s].
-class PeriodWatch {
-public:
-    void see(double time, double dt, double x) {
-        if (seen_ && (x > 0) != (before_ > 0)) {
-            latest_ = time - dt * x / (x - before_);
-            if (++passages_ == 1) first_ = latest_;
-        }
-        seen_ = true, before_ = x;
-    }
-    double period() const { return 2 * (latest_ - first_) / (passages_ - 1); }
-
-private:
-    bool seen_ = false;
-    double before_ = 0, first_ = 0, latest_ = 0;
-    int passages_ = 0;
-};
 
 Rotation hinge_across_the_plane() {
     return Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());

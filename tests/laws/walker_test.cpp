@@ -10,11 +10,10 @@ namespace plumb::test {
 namespace {
 
 class Walker : public OnEveryCollider {};
-INSTANTIATE_TEST_SUITE_P(, Walker,
-                         testing::Combine(testing::Values(std::string("ode"),
-                                                          std::string("bullet")),
-                                          testing::Values(Precision::single, Precision::double_)),
-                         where_name);
+INSTANTIATE_TEST_SUITE_P(
+    , Walker,
+    testing::Combine(testing::Values(std::string("ode"), std::string("bullet")), each_precision()),
+    where_name);
 
 TEST_P(Walker, GoesAsFarAsItsStepsAreLongAndItsLoopsHold) {
     Scene s = read_scene(PLUMB_SAMPLES "/scenes/walker.json");

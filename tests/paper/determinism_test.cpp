@@ -46,9 +46,7 @@ std::uint64_t hash_of(Scene scene, std::uint32_t threads, std::uint32_t lanes) {
 }
 
 class Determinism : public testing::TestWithParam<std::tuple<Precision, bool>> {};
-INSTANTIATE_TEST_SUITE_P(, Determinism,
-                         testing::Combine(testing::Values(Precision::single, Precision::double_),
-                                          testing::Bool()));
+INSTANTIATE_TEST_SUITE_P(, Determinism, testing::Combine(each_precision(), testing::Bool()));
 
 TEST_P(Determinism, SameBitsForAnyThreadsAndLanes) {
     const Scene scene = busy_scene(std::get<0>(GetParam()), std::get<1>(GetParam()));

@@ -79,6 +79,17 @@ inline double total_energy(const Simulation& s) {
     return kinetic_energy(s.world()) + potential_energy(s.world());
 }
 
+/// For tests that run in each precision.
+using InEachPrecision = testing::TestWithParam<Precision>;
+
+inline auto each_precision() { return testing::Values(Precision::single, Precision::double_); }
+inline std::string word_of(Precision precision) {
+    return precision == Precision::single ? "single" : "double";
+}
+inline std::string precision_name(const testing::TestParamInfo<Precision>& info) {
+    return word_of(info.param);
+}
+
 /// A collider and a precision.
 using Where = std::tuple<std::string, Precision>;
 
@@ -94,14 +105,13 @@ protected:
 };
 
 inline std::string where_name(const testing::TestParamInfo<Where>& info) {
-    return std::get<0>(info.param) +
-           (std::get<1>(info.param) == Precision::single ? "_single" : "_double");
+    return std::get<0>(info.param) + "_" + word_of(std::get<1>(info.param));
 }
 
 inline auto every_collider() {
     return testing::Combine(testing::Values(std::string("reference"), std::string("ode"),
                                             std::string("bullet"), std::string("fcl")),
-                            testing::Values(Precision::single, Precision::double_));
+                            each_precision());
 }
 
 }  // namespace plumb::test

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+/// The part of a contact solver's rows in impacts (step/impacts.h): what their compression begins
+/// from, the restitution after it, and the way back to the substep.
+#pragma once
+
+#include "constraints/connector.h"
+#include "schedule/contact_batches.h"
+#include "step/contact_impulses.h"
+#include "step/contact_measures.h"
+#include "step/impacts.h"
+#include "step/velocity_table.h"
+#include "world/world.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace plumb {
+
+template <class Real, int W>
+class ContactImpacts {
+public:
+    using Batches = ContactBatches<Real, W>;
+
+    /// Memory for `contacts` of them, so that the first impact allocates none.
+    void reserve(Batches& batches, std::size_t contacts) {
+        resting_.reserve(batches.arrays(), batches.row_count());
+        given_.reserve(contacts);
+    }
+
+    /// Puts the impulses of the substep before aside. Rows ask how fast contacts approach, and how
+    /// far they may.
+    void begin(const ContactTable& c, const std::vector<BodyPair>& pairs, Batches& batches) {
+        const ContactArrays<Real, W> rows = batches.arrays();
+        resting_.take(rows, batches.row_count());
+        batches.each_contact(pairs, [&](const ContactPlace& at) {
+            NormalRow<Real, W>& row = rows.normals[at.row];
+            row.gap[at.lane] = static_cast<Real>(gap_in_substep(c, at.contact));
+            row.rebound[at.lane] = 0;
+            if (rows.frictions)
+                rows.frictions[at.row].drift_x[at.lane] = rows.frictions[at.row].drift_y[at.lane] =
+                    0;
+        });
+    }
+
+    /// Restitution of the contacts that collided, after their compression. Returns whether there
+    /// is any.
+    bool give_back(World& world, const Impacts& impacts, const std::vector<BodyPair>& pairs,
+                   Batches& batches, const BodyRows<Real>& bodies) {
+        ContactTable& c = world.contacts;
+        if (c.rebound.empty()) return false;
+        const ContactArrays<Real, W> rows = batches.arrays();
+        given_.clear();
+        batches.each_contact(pairs, [&](const ContactPlace& at) {
+            if (!impacts.is_hit(at.pair) || c.is_passing(at.contact)) return;
+            c.rebound[at.contact] = 0;
+            const Real impulse = restitution(world, rows, at);
+            if (!(impulse > 0)) return;
+            given_.push_back({at, impacts.is_alone(at.pair)});
+            NormalRow<Real, W>& row = rows.normals[at.row];
+            push(bodies, sides_of(rows, at), impulse);
+            row.lambda_velocity[at.lane] += impulse;
+        });
+        for (const auto& [at, alone] : given_) {
+            NormalRow<Real, W>& row = rows.normals[at.row];
+            row.rebound[at.lane] =
+                std::max(Real(0), row.velocity[at.lane] + change_along(bodies, sides_of(rows, at)));
+            c.bounced[at.contact] = 1;
+        }
+        return !given_.empty();
+    }
+
+    /// Takes the impulses that were put aside up again. What bounced parts as it does: the recovery
+    /// of its overlap adds nothing. A pair for itself keeps its speed through the substep, half of
+    /// whose forces belong before the impact; among others that would add energy.
+    void end(World& world, Batches& batches) {
+        resting_.give(batches.arrays(), batches.row_count());
+        ContactTable& c = world.contacts;
+        for (const auto& [at, alone] : given_) {
+            const double u =
+                separating_velocity(world.bodies, c.found[at.contact], c.point[at.contact]);
+            c.rebound[at.contact] = alone ? std::max(u, 0.0) : (u > 0 ? ContactTable::kParting : 0);
+        }
+        given_.clear();
+    }
+
+private:
+    /// A contact that bounced, and whether its pair is an island for itself.
+    struct Given {
+        ContactPlace at;
+        bool alone;
+    };
+
+    /// A body of a pair, and a contact's point on it.
+    struct Side {
+        std::int32_t row;
+        InverseMass<Real> mass;
+        Vector3<Real> arm;
+    };
+    struct Sides {
+        Side a, b;
+        Vector3<Real> normal;
+    };
+
+    static Vector3<Real> lane_of(const Real (&x)[3][W], std::uint32_t lane) {
+        return {x[0][lane], x[1][lane], x[2][lane]};
+    }
+    static Symmetric3<Real> lane_of(const Real (&x)[6][W], std::uint32_t lane) {
+        return {x[0][lane], x[1][lane], x[2][lane], x[3][lane], x[4][lane], x[5][lane]};
+    }
+    static Sides sides_of(const ContactArrays<Real, W>& rows, const ContactPlace& at) {
+        const PairBlock<Real, W>& block = rows.blocks[at.block];
+        const NormalRow<Real, W>& row = rows.normals[at.row];
+        const std::uint32_t lane = at.lane;
+        return {{block.row_a[lane],
+                 {block.inverse_mass_a[lane], lane_of(block.inverse_inertia_a, lane)},
+                 lane_of(row.arm_a, lane)},
+                {block.row_b[lane],
+                 {block.inverse_mass_b[lane], lane_of(block.inverse_inertia_b, lane)},
+                 lane_of(row.arm_b, lane)},
+                lane_of(row.normal, lane)};
+    }
+
+    /// e times what a contact bore in compression, if it collided and touches [N s].
+    static Real restitution(const World& world, const ContactArrays<Real, W>& rows,
+                            const ContactPlace& at) {
+        const Contact& found = world.contacts.found[at.contact];
+        const double e = world.surface_pair(found.a, found.b).restitution;
+        const NormalRow<Real, W>& row = rows.normals[at.row];
+        const double lambda = double(row.lambda_velocity[at.lane]);
+        const bool collides =
+            lambda > collision_threshold(world.settings) * double(row.effective_mass[at.lane]);
+        return collides && world.contacts.gap[at.contact] <= 0 ? static_cast<Real>(e * lambda) : 0;
+    }
+
+    /// Opposite impulses along the normal [N s].
+    static void push(const BodyRows<Real>& bodies, const Sides& sides, Real impulse) {
+        const auto take = [&](const Side& side, const Vector3<Real>& p) {
+            if (side.row >= bodies.dynamic_count) return;
+            Velocity<Real> change = velocity_in(bodies.change, side.row);
+            apply_impulse<Real>(change, side.mass, side.arm, p);
+            put_velocity(bodies.change, side.row, change);
+        };
+        take(sides.a, sides.normal * impulse);
+        take(sides.b, sides.normal * -impulse);
+    }
+
+    /// How the separating velocity has changed since the start of the substep [m/s].
+    static Real change_along(const BodyRows<Real>& bodies, const Sides& sides) {
+        const auto change = [&](const Side& side) {
+            return velocity_at<Real>(velocity_in(bodies.change, side.row), side.arm);
+        };
+        return sides.normal.dot(change(sides.a) - change(sides.b));
+    }
+
+    ContactImpulses<Real, W> resting_;
+    std::vector<Given> given_;
+};
+
+}  // namespace plumb

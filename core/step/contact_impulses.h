@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: MIT
+/// The summed impulses of contact rows that the next substep begins from.
+#pragma once
+
+#include "schedule/contact_rows.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace plumb {
+
+/// Calls visit(Real*) for each of those sums of row k, [lane].
+template <class Real, int W, class Visit>
+inline void each_sum(const ContactArrays<Real, W>& rows, std::size_t k, Visit visit) {
+    NormalRow<Real, W>& row = rows.normals[k];
+    visit(row.lambda_velocity), visit(row.lambda_position);
+    if (!rows.frictions) return;
+    FrictionRow<Real, W>& across = rows.frictions[k];
+    visit(across.held_x), visit(across.held_y);
+    visit(across.rubbed_x), visit(across.rubbed_y);
+}
+
+/// Those of all rows, put aside while the rows serve another purpose.
+template <class Real, int W>
+class ContactImpulses {
+public:
+    /// Takes the memory for `count` rows.
+    void reserve(const ContactArrays<Real, W>& rows, std::size_t count) {
+        sums_.reserve(count * (rows.frictions ? 6 : 2) * W);
+    }
+
+    void take(const ContactArrays<Real, W>& rows, std::size_t count) {
+        sums_.clear();
+        for (std::size_t k = 0; k < count; ++k)
+            each_sum(rows, k, [&](const Real* sum) { sums_.insert(sums_.end(), sum, sum + W); });
+    }
+
+    /// Gives back what was taken from the same rows.
+    void give(const ContactArrays<Real, W>& rows, std::size_t count) const {
+        auto from = sums_.begin();
+        for (std::size_t k = 0; k < count; ++k)
+            each_sum(rows, k, [&](Real* sum) {
+                std::copy_n(from, W, sum);
+                from += W;
+            });
+    }
+
+private:
+    std::vector<Real> sums_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+/// Angular momentum and energy of single bodies. The principal moments I are those of the body's
+/// frame; ω and L are the world's.
+#pragma once
+
+#include "world/bodies.h"
+
+namespace plumb {
+
+/// L = q I q* ω, of body i turning at the rate w [kg m²/s].
+inline Vector3d spin_momentum(const Bodies& b, std::size_t i, const Vector3d& w) {
+    const Quaterniond& q = b.orientation[i];
+    return q * b.inertia[i].cwiseProduct(q.conjugate() * w);
+}
+
+/// v · I w [J]; with v = w twice the energy of turning at that rate.
+inline double turning_product(const Bodies& b, std::size_t i, const Vector3d& v,
+                              const Vector3d& w) {
+    const Quaterniond back = b.orientation[i].conjugate();
+    return (back * v).cwiseProduct(b.inertia[i]).dot(back * w);
+}
+
+/// Of body i, by its present velocities [J].
+inline double kinetic_energy(const Bodies& b, std::size_t i) {
+    const Vector3d& w = b.angular_velocity[i];
+    return 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() + turning_product(b, i, w, w));
+}
+
+}  // namespace plumb

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+#include "effects/plan.h"
+
+#include "support/scenes.h"
+
+namespace plumb::test {
+namespace {
+
+bool runs(const Scene& scene, Effect effect) { return make_plan(build_world(scene)).runs(effect); }
+
+Geometry cylinder() {
+    Geometry g;
+    g.kind = ShapeKind::cylinder;
+    g.radius = 0.2, g.half_height = 0.3;
+    return g;
+}
+
+/// A box on the ground, which a cylinder may join.
+Scene box_on_the_ground() {
+    Scene s;
+    add_ground(s);
+    add_body(s, box(0.2, 0.2, 0.2), {0, 0.2, 0});
+    return s;
+}
+
+TEST(Plan, RimsRunWhereShapesHaveThem) {
+    Scene s = box_on_the_ground();
+    EXPECT_FALSE(runs(s, Effect::rims));
+    Geometry part = cylinder(), compound;
+    compound.kind = ShapeKind::compound;
+    compound.parts.push_back({part, {}});
+    for (const Geometry& g : {part, compound}) {
+        Scene with = s;
+        add_body(with, g, {1, 0.3, 0});
+        EXPECT_TRUE(runs(with, Effect::rims));
+        with.settings.forbid = {"contacts"};
+        EXPECT_FALSE(runs(with, Effect::rims));
+    }
+}
+
+TEST(Plan, RimsLeaveNoTablesOnceTheLastIsGone) {
+    Scene s = box_on_the_ground();
+    add_body(s, cylinder(), {1, 0.3, 0});
+    Simulation simulation(s, colliders(), "ode");
+    simulation.step();
+    const ContactTable& c = simulation.world().contacts;
+    EXPECT_FALSE(c.rims.empty());
+    EXPECT_EQ(c.rims.size(), c.bend.size());
+    simulation.remove_body(2);
+    run_for(simulation, 0.1);
+    EXPECT_GT(c.found_before.size(), 0u) << "the box";
+    EXPECT_TRUE(c.rims.empty());
+    EXPECT_TRUE(c.bend.empty());
+}
+
+TEST(Plan, StillGroundRunsWhereSomethingStands) {
+    Scene s = box_on_the_ground();
+    EXPECT_TRUE(runs(s, Effect::still_ground));
+    s.settings.shared_push = false;
+    EXPECT_FALSE(runs(s, Effect::still_ground)) << "as in the paper";
+    s.settings.shared_push = true;
+    s.settings.forbid = {"contacts"};
+    EXPECT_FALSE(runs(s, Effect::still_ground));
+    s.settings.forbid.clear();
+    s.bodies[0].motion = Motion::kinematic;
+    EXPECT_FALSE(runs(s, Effect::still_ground));
+}
+
+TEST(Plan, WhatNeedsNoWatchHasNone) {
+    Scene s = box_on_the_ground();
+    s.bodies.erase(s.bodies.begin());
+    add_body(s, box(0.2, 0.2, 0.2), {0, 0.6, 0});
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 0.1);
+    EXPECT_EQ(simulation.ledger().calls[static_cast<std::size_t>(Stage::still_ground)], 0u);
+}
+
+}  // namespace
+}  // namespace plumb::test
