@@ -191,7 +191,7 @@ private:
     /// full, if it is more than what gravity moves in a step. Only bodies that are moved by others
     /// squeeze without end; elsewhere it must be deep indeed, or heaps would creep. What presses on
     /// joints opens those, and its contacts come deep for a while: they are carried over whole.
-    static constexpr double kTrusted = 0.1, kTrustedWhereMoved = 0.02;
+    static constexpr double kTrusted = 0.2, kTrustedWhereMoved = 0.02;
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
 
