@@ -5,7 +5,7 @@ add_executable(plumb_app app/main.cpp app/check.cpp app/check_collider.cpp app/c
   app/contact_sources.cpp app/distinct_files.cpp app/free_run.cpp
   app/effects.cpp app/energy_watch.cpp app/export.cpp
   app/interrupt.cpp app/plugin_path.cpp app/progress.cpp app/recorder.cpp app/run.cpp app/run_options.cpp app/statistics.cpp app/study_files.cpp
-  app/study_options.cpp app/summary.cpp
+  app/study_options.cpp app/summary.cpp app/tune.cpp
   app/usage.cpp app/within_reach.cpp)
 set_target_properties(plumb_app PROPERTIES OUTPUT_NAME plumb)
 target_compile_definitions(plumb_app PRIVATE PLUMB_VERSION="${PROJECT_VERSION}")

@@ -32,6 +32,7 @@ constexpr std::array kVerbs{
                add_compare},
     Registered{"cost", "measure what accuracy costs in time, of known cases and of scenes",
                add_cost},
+    Registered{"tune", "find the cheapest settings of a scene that reach an error", add_tune},
     Registered{"export", "make a replay, picture or table of a recording", add_export},
 };
 

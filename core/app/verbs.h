@@ -29,5 +29,6 @@ Verb add_check(CLI::App& command);
 Verb add_compare(CLI::App& command);
 Verb add_export(CLI::App& command);
 Verb add_cost(CLI::App& command);
+Verb add_tune(CLI::App& command);
 
 }  // namespace plumb::app

@@ -21,6 +21,12 @@ double fineness(const Row& r) {
     return r.point.ladder == Ladder::step ? 1 / r.point.value : r.point.value;
 }
 
+/// Whether the point is what a user would choose, rather than a departure switched off to see what
+/// it buys.
+bool is_for_users(const Point& p) {
+    return p.contacts == "shared" && (p.curve == "pbd" || p.curve.rfind("joints ", 0) == 0);
+}
+
 struct Dot {
     double x, y;
 };
@@ -127,7 +133,8 @@ std::string settings_sentence(const Point& p) {
     char value[32];
     std::snprintf(value, sizeof value, "%g", p.value);
     std::string text;
-    if (p.ladder == Ladder::substeps) text = std::string(value) + " substeps × 1 iteration";
+    if (p.ladder == Ladder::substeps)
+        text = std::string(value) + (p.value == 1 ? " substep" : " substeps") + " × 1 iteration";
     if (p.ladder == Ladder::iterations) text = "1 substep × " + std::string(value) + " iterations";
     if (p.ladder == Ladder::step) text = "steps of " + std::string(value) + " s";
     text += " in " + p.precision;
@@ -205,8 +212,7 @@ std::optional<double> floor_of(const StudyTable& table, const CurveRows& curve) 
     const std::vector<Dot> dots = convergence(table, curve);
     const std::size_t n = dots.size();
     constexpr double kFalls = -0.3;
-    if (n < 3 || fitted(dots, n - 2, n) < kFalls || fitted(dots, n - 3, n - 1) < kFalls)
-        return std::nullopt;
+    if (n < 3 || fitted(dots, n - 2, n) < kFalls || !slope_of(table, curve)) return std::nullopt;
     double least = dots[0].y;
     for (const Dot& d : dots) least = std::min(least, d.y);
     return std::exp(least);
@@ -218,6 +224,7 @@ std::optional<std::size_t> cheapest(const StudyTable& table, const std::string& 
     for (std::size_t i = 0; i < table.rows.size(); ++i) {
         const Row& r = table.rows[i];
         if (r.point.subject != subject || !can_be_drawn(r) || r.error() > error) continue;
+        if (!is_for_users(r.point)) continue;
         if (!best || r.median_cost().total < table.rows[*best].median_cost().total) best = i;
     }
     return best;
@@ -270,7 +277,9 @@ std::vector<Departure> departures_of(const StudyTable& table) {
 
 std::vector<std::string> advice_on(const StudyTable& table, const SubjectSummary& subject) {
     constexpr std::size_t kMost = 4;
-    const double most = errors_of(table, subject.name).second;
+    const std::string& unit = subject.metrics.front().unit;
+    double most = errors_of(table, subject.name).second;
+    if (unit.empty()) most = std::min(most, 0.1);
     std::vector<std::string> sentences;
     if (!(most > 0)) return sentences;
     int decade = static_cast<int>(std::floor(std::log10(most)));
@@ -279,7 +288,7 @@ std::vector<std::string> advice_on(const StudyTable& table, const SubjectSummary
         const auto row = cheapest(table, subject.name, error);
         if (!row) break;
         const Row& r = table.rows[*row];
-        sentences.push_back(error_text(error, subject.metrics.front().unit) + " costs " +
+        sentences.push_back(error_text(error, unit) + " costs " +
                             short_number(r.median_cost().total) +
                             " µs of CPU a simulated second: " + settings_sentence(r.point));
     }

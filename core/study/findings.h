@@ -36,7 +36,8 @@ std::optional<Slope> slope_of(const StudyTable& table, const CurveRows& curve);
 /// The smallest error of a curve that stopped falling; nothing where it still falls.
 std::optional<double> floor_of(const StudyTable& table, const CurveRows& curve);
 
-/// The cheapest row of a subject with at most this error; nothing where there is none.
+/// The cheapest row of a subject with at most this error, of those that a user would choose: no
+/// departure from the paper switched off, no raw contacts. Nothing where there is none.
 std::optional<std::size_t> cheapest(const StudyTable& table, const std::string& subject,
                                     double error);
 

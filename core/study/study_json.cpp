@@ -5,6 +5,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include <cmath>
+
 namespace plumb::study {
 namespace {
 
@@ -41,6 +43,12 @@ Json curve_head(const CurveRows& c) {
             {"ladder", name_of(c.ladder)},
             {"collider", c.collider},
             {"contacts", c.contacts}};
+}
+
+/// A ratio of errors at equal cost, in words.
+std::string meaning_of(double ratio) {
+    if (ratio > 1.1) return "less error at equal cost";
+    return ratio < 0.9 ? "more error at equal cost" : "no difference";
 }
 
 Json or_null(double value) { return value > 0 ? Json(value) : Json(nullptr); }
@@ -96,8 +104,8 @@ std::string study_json(const StudyTable& table, const std::string& title) {
             if (s["name"] == d.subject)
                 s["departures"].push_back({{"what", d.what},
                                            {"ratio", d.gain.ratio},
-                                           {"from_us", d.gain.from},
-                                           {"to_us", d.gain.to}});
+                                           {"at_us", std::sqrt(d.gain.from * d.gain.to)},
+                                           {"note", meaning_of(d.gain.ratio)}});
     Json profiles = Json::array();
     for (const Profile& p : profiles_of(table))
         profiles.push_back({{"name", p.name}, {"points", p.points}});

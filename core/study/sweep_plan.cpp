@@ -2,7 +2,7 @@
 #include "study/sweep_plan.h"
 
 #include "effects/plan.h"
-#include "host/shape_pairs.h"
+#include "host/conflicts.h"
 #include "reader/reader.h"
 #include "world/world.h"
 
@@ -39,18 +39,6 @@ constexpr std::array kVariants{
     Variant{"implicit gyroscopic term", "gyroscopic=implicit", Effect::gyroscopic},
     Variant{"joints by iterations", "joints=iterate", Effect::joint_trees},
 };
-
-std::string number_text(double value) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    double back = 0;
-    for (int digits = 1; digits < 17; ++digits) {
-        char shorter[32];
-        std::snprintf(shorter, sizeof shorter, "%.*g", digits, value);
-        if (std::sscanf(shorter, "%lf", &back) == 1 && back == value) return shorter;
-    }
-    return text;
-}
 
 /// Writes the points of a subject, curve by curve.
 class Planner {
@@ -91,13 +79,16 @@ private:
         } else {
             colliders_ = {library.choose(subject_.scene).collider->name};
             for (const ColliderInfo& c : library.all())
-                if (c.table && c.name != colliders_.front() && can_do(library, c))
+                if (c.table && c.name != colliders_.front() && may_join(library, c))
                     colliders_.push_back(c.name);
         }
         if (!plan_.runs(Effect::contacts)) colliders_.resize(1);
     }
 
-    bool can_do(const ColliderLibrary& library, const ColliderInfo& collider) const {
+    /// Whether a collider can do the scene, and may share a process with those chosen already.
+    bool may_join(const ColliderLibrary& library, const ColliderInfo& collider) const {
+        for (const std::string& name : colliders_)
+            if (conflicting(*library.find(name).table, *collider.table)) return false;
         try {
             library.check_abilities(collider, subject_.scene);
             return true;
@@ -166,6 +157,18 @@ Settings settings_at(const Subject& subject, const Point& point) {
     Settings settings = subject.scene.settings;
     for (const std::string& setting : point.settings) apply_setting(settings, setting);
     return settings;
+}
+
+std::string number_text(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.17g", value);
+    double back = 0;
+    for (int digits = 1; digits < 17; ++digits) {
+        char shorter[32];
+        std::snprintf(shorter, sizeof shorter, "%.*g", digits, value);
+        if (std::sscanf(shorter, "%lf", &back) == 1 && back == value) return shorter;
+    }
+    return text;
 }
 
 double work_of(const Subject& subject, const Settings& s) {

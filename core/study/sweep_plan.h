@@ -29,6 +29,9 @@ std::vector<Point> points_of(const Subject& subject, const SweepChoice& choice,
 /// A subject's settings with a point's applied. Throws SceneError.
 Settings settings_at(const Subject& subject, const Point& point);
 
+/// The shortest text that reads back as the same number.
+std::string number_text(double value);
+
 /// Rough measure of how long a point takes, against others of its subject: sweeps over bodies.
 double work_of(const Subject& subject, const Settings& settings);
 

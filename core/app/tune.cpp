@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+/// plumb tune: the cheapest settings of a scene that reach an error.
+#include "study/tune.h"
+#include "app/interrupt.h"
+#include "app/plugin_path.h"
+#include "app/progress.h"
+#include "app/study_options.h"
+#include "app/usage.h"
+#include "app/verbs.h"
+
+#include <cstdio>
+#include <memory>
+
+namespace plumb::app {
+namespace {
+
+struct Options {
+    std::string subject, collider = "auto", metric, budget = "1m", plugin_path;
+    double error = 0, time = 0;
+    bool quiet = false;
+};
+
+void check(const Options& o) {
+    if (o.error > 0 || o.time > 0) return;
+    throw UsageError("--error or --time is required; write --error 0.001");
+}
+
+/// A reference that is itself less exact than what is asked for cannot tell.
+void check_reach(const Options& o, const study::Subject& subject) {
+    constexpr double kMargin = 2;
+    if (!(o.error > 0) || o.error >= kMargin * subject.reference_error) return;
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "--error %g: the references that --budget %s allows are only known to %.2g %s; "
+                  "ask for at least %.2g, or give them more time",
+                  o.error, o.budget.c_str(), subject.reference_error,
+                  subject.metrics.front().unit.c_str(), kMargin * subject.reference_error);
+    throw UsageError(text);
+}
+
+/// key=value as a line of JSON.
+std::string json_line(const std::string& setting) {
+    const std::size_t equals = setting.find('=');
+    const std::string key = setting.substr(0, equals), value = setting.substr(equals + 1);
+    const bool is_number = value.find_first_not_of("0123456789.e+-") == std::string::npos;
+    const std::string text = is_number ? value : "\"" + value + "\"";
+    return "  \"" + key + "\": " + text;
+}
+
+void print_trials(const study::Subject& subject, const study::TuneResult& result) {
+    const std::string unit = subject.metrics.front().unit;
+    std::fprintf(stderr, "%12s %14s  settings\n",
+                 (subject.metrics.front().name + (unit.empty() ? "" : " [" + unit + "]")).c_str(),
+                 "µs/s");
+    for (const study::Trial& t : result.trials) {
+        if (t.is_done())
+            std::fprintf(stderr, "%12.3g %14.0f  ", t.error(), t.outcome.cost.total);
+        else
+            std::fprintf(stderr, "%12s %14s  ", std::string(name_of(t.outcome.status)).c_str(),
+                         "-");
+        std::fprintf(stderr, "%s\n", t.point.settings_text().c_str());
+    }
+}
+
+int not_reached(const Options& o, const study::Subject& subject, const study::TuneResult& result) {
+    double least = 0;
+    bool any = false;
+    for (const study::Trial& t : result.trials)
+        if (t.is_done()) least = any ? std::min(least, t.error()) : t.error(), any = true;
+    if (interrupted()) return kInterrupted;
+    if (!any) {
+        std::fprintf(stderr, "plumb: %s diverges at all settings that were tried\n",
+                     subject.name.c_str());
+        return kDiverged;
+    }
+    std::fprintf(stderr,
+                 "plumb: no settings were found that reach it; the least error was %.3g %s\n",
+                 least, subject.metrics.front().unit.c_str());
+    if (o.time > 0)
+        std::fprintf(stderr, "plumb: --time %g µs a simulated second may be too short\n", o.time);
+    return kUsage;
+}
+
+int tune(const Options& o) {
+    check(o);
+    const double seconds = seconds_of(o.budget, "--budget");
+    const ColliderLibrary colliders(o.plugin_path);
+    catch_interrupts();
+    study::Subject subject = subject_named(o.subject, colliders, o.collider, seconds);
+    if (!o.metric.empty()) choose_metric(subject, o.metric);
+    check_reach(o, subject);
+
+    study::TuneOptions options;
+    options.error = o.error;
+    if (o.time > 0) options.time = o.time;
+    options.collider = o.collider;
+    options.stop = interrupted;
+    study::TuneResult result;
+    {
+        Progress progress(options.most_runs, o.quiet);
+        options.progress = [&](std::uint32_t run, std::uint32_t most, const study::Point& p) {
+            progress.show_runs(run, most, p.settings_text());
+        };
+        result = study::tune(subject, colliders, options);
+    }
+    if (!o.quiet) print_trials(subject, result);
+    if (!result.best) return not_reached(o, subject, result);
+    const study::Trial& best = *result.best;
+    std::printf("\"settings\": {\n");
+    for (std::size_t i = 0; i < best.point.settings.size(); ++i)
+        std::printf("%s%s\n", json_line(best.point.settings[i]).c_str(),
+                    i + 1 < best.point.settings.size() ? "," : "");
+    std::printf("}\n");
+    std::fprintf(stderr,
+                 "%s: %s is %.3g %s at %.0f µs of CPU a simulated second, on %s, in %zu runs\n",
+                 subject.name.c_str(), subject.metrics.front().what.c_str(), best.error(),
+                 subject.metrics.front().unit.c_str(), best.outcome.cost.total,
+                 best.point.collider.c_str(), result.trials.size() + 1);
+    return kDone;
+}
+
+}  // namespace
+
+Verb add_tune(CLI::App& command) {
+    auto o = std::make_shared<Options>();
+    command.add_option("subject", o->subject, "a scene's file, or a case by name")
+        ->required()
+        ->type_name("SCENE|CASE");
+    command.add_option("--error", o->error, "wanted, in the unit of the metric")
+        ->check(CLI::PositiveNumber)
+        ->type_name("E");
+    command
+        .add_option("--time", o->time,
+                    "CPU time allowed [µs a simulated second]; alone: the least error within it")
+        ->check(CLI::PositiveNumber)
+        ->type_name("T");
+    command.add_option("--metric", o->metric, "what is taken as the error")->type_name("NAME");
+    command
+        .add_option("--collider", o->collider,
+                    "collision plugin; auto = the cheapest that can do the scene")
+        ->type_name("NAME");
+    command
+        .add_option("--budget", o->budget,
+                    "time that the references of a scene may take; 1m unless told")
+        ->type_name("TIME");
+    command.add_flag("--quiet", o->quiet, "no progress bar, no table of runs");
+    add_plugin_path_option(command, o->plugin_path);
+    return [o] { return tune(*o); };
+}
+
+}  // namespace plumb::app

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "study/tune.h"
+
+#include "effects/plan.h"
+#include "study/sweep_plan.h"
+#include "world/world.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::study {
+namespace {
+
+/// What is varied.
+struct Choice {
+    std::uint32_t substeps = 8, iterations = 1;
+    double step_share = 1;  ///< of the scene's dt
+    bool is_double = false;
+    std::string joints;  ///< "" as the scene says
+
+    bool operator==(const Choice&) const = default;
+};
+
+class Tuner {
+public:
+    Tuner(const Subject& subject, const ColliderLibrary& colliders, const TuneOptions& options)
+        : subject_(subject), colliders_(colliders), options_(options) {
+        const Plan plan = make_plan(build_world(subject.scene));
+        has_joints_ = plan.runs(Effect::joints);
+        solves_trees_ = plan.runs(Effect::joint_trees);
+        collider_ = options.collider == "auto" ? colliders.choose(subject.scene).collider->name
+                                               : options.collider;
+    }
+
+    TuneResult run() {
+        Choice best = refine({});
+        if (!reaches(best) && options_.error > 0) {
+            Choice exact = best;
+            exact.is_double = true;
+            best = refine(exact);
+        }
+        for (const bool coarser : {true, false}) best = walk(best, coarser);
+        best = better_of(best, with_iterations(best));
+        if (has_joints_) {
+            Choice other = best;
+            other.joints = solves_trees_ ? "iterate" : "tree";
+            best = better_of(best, other);
+        }
+        verify(best);
+        return std::move(result_);
+    }
+
+private:
+    static constexpr std::uint32_t kMostSubsteps = 2048;
+
+    /// Runs that may be made before the one that verifies.
+    bool may_run() const { return result_.trials.size() + 1 < options_.most_runs; }
+
+    Point point_of(const Choice& c) const {
+        Point p{.subject = subject_.name,
+                .curve = "tuned",
+                .precision = c.is_double ? "double" : "single",
+                .ladder = Ladder::substeps,
+                .value = static_cast<double>(c.substeps),
+                .collider = collider_,
+                .contacts = "shared",
+                .settings = {}};
+        if (c.step_share != 1)
+            p.settings.push_back("dt=" + number_text(c.step_share * subject_.scene.settings.dt));
+        p.settings.push_back("precision=" + p.precision);
+        p.settings.push_back("substeps=" + std::to_string(c.substeps));
+        for (const char* pass : {"velocity_iterations=", "position_iterations="})
+            p.settings.push_back(pass + std::to_string(c.iterations));
+        if (!c.joints.empty()) p.settings.push_back("joints=" + c.joints);
+        return p;
+    }
+
+    /// The trial of a choice; made unless it was, nullptr where no run is left.
+    const Trial* trial(const Choice& c) {
+        for (std::size_t i = 0; i < choices_.size(); ++i)
+            if (choices_[i] == c) return &result_.trials[i];
+        if (!may_run()) return nullptr;
+        const Point point = point_of(c);
+        if (options_.progress)
+            options_.progress(static_cast<std::uint32_t>(result_.trials.size()) + 1,
+                              options_.most_runs, point);
+        choices_.push_back(c);
+        result_.trials.push_back(
+            {point, run_point(subject_, point, colliders_, true, options_.stop)});
+        return &result_.trials.back();
+    }
+
+    double error_of(const Choice& c) {
+        const Trial* t = trial(c);
+        return t ? t->error() : std::numeric_limits<double>::infinity();
+    }
+    double cost_of(const Choice& c) {
+        const Trial* t = trial(c);
+        return t && t->is_done() ? t->outcome.cost.total : std::numeric_limits<double>::infinity();
+    }
+
+    bool reaches(const Choice& c) {
+        return (options_.error <= 0 || error_of(c) <= options_.error) &&
+               cost_of(c) <= options_.time;
+    }
+
+    /// Of two choices the one that reaches what is wanted; of two that do, the cheaper, or the more
+    /// exact where time is given.
+    Choice better_of(const Choice& a, const Choice& b) {
+        if (reaches(a) != reaches(b)) return reaches(a) ? a : b;
+        if (options_.error > 0 && reaches(a)) return cost_of(b) < cost_of(a) ? b : a;
+        return error_of(b) < error_of(a) ? b : a;
+    }
+
+    /// How many substeps will do, by the two trials that came last: the error as a power of them,
+    /// or the cost in proportion.
+    std::uint32_t foretold(const Choice& before, const Choice& last) {
+        double factor = 2;
+        if (options_.error > 0) {
+            const double falls = std::log(error_of(before) / error_of(last));
+            const double finer = std::log(double(last.substeps) / before.substeps);
+            const double order = std::clamp(falls / finer, 0.5, 4.0);
+            if (std::isfinite(falls))
+                factor = std::pow(error_of(last) / (kAim * options_.error), 1 / order);
+        } else {
+            factor = kAim * options_.time / cost_of(last);
+        }
+        const double wanted = std::clamp(factor, 1.0 / 16, 8.0) * last.substeps;
+        return static_cast<std::uint32_t>(
+            std::clamp(std::ceil(wanted), 1.0, double(kMostSubsteps)));
+    }
+
+    /// Substeps that just reach what is wanted, all else as in `start`.
+    Choice refine(const Choice& start) {
+        Choice before = start, last = start;
+        last.substeps = 2 * start.substeps;
+        error_of(before);
+        Choice best = better_of(before, last);
+        for (int i = 0; i < kRefinements && may_run(); ++i) {
+            Choice next = last;
+            next.substeps = foretold(before, last);
+            if (next.substeps == last.substeps || next.substeps == before.substeps) break;
+            error_of(next);
+            best = better_of(best, next);
+            before = last, last = next;
+            if (reaches(last) && error_of(last) > kNearEnough * options_.error) break;
+        }
+        return best;
+    }
+
+    /// The same substeps with detections half as often, or twice, as long as that helps.
+    Choice walk(Choice best, bool coarser) {
+        for (int i = 0; i < 2; ++i) {
+            Choice next = best;
+            next.step_share *= coarser ? 2 : 0.5;
+            next.substeps = coarser ? 2 * best.substeps : best.substeps / 2;
+            if (next.substeps == 0 || next.step_share > 4 || !may_run()) break;
+            const Choice better = better_of(best, next);
+            if (better == best) break;
+            best = better;
+        }
+        return best;
+    }
+
+    static Choice with_iterations(Choice c) {
+        c.substeps = std::max(1u, c.substeps / 2);
+        c.iterations *= 2;
+        return c;
+    }
+
+    /// One more run of the best, whose figures are the result's.
+    void verify(const Choice& best) {
+        if (!reaches(best)) return;
+        const Point point = point_of(best);
+        Outcome outcome = run_point(subject_, point, colliders_, true, options_.stop);
+        if (outcome.status == Status::done) result_.best = Trial{point, std::move(outcome)};
+    }
+
+    static constexpr double kAim = 0.9;  ///< share of what is allowed that is aimed at
+    static constexpr double kNearEnough = 0.7;
+    static constexpr int kRefinements = 4;
+
+    const Subject& subject_;
+    const ColliderLibrary& colliders_;
+    const TuneOptions& options_;
+    bool has_joints_ = false, solves_trees_ = false;
+    std::string collider_;
+    std::vector<Choice> choices_;  ///< [trial]
+    TuneResult result_;
+};
+
+}  // namespace
+
+TuneResult tune(const Subject& subject, const ColliderLibrary& colliders,
+                const TuneOptions& options) {
+    return Tuner(subject, colliders, options).run();
+}
+
+}  // namespace plumb::study

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+/// The cheapest settings that reach an error, found with few runs.
+///
+/// The error of a run falls as a power of the substeps. Two runs give the power, the next go where
+/// it foretells the wanted error; then neighbours that do the same work in another way are tried:
+/// fewer detections, more iterations, the other way of solving joints, double precision where
+/// single stops. The best is run once more to verify it.
+#pragma once
+
+#include "host/collider_library.h"
+#include "study/run_point.h"
+
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plumb::study {
+
+struct TuneOptions {
+    double error = 0;  ///< wanted, in the unit of the subject's first metric; 0: the least within
+                       ///< `time`
+    double time = std::numeric_limits<double>::infinity();  ///< CPU allowed [µs/s]
+    std::string collider = "auto";
+    std::uint32_t most_runs = 15;
+    Stop stop;
+    std::function<void(std::uint32_t run, std::uint32_t most, const Point&)> progress;
+};
+
+/// A run that was made on the way.
+struct Trial {
+    Point point;
+    Outcome outcome;
+
+    bool is_done() const { return outcome.status == Status::done; }
+    double error() const {
+        return is_done() ? outcome.errors.front() : std::numeric_limits<double>::infinity();
+    }
+};
+
+struct TuneResult {
+    std::optional<Trial> best;  ///< with the outcome of the run that verified it; none: not reached
+    std::vector<Trial> trials;  ///< in the order in which they were made
+};
+
+TuneResult tune(const Subject& subject, const ColliderLibrary& colliders,
+                const TuneOptions& options);
+
+}  // namespace plumb::study
