@@ -40,6 +40,7 @@ struct Ledger {
     std::array<std::uint64_t, kStageCount> nanoseconds{};
     std::array<std::uint64_t, kStageCount> calls{};
     std::uint64_t step_nanoseconds = 0;
+    std::chrono::steady_clock::time_point mark{};  ///< when the last timer ended
 
     std::uint64_t of(Stage s) const { return nanoseconds[static_cast<std::size_t>(s)]; }
     std::uint64_t solver_nanoseconds() const { return step_nanoseconds - of(Stage::detect); }
@@ -49,16 +50,16 @@ struct Ledger {
     }
 };
 
-/// Adds the time between its making and its end to a stage.
+/// At its end, adds the time since the last timer ended, or the step began, to a stage: what is
+/// done between two stages is booked on the later one, and nothing is lost.
 class StageTimer {
 public:
     StageTimer(Ledger& ledger, Stage stage) : ledger_(ledger), stage_(stage) {}
     ~StageTimer() {
         const auto i = static_cast<std::size_t>(stage_);
-        ledger_.nanoseconds[i] +=
-            static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                           std::chrono::steady_clock::now() - start_)
-                                           .count());
+        const auto now = std::chrono::steady_clock::now();
+        ledger_.nanoseconds[i] += static_cast<std::uint64_t>((now - ledger_.mark).count());
+        ledger_.mark = now;
         ++ledger_.calls[i];
     }
     StageTimer(const StageTimer&) = delete;
@@ -67,7 +68,6 @@ public:
 private:
     Ledger& ledger_;
     Stage stage_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 /// Moves the time between its making and its end to a stage from the one that is timed around it.

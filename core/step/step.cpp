@@ -26,6 +26,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     const auto start = std::chrono::steady_clock::now();
     StepReport report;
     Ledger& ledger = stepper.ledger = {};
+    ledger.mark = start;
     const Plan& plan = stepper.plan;
     RowSolver& solver = *stepper.solver;
     auto timed = [&](Stage stage, auto&& work) {
