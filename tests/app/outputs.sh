@@ -72,7 +72,10 @@ while name=$("$json_has" "$work/ablation.json" --print "/effects/$i/name" 2>/dev
 done
 [ $i -ge 13 ]
 
-# what the back-end itself says holds a stack, too
+# a run that diverges without an effect is told of in that effect's row
+"$plumb" effects "$2/tests/app/scenes/held_spinner.json" --ablate | grep "^joints .* without it the run is no longer finite after step"
+
+# a run on what the back-end itself says, whether its stack stands or not
 "$plumb" run "$scenes/stack.json" --quiet --collider ode --set contacts=raw --duration 0.5 --summary - >"$work/raw.json"
 [ "$("$json_has" "$work/raw.json" --print /contact_sources/clip)" = 0 ]
 [ "$("$json_has" "$work/raw.json" --print /contact_sources/asked)" = '"raw"' ]
