@@ -1,6 +1,6 @@
 # The `plumb` program. It links no back-end: colliders are loaded when it runs.
 find_package(CLI11 REQUIRED)
-add_executable(plumb_app app/main.cpp app/check.cpp app/check_collider.cpp app/colliders.cpp
+add_executable(plumb_app app/main.cpp app/ablation.cpp app/check.cpp app/check_collider.cpp app/colliders.cpp
   app/compare.cpp app/comparison.cpp app/cost.cpp app/comparison_json.cpp app/comparison_rows.cpp app/comparison_text.cpp
   app/contact_sources.cpp app/distinct_files.cpp app/free_run.cpp
   app/effects.cpp app/energy_watch.cpp app/export.cpp

@@ -15,8 +15,9 @@ Recorder::Recorder(const std::vector<std::string>& files, const std::string& sum
     std::vector<std::string> all = files;
     all.push_back(summary);
     check_distinct(all);
-    const Metadata metadata{simulation.collider_name(),
-                            {{"collider_version", simulation.collider_version()}}};
+    Metadata metadata{simulation.collider_name(),
+                      {{"collider_version", simulation.collider_version()}}};
+    if (scene.settings.contacts == ContactOrigin::raw) metadata.values["contacts"] = "raw";
     for (const std::string& file : files)
         exporters_.push_back(make_exporter(file, scene, metadata));
     if (summary.empty() || summary == "-") return;

@@ -130,8 +130,11 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
           Stage::positions, Stage::remember}},
         {Effect::contact_reuse, {Stage::reuse}},
         {Effect::restitution, {Stage::restitution}},
+        {Effect::impacts, {Stage::impacts}},
         {Effect::still_ground, {Stage::still_ground}},
         {Effect::exact_islands, {Stage::islands}},
+        {Effect::joints, {Stage::joints}},
+        {Effect::joint_trees, {Stage::trees}},
         {Effect::kinematics, {Stage::kinematics}},
         {Effect::shock_propagation, {Stage::shock}}};
     return stages;
@@ -194,7 +197,8 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
                      {"end", world.contacts.found_before.size()}};
     j["pairs"] = {{"candidates", detect.broad_pairs}, {"touching", detect.narrow_pairs}};
     j["contacts"]["kept"] = world.contacts.kept.reused;
-    j["contact_sources"] = {{"backend", detect.from_backend},
+    j["contact_sources"] = {{"asked", settings.contacts == ContactOrigin::raw ? "raw" : "shared"},
+                            {"backend", detect.from_backend},
                             {"clip", detect.from_clip},
                             {"fallback", detect.from_fallback}};
     j["time_ms"] = {{"detect", times(s.detect_ms)},

@@ -5,6 +5,7 @@
 #include <array>
 #include <chrono>
 #include <cstdint>
+#include <numeric>
 #include <string_view>
 
 namespace plumb {
@@ -20,39 +21,46 @@ enum class Stage : std::uint32_t {
     integrate,     ///< forces and gyroscopic term
     begin,         ///< gaps, drifts and velocities at the start of the substep
     velocities,    ///< velocity pass
-    positions,     ///< position pass
+    positions,     ///< position pass over contacts
+    joints,        ///< joints that are iterated, and their drives, turns and breaking
+    trees,         ///< joints that form trees, solved exactly
     islands,       ///< islands solved exactly
     shock,         ///< shock propagation
     move,          ///< new poses
     still_ground,  ///< energy that the ground gave, taken back
     remember,      ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 16;
+inline constexpr std::size_t kStageCount = 18;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect",  "reuse",     "match",        "schedule",   "kinematics", "restitution",
-    "impacts", "integrate", "begin",        "velocities", "positions",  "islands",
-    "shock",   "move",      "still_ground", "remember"};
+    "detect",  "reuse",     "match", "schedule",   "kinematics",   "restitution",
+    "impacts", "integrate", "begin", "velocities", "positions",    "joints",
+    "trees",   "islands",   "shock", "move",       "still_ground", "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {
     std::array<std::uint64_t, kStageCount> nanoseconds{};
     std::array<std::uint64_t, kStageCount> calls{};
     std::uint64_t step_nanoseconds = 0;
+    std::chrono::steady_clock::time_point mark{};  ///< when the last timer ended
 
     std::uint64_t of(Stage s) const { return nanoseconds[static_cast<std::size_t>(s)]; }
     std::uint64_t solver_nanoseconds() const { return step_nanoseconds - of(Stage::detect); }
+    /// Of all stages together.
+    std::uint64_t booked_nanoseconds() const {
+        return std::accumulate(nanoseconds.begin(), nanoseconds.end(), std::uint64_t{0});
+    }
 };
 
-/// Adds the time between its making and its end to a stage.
+/// At its end, adds the time since the last timer ended, or the step began, to a stage: what is
+/// done between two stages is booked on the later one, and nothing is lost.
 class StageTimer {
 public:
     StageTimer(Ledger& ledger, Stage stage) : ledger_(ledger), stage_(stage) {}
     ~StageTimer() {
         const auto i = static_cast<std::size_t>(stage_);
-        ledger_.nanoseconds[i] +=
-            static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::nanoseconds>(
-                                           std::chrono::steady_clock::now() - start_)
-                                           .count());
+        const auto now = std::chrono::steady_clock::now();
+        ledger_.nanoseconds[i] += static_cast<std::uint64_t>((now - ledger_.mark).count());
+        ledger_.mark = now;
         ++ledger_.calls[i];
     }
     StageTimer(const StageTimer&) = delete;
@@ -61,6 +69,27 @@ public:
 private:
     Ledger& ledger_;
     Stage stage_;
+};
+
+/// Moves the time between its making and its end to a stage from the one that is timed around it.
+class ShareTimer {
+public:
+    ShareTimer(Ledger& ledger, Stage stage, Stage around)
+        : ledger_(ledger), stage_(stage), around_(around) {}
+    ~ShareTimer() {
+        const auto ns =
+            static_cast<std::uint64_t>((std::chrono::steady_clock::now() - start_).count());
+        // the stage around adds more than this at its end; until then it may stand below nothing
+        ledger_.nanoseconds[static_cast<std::size_t>(around_)] -= ns;
+        ledger_.nanoseconds[static_cast<std::size_t>(stage_)] += ns;
+        ++ledger_.calls[static_cast<std::size_t>(stage_)];
+    }
+    ShareTimer(const ShareTimer&) = delete;
+    ShareTimer& operator=(const ShareTimer&) = delete;
+
+private:
+    Ledger& ledger_;
+    Stage stage_, around_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 

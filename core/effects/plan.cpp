@@ -40,6 +40,8 @@ Wish contacts(const World& w) {
 Wish contact_reuse(const World& w) {
     if (!contacts(w).wanted) return {false, "there are no contacts"};
     if (!(w.settings.reuse_distance > 0)) return {false, "reuse_distance is 0"};
+    if (w.settings.contacts == ContactOrigin::raw)
+        return {false, "raw contacts may tell of overlaps alone, so each step asks anew"};
     return {true, "contacts of pairs that hardly moved are kept (reuse_distance > 0)"};
 }
 Wish friction(const World& w) {

@@ -2,8 +2,10 @@
 #include "host/add_bodies.h"
 
 #include "scene/error.h"
+#include "step/contact_room.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace plumb {
 namespace {
@@ -15,6 +17,25 @@ void check(const Status& status, const std::string& collider, const std::string&
 }
 
 std::string name_of(std::uint32_t id) { return "body " + std::to_string(id); }
+
+/// Asks once, at the poses of now, for what the back-end itself says.
+void check_raw(Proximity& proximity, const World& world, const std::string& collider) {
+    std::vector<Pose> poses;
+    for (std::size_t i = 0; i < world.bodies.size(); ++i)
+        poses.push_back(
+            {to_plain(world.bodies.position[i]), to_plain(world.bodies.orientation[i])});
+    ContactRoom room;
+    const ContactSink sink = room.sink();
+    const Status status =
+        proximity.detect({poses.data(), nullptr, static_cast<std::uint32_t>(poses.size()),
+                          kDetectRaw, world.settings.margin},
+                         &sink, 1);
+    if (status.code != Status::unsupported) return;  // other trouble is that of steps
+    throw ColliderError("collider \"" + collider +
+                        "\" does not tell what its back-end itself reports, which \"contacts\": "
+                        "\"raw\" asks for: " +
+                        (status.message ? status.message : "it gave no reason"));
+}
 
 }  // namespace
 
@@ -33,6 +54,7 @@ void add_bodies(Proximity& proximity, const World& world, const std::string& col
             add_body(proximity, world, added, shape_row(world.bodies, added), collider);
         for (const std::uint64_t key : world.excluded)
             exclude_pair(proximity, world, key, true, collider);
+        if (world.settings.contacts == ContactOrigin::raw) check_raw(proximity, world, collider);
     } catch (...) {
         while (added-- > 0)
             if (world.bodies.geometry[added] != kNoIndex) proximity.remove(added);

@@ -16,8 +16,8 @@ namespace plumb {
 BodyRow shape_row(const Bodies& bodies, std::uint32_t place);
 
 /// Adds every body that has a shape, under its place, and excludes the pairs that are kept apart.
-/// The world's shapes must outlive the collider's use of them. Where the collider refuses one, it
-/// is left without any.
+/// The world's shapes must outlive the collider's use of them. Where the collider refuses one, or
+/// the raw contacts that the settings ask for, it is left without any.
 void add_bodies(Proximity& proximity, const World& world, const std::string& collider);
 
 /// Adds one body, if it has a shape, under its coming place.

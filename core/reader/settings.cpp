@@ -62,6 +62,12 @@ const Table<Settings>& settings_table() {
                  &S::precision, "numbers of the solver's iterations; poses are always double"),
         field<S>("threads", W{{1, 1024}}, &S::threads, "worker threads"),
         lanes_field(),
+        field<S>(
+            "contacts",
+            Choice<ContactOrigin>{{{"shared", ContactOrigin::shared}, {"raw", ContactOrigin::raw}}},
+            &S::contacts,
+            "shared: contacts clipped from the true shapes, alike on every collider; raw: what "
+            "the collider's back-end itself reports"),
         field<S>("margin", Number{{0, 1e3}}, &S::margin,
                  "distance at which contacts are found [m]"),
         field<S>("reuse_distance", Number{{0, 1e3}}, &S::reuse_distance,

@@ -13,6 +13,9 @@ enum class Precision : std::uint32_t { single, double_ };
 /// How joints are solved: those that form trees exactly, or all by iterations; auto: exactly unless
 /// more than one in ten closes a loop, or some are driven or limited.
 enum class JointMethod : std::uint32_t { auto_, tree, iterate };
+/// Which contacts the solver runs on: those that plugins clip from the true shapes with a
+/// back-end's normal, or what the back-end itself reports (kDetectRaw).
+enum class ContactOrigin : std::uint32_t { shared, raw };
 enum class Gyroscopic : std::uint32_t { conserving, implicit, explicit_ };
 
 struct Settings {
@@ -30,6 +33,7 @@ struct Settings {
     std::uint32_t lanes =
         0;  ///< constraints solved side by side: 1, 4, 8, 16; 0 = widest that the processor runs
 
+    ContactOrigin contacts = ContactOrigin::shared;
     double margin = 0.005;         ///< distance of detection [m]
     double reuse_distance = 1e-4;  ///< d: while the points of a pair move by less, its contacts are
                                    ///< kept and not detected again [m]; 0 = always detect

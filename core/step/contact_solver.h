@@ -32,6 +32,7 @@ class ContactSolver {
 public:
     ContactSolver(const Plan& plan, Workers& workers)
         : variant_(contact_variant(plan)),
+          rubs_(plan.runs(Effect::friction)),
           kernels_(contact_kernels<Real, W>(variant_)),
           workers_(workers) {}
 
@@ -279,7 +280,8 @@ private:
         const double normal[3] = {c.normal.x, c.normal.y, c.normal.z};
         for (int i = 0; i < 3; ++i) rows.normals[k].normal[i][lane] = static_cast<Real>(normal[i]);
         const SurfacePair& surface = world.surface_pair(c.a, c.b);
-        if (rows.frictions) rows.frictions[k].friction[lane] = static_cast<Real>(surface.friction);
+        if (rows.frictions)
+            rows.frictions[k].friction[lane] = static_cast<Real>(rubs_ ? surface.friction : 0);
         if (!rows.turnings) return;
         rows.turnings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
         rows.turnings[k].spinning[lane] = static_cast<Real>(surface.spinning_friction);
@@ -340,6 +342,7 @@ private:
     }
 
     ContactVariant variant_;
+    bool rubs_;  // rows that resist turning have room for friction, too, where it is forbidden
     const ContactKernels<Real, W>& kernels_;
     Workers& workers_;
     std::vector<BodyPair> pairs_;

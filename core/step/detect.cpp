@@ -77,6 +77,10 @@ void take_contacts(World& world, const DetectBuffers& buffers, StepReport& repor
         std::stable_sort(found.begin(), found.end(), before);
 }
 
+std::uint32_t detect_flags(const Settings& settings) {
+    return settings.contacts == ContactOrigin::raw ? kDetectRaw : 0u;
+}
+
 /// The solver's workers, for the collider.
 TaskRunner runner_on(Workers& workers) {
     return {&workers, workers.count(),
@@ -101,7 +105,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
     const DetectRequest request{buffers.poses.data(),
                                 buffers.sweeps.data(),
                                 static_cast<std::uint32_t>(buffers.poses.size()),
-                                0,
+                                detect_flags(world.settings),
                                 world.settings.margin,
                                 reuse ? &filter : nullptr,
                                 workers.count() > 1 ? &runner : nullptr};

@@ -70,7 +70,11 @@ double closing_velocity(double gap, double h, double recovery, double stiffness)
 
 }  // namespace
 
-IslandGroup::IslandGroup(Workers& workers) : workers_(workers), solvers_(workers.count()) {}
+IslandGroup::IslandGroup(const Plan& plan, Workers& workers)
+    : workers_(workers),
+      rubs_(plan.runs(Effect::friction)),
+      resists_turning_(plan.runs(Effect::turning_friction)),
+      solvers_(workers.count()) {}
 
 // ---- once a step
 
@@ -236,8 +240,11 @@ void IslandGroup::take_geometry(const World& world, IslandPoint& p, std::uint32_
     const double before = p.length;
     p.length = std::sqrt(1 / (largest(of_a.inertia + of_b.inertia) * p.mass));
     p.impulse.tail<3>() *= before / p.length;  // the torque stays
-    p.cone = {surface.friction, surface.spinning_friction / p.length,
-              surface.rolling_friction / p.length, 0};
+    p.cone = {};
+    if (rubs_) p.cone.friction = surface.friction;
+    if (!resists_turning_) return;
+    p.cone.spinning = surface.spinning_friction / p.length;
+    p.cone.rolling = surface.rolling_friction / p.length;
 }
 
 // ---- once a substep

@@ -7,6 +7,7 @@
 /// for a body that touches nothing but what is immovable.
 #pragma once
 
+#include "effects/plan.h"
 #include "schedule/contact_islands.h"
 #include "schedule/workers.h"
 #include "step/island_solver.h"
@@ -18,7 +19,7 @@ namespace plumb {
 
 class IslandGroup {
 public:
-    explicit IslandGroup(Workers& workers);
+    IslandGroup(const Plan& plan, Workers& workers);
 
     /// Once a step: takes the pairs of its islands out of `pairs`, and the impulses that their
     /// contacts remember.
@@ -63,6 +64,7 @@ private:
     Island island_of(const Member& member);
 
     Workers& workers_;
+    bool rubs_, resists_turning_;
     ContactIslands found_;
     std::vector<std::uint8_t> jointed_;  // [dynamic row]
     std::vector<std::uint8_t> taken_;    // [pair]

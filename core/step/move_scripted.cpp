@@ -37,4 +37,10 @@ void move_scripted(World& world, double h) {
     }
 }
 
+void hold_scripted(Bodies& b) {
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (b.motion[i] == Motion::kinematic)
+            b.velocity[i] = b.angular_velocity[i] = Vector3d::Zero();
+}
+
 }  // namespace plumb

@@ -54,7 +54,7 @@ public:
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         if (plan.runs(Effect::joints)) take_joints(world, plan.runs(Effect::joint_trees));
         if (shocks_) shock_.emplace(plan, workers);
-        if (plan.runs(Effect::exact_islands)) islands_.emplace(workers);
+        if (plan.runs(Effect::exact_islands)) islands_.emplace(plan, workers);
     }
 
     void load_contacts(const World& world) override {
@@ -66,7 +66,7 @@ public:
         shock_->load(world, &levels_, nullptr);
     }
 
-    std::uint32_t begin_substep(const World& world, double h) override {
+    std::uint32_t begin_substep(const World& world, double h, Ledger& ledger) override {
         table_.begin(world);
         pass_.h = static_cast<Real>(h);
         pass_.inverse_h = static_cast<Real>(1 / h);
@@ -83,11 +83,7 @@ public:
         if (!contacts_.empty()) clamped = contacts_.begin(world, table_.rows(), pass_);
         if (islands_) clamped += islands_->begin(world, h, static_cast<double>(pass_.recovery));
         if (shocks_) shock_->begin(world, table_.rows(), pass_);
-        if (joints_) joints_->begin(world, h);
-        if (!trees_.empty())
-            workers_.run([&](std::uint32_t worker) {
-                if (worker < trees_.size()) trees_[worker].begin(world, h);
-            });
+        begin_joints(world, h, ledger);
         return clamped;
     }
 
@@ -122,19 +118,24 @@ public:
         sweeps_ += settings_.velocity_iterations;
     }
 
-    void solve_positions(StepReport& report) override {
+    void solve_positions(StepReport& report, Ledger& ledger) override {
         if (contacts_.empty() && !joints_) return;
         const bool alone = contacts_.empty() && joints_->empty();
         const std::uint32_t iterations =
             alone ? std::min(settings_.position_iterations, 1u) : settings_.position_iterations;
-        workers_.run([this, alone, iterations](std::uint32_t worker) {
+        workers_.run([this, alone, iterations, &ledger](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
-                if (joints_ && !joints_->empty())
+                if (joints_ && !joints_->empty()) {
+                    const auto share = share_of(worker, ledger, Stage::joints);
                     joints_->position_iteration(table_.rows(), pass.h, worker);
-                if (worker < trees_.size()) trees_[worker].solve(table_.rows(), alone);
-                if (!trees_.empty()) workers_.barrier();
+                }
+                if (!trees_.empty()) {
+                    const auto share = share_of(worker, ledger, Stage::trees);
+                    if (worker < trees_.size()) trees_[worker].solve(table_.rows(), alone);
+                    workers_.barrier();
+                }
                 if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
             }
         });
@@ -171,9 +172,11 @@ public:
         if (islands_) islands_->store_impulses(world.contacts);
     }
 
-    void store_joint_impulses(World& world) override {
+    void store_joint_impulses(World& world, Ledger& ledger) override {
         for (JointDrive& drive : world.joints.drives) drive.impulse_before = drive.impulse;
         if (joints_) joints_->store_impulses(world);
+        if (trees_.empty()) return;
+        const ShareTimer share(ledger, Stage::trees, Stage::joints);
         for (TreeSolver<W>& trees : trees_) trees.store_impulses(world.joints);
     }
 
@@ -188,6 +191,25 @@ private:
             in_tree = forest.in_tree;
         }
         joints_.emplace(world, in_tree, workers_);
+    }
+
+    void begin_joints(const World& world, double h, Ledger& ledger) {
+        if (joints_) {
+            const ShareTimer share(ledger, Stage::joints, Stage::begin);
+            joints_->begin(world, h);
+        }
+        if (trees_.empty()) return;
+        const ShareTimer share(ledger, Stage::trees, Stage::begin);
+        workers_.run([&](std::uint32_t worker) {
+            if (worker < trees_.size()) trees_[worker].begin(world, h);
+        });
+    }
+
+    /// Books what a position iteration spends on joints: by the clock of the first worker alone.
+    static std::optional<ShareTimer> share_of(std::uint32_t worker, Ledger& ledger, Stage stage) {
+        using Share = std::optional<ShareTimer>;
+        return worker == 0 ? Share(std::in_place, ledger, stage, Stage::positions)
+                           : Share(std::nullopt);
     }
 
     void sweep_impacts(PassSettings<Real> pass) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// The iterations of a substep, in one precision and lane width chosen at run time.
 ///
-/// A virtual call is one stage over all constraints, never one constraint.
+/// A virtual call is one stage over all constraints, never one constraint. Where it takes a ledger,
+/// the caller times its stage around it, and the shares of joints and trees are booked apart.
 #pragma once
 
+#include "effects/ledger.h"
 #include "effects/plan.h"
 #include "schedule/workers.h"
 #include "step/report.h"
@@ -23,14 +25,14 @@ public:
 
     /// Once a substep of length h [s]: velocities, gaps and drifts at its start. Returns how many
     /// contacts overlap deeper than the substep may push out.
-    virtual std::uint32_t begin_substep(const World& world, double h) = 0;
+    virtual std::uint32_t begin_substep(const World& world, double h, Ledger& ledger) = 0;
 
     /// Collisions that begin in this substep, before forces: step/impacts.h.
     virtual void solve_impacts(World& world, double h) = 0;
 
     virtual void solve_velocities() = 0;
     /// Tells the report of trees that could not be solved.
-    virtual void solve_positions(StepReport& report) = 0;
+    virtual void solve_positions(StepReport& report, Ledger& ledger) = 0;
     /// The islands that are solved exactly. Returns how many still miss the law of contact.
     virtual std::uint32_t solve_islands() = 0;
     virtual void propagate_shock() = 0;
@@ -42,7 +44,7 @@ public:
     virtual void store_impulses(World& world) = 0;
 
     /// At the end of a substep: impulses of joints and drives, into JointTable.
-    virtual void store_joint_impulses(World& world) = 0;
+    virtual void store_joint_impulses(World& world, Ledger& ledger) = 0;
 };
 
 /// Throws SceneError when this processor cannot run Settings::lanes.

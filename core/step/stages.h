@@ -41,6 +41,9 @@ void follow_contacts(World& world, const Plan& plan, bool first_substep);
 /// Kinematic bodies' velocities over the coming substep of length h [s], from their scripts.
 void move_scripted(World& world, double h);
 
+/// Where the plan does not run kinematics, kinematic bodies stand still.
+void hold_scripted(Bodies& bodies);
+
 /// Keeps the velocities of this substep and of the one before, by which the levers of joints turn
 /// and collisions are found.
 void remember_velocities(Bodies& bodies);

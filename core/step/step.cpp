@@ -23,9 +23,10 @@ bool is_finite(const World& world) {
 /// and moves. The order matters: friction solved before positions is what keeps a resting body from
 /// sliding.
 StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
+    const auto start = std::chrono::steady_clock::now();
     StepReport report;
     Ledger& ledger = stepper.ledger = {};
-    const auto start = std::chrono::steady_clock::now();
+    ledger.mark = start;
     const Plan& plan = stepper.plan;
     RowSolver& solver = *stepper.solver;
     auto timed = [&](Stage stage, auto&& work) {
@@ -45,10 +46,12 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         const bool first = i == 0;
         if (plan.runs(Effect::kinematics))
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
+        else if (world.kinematic_count > 0)
+            timed(Stage::kinematics, [&] { hold_scripted(world.bodies); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
         timed(Stage::begin, [&] { remember_velocities(world.bodies); });
         if (plan.runs(Effect::joints))
-            timed(Stage::begin, [&] { count_turns(world, stepper.turning); });
+            timed(Stage::joints, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
@@ -57,9 +60,10 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.solve_impacts(world, h); });
-        timed(Stage::begin, [&] { report.clamped_recoveries += solver.begin_substep(world, h); });
+        timed(Stage::begin,
+              [&] { report.clamped_recoveries += solver.begin_substep(world, h, ledger); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
-        timed(Stage::positions, [&] { solver.solve_positions(report); });
+        timed(Stage::positions, [&] { solver.solve_positions(report, ledger); });
         if (plan.runs(Effect::exact_islands))
             timed(Stage::islands, [&] { report.unsolved_islands += solver.solve_islands(); });
         if (plan.runs(Effect::shock_propagation))
@@ -70,17 +74,18 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });
         if (plan.runs(Effect::joints))
-            timed(Stage::remember, [&] { solver.store_joint_impulses(world); });
+            timed(Stage::joints, [&] { solver.store_joint_impulses(world, ledger); });
         world.time += h;
     }
     timed(Stage::remember, [&] {
         solver.store_impulses(world);
         remember_contacts(world);
-        if (plan.runs(Effect::joints)) break_joints(world, plan, proximity, report);
+        report.finite = is_finite(world);
     });
+    if (plan.runs(Effect::joints))
+        timed(Stage::joints, [&] { break_joints(world, plan, proximity, report); });
 
     world.time = static_cast<double>(++world.steps) * dt;
-    report.finite = is_finite(world);
     ledger.step_nanoseconds =
         static_cast<std::uint64_t>((std::chrono::steady_clock::now() - start).count());
     return report;

@@ -196,7 +196,7 @@ void Narrow::collide_raw(ContactList& contacts, DetectStats& stats, const Part& 
         const Witness w{p.normal, p.on_b + a.world.origin + (0.5 * p.distance) * p.normal,
                         p.distance + cushions, mesh_a || mesh_b};
         const std::size_t before = contacts.size();
-        add_raw(contacts, stats, a, b, w, feature_key({ta, tb}));
+        add_raw(contacts, stats, a, b, w, w.approximate ? feature_key({ta, tb}) : 0);
         if (contacts.size() == before) continue;
         Contact& c = contacts.data()[before];
         if (mesh_a && a.index == 0) c.part_a = ta;

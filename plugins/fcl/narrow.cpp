@@ -34,7 +34,8 @@ bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 bool either(const Part& a, const Part& b, ShapeKind kind) { return is(a, kind) || is(b, kind); }
 bool has_triangles(const Part& part) { return has_surface(part.shape.kind); }
 
-/// The closest points of parts that FCL is silent or wrong about, or the direction of least overlap.
+/// The closest points of parts that FCL is silent or wrong about, or the direction of least
+/// overlap.
 Witness ask_beside(const Part& a, const Part& b) {
     Witness witness;
     if (!closest_when_apart(witness, a, b) && !closest_when_touching(witness, a, b))
@@ -211,7 +212,7 @@ void Narrow::take_all(ContactList& contacts, DetectStats& stats, const Part& a, 
         const Witness w{turned ? n : -n, from_fcl(c.pos), -std::abs(c.penetration_depth),
                         has_triangles(a) || has_triangles(b)};
         const std::size_t before = contacts.size();
-        add_raw(contacts, stats, a, b, w, feature_key({ta, tb}));
+        add_raw(contacts, stats, a, b, w, w.approximate ? feature_key({ta, tb}) : 0);
         if (contacts.size() == before) continue;
         Contact& added = contacts.data()[before];
         if (a.index == 0 && has_triangles(a)) added.part_a = ta;

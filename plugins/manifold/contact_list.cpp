@@ -58,7 +58,7 @@ void ContactList::finish() {
         }
     }
     for (std::size_t i = 1; i < contacts_.size(); ++i)
-        if (same_pair(contacts_[i - 1], contacts_[i]) &&
+        if (contacts_[i].feature != 0 && same_pair(contacts_[i - 1], contacts_[i]) &&
             contacts_[i].feature <= contacts_[i - 1].feature)
             contacts_[i].feature = contacts_[i - 1].feature + 1;
 }

@@ -32,7 +32,7 @@ public:
     Contact* data() { return contacts_.data(); }
     void shrink(std::size_t count) { contacts_.resize(count); }
 
-    /// Sorts by (a, b, feature) and makes features unique within a pair.
+    /// Sorts by (a, b, feature) and makes features unique within a pair, but for 0.
     void finish();
 
     /// Hands all contacts to a sink.

@@ -166,13 +166,13 @@ void add_raw(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
              const Witness& witness, std::uint64_t feature) {
     if (!finite(witness.normal) || !finite(witness.point) || !(witness.gap <= pair_margin(a, b)))
         return;
-    const Vec3 n = unit_or(witness.normal, {0, 1, 0});
+    const Vec3 n = unit_or(witness.normal, {0, 0, 0});  // none: the host leaves it out and counts
     const std::uint32_t flags = witness.approximate ? kContactApproximate : 0u;
     const Pair pair{a, b, n, witness.gap, flags | kContactExact};
     const Vec3 half = 0.5 * witness.gap * n;
     Contact& c = add_contact(out, pair, witness.point + half, witness.point - half, 0, 0);
     if (witness.approximate) c.flags = kContactApproximate;
-    c.feature = feature_key({4, a.index, b.index, feature});
+    if (feature != 0) c.feature = feature_key({4, a.index, b.index, feature});
     ++stats.from_backend;
 }
 

@@ -36,7 +36,8 @@ void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const P
 /// then n is the direction of the shortest way between parts that are apart.
 bool gap_is_reached(const Part& a, const Part& b, Vec3 n);
 
-/// Adds one contact as the back-end gave it, sharp on both sides.
+/// Adds one contact as the back-end gave it, sharp on both sides. `feature`: a key of what touches
+/// there, 0 where the back-end does not say.
 void add_raw(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
              const Witness& witness, std::uint64_t feature);
 

@@ -151,7 +151,7 @@ void add_all(Output out, const Part& a, const Part& b, const dContactGeom* c, in
         w.approximate = has_surface(a.shape.kind) || has_surface(b.shape.kind);
         const std::uint32_t ta = triangle(a, c[i].side1), tb = triangle(b, c[i].side2);
         const std::size_t before = out.contacts.size();
-        add_raw(out.contacts, out.stats, a, b, w, feature_key({ta, tb}));
+        add_raw(out.contacts, out.stats, a, b, w, w.approximate ? feature_key({ta, tb}) : 0);
         if (out.contacts.size() == before) continue;
         Contact& added = out.contacts.data()[before];
         if (!compound_part_a && has_surface(a.shape.kind)) added.part_a = ta;

@@ -107,6 +107,9 @@ expect 4 "was refused: it cannot be loaded: it is cut short" "$plumb" colliders 
 expect 4 "there is no file" "$plumb" colliders --check "$work/absent.so"
 # a misspelt collider, wherever one is named
 expect 4 'there is no collider "oed" (did you mean "ode"?); installed are' "$plumb" run "$scenes/stack.json" --collider oed
+expect 2 'unknown value "clipped"' "$plumb" run "$scenes/stack.json" --set contacts=clipped
+expect 2 "leave one of them out" "$plumb" effects "$scenes/stack.json" --ablate --no-run
+expect 6 "No such file or directory" "$plumb" effects "$scenes/stack.json" --ablate --json "$work/absent/x.json"
 expect 4 '(did you mean "bullet_float"?)' "$plumb" effects "$scenes/stack.json" --collider bulletfloat
 expect 4 '(did you mean "reference"?)' "$plumb" colliders --check refrence
 # of two plugins of one name the first is taken; the other is refused with who was first

@@ -49,3 +49,33 @@ first=$(hash_of)
 "$plumb" effects "$scenes/bounce.json" | grep -q "restitution.*yes"
 "$plumb" effects "$scenes/pile.json" --duration 1 | grep -q "restitution.*no"
 "$plumb" effects --no-run "$scenes/pile.json" | grep -q "friction.*yes"
+
+# the stages account for the steps; joints' time is their own
+for scene in pile walker mobile; do
+  "$plumb" effects "$scenes/$scene.json" --json "$work/effects.json" >"$work/effects.txt"
+  grep -q "^all stages .* % of the step$" "$work/effects.txt"
+  "$json_has" "$work/effects.json" --print /booked/share_of_step | awk '{ exit !($1 >= 0.95 && $1 <= 1) }'
+done
+grep -q "^trees " "$work/effects.txt"
+
+# what each effect costs and what goes wrong without it: figures for all that run
+"$plumb" effects "$scenes/car.json" --ablate --json - >"$work/ablation.json"
+i=0
+while name=$("$json_has" "$work/ablation.json" --print "/effects/$i/name" 2>/dev/null); do
+  if [ "$("$json_has" "$work/ablation.json" --print "/effects/$i/ran")" = true ]; then
+    for figure in cost_ms with_it_ms without_it_ms error_m energy_change_J; do
+      "$json_has" "$work/ablation.json" --print "/effects/$i/ablation/$figure" | grep -qE '^-?[0-9]' ||
+        { echo "no $figure of $name"; exit 1; }
+    done
+  fi
+  i=$((i + 1))
+done
+[ $i -ge 13 ]
+
+# a run that diverges without an effect is told of in that effect's row
+"$plumb" effects "$2/tests/app/scenes/held_spinner.json" --ablate | grep "^joints .* without it the run is no longer finite after step"
+
+# a run on what the back-end itself says, whether its stack stands or not
+"$plumb" run "$scenes/stack.json" --quiet --collider ode --set contacts=raw --duration 0.5 --summary - >"$work/raw.json"
+[ "$("$json_has" "$work/raw.json" --print /contact_sources/clip)" = 0 ]
+[ "$("$json_has" "$work/raw.json" --print /contact_sources/asked)" = '"raw"' ]

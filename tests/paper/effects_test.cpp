@@ -49,6 +49,67 @@ TEST(Effects, CanBeRequiredAndForbidden) {
     EXPECT_THROW(make_plan(build_world(s)), SceneError);
 }
 
+/// Where body 1 is after a while.
+Vector end_of(const Scene& s, double seconds) {
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, seconds);
+    return simulation.world().bodies.position[1];
+}
+
+/// Two boxes, one on the other, that slide along the ground.
+Scene sliding_boxes() {
+    Scene s;
+    add_ground(s);
+    for (int i = 0; i < 2; ++i)
+        add_body(s, box(0.5, 0.5, 0.5), {0, 0.5 + i, 0}).velocity = {2, 0, 0};
+    return s;
+}
+
+TEST(Effects, FrictionThatIsForbiddenIsNowhere) {
+    for (const double rolling : {0.0, 0.01}) {
+        for (const std::uint32_t exact : {0u, 400u}) {
+            Scene s = sliding_boxes();
+            s.materials[0].rolling_friction = rolling;
+            s.settings.exact_islands = exact;
+            EXPECT_LT(end_of(s, 1).x(), 1.5);
+            s.settings.forbid = {"friction"};
+            EXPECT_NEAR(end_of(s, 1).x(), 2, 1e-3) << rolling << ", islands of " << exact;
+        }
+    }
+}
+
+TEST(Effects, TurningFrictionThatIsForbiddenIsNowhere) {
+    for (const std::uint32_t exact : {0u, 400u}) {
+        Scene s;
+        s.materials[0].rolling_friction = 0.1;
+        s.settings.exact_islands = exact;
+        add_ground(s);
+        for (int i = 0; i < 2; ++i) {
+            BodySpec& ball = add_body(s, sphere(0.5), {0.9999 * i, 0.5, 0});
+            ball.velocity = {2, 0, 0};
+            ball.angular_velocity = {0, 0, -4};
+        }
+        const double held = end_of(s, 1).x();
+        s.settings.forbid = {"turning_friction"};
+        const double free = end_of(s, 1).x();
+        s.settings.forbid = {};
+        s.materials[0].rolling_friction = 0;
+        EXPECT_EQ(free, end_of(s, 1).x()) << "islands of " << exact;
+        EXPECT_LT(held, free - 0.1);
+    }
+}
+
+TEST(Effects, WhatAScriptOrAVelocityMovesStandsStillWithoutKinematics) {
+    Scene s;
+    add_ground(s);
+    BodySpec& belt = add_body(s, box(0.5, 0.5, 0.5), {0, 3, 0}, Motion::kinematic);
+    belt.velocity = {1, 0, 0};
+    add_body(s, box(0.5, 0.5, 0.5), {0, 4, 0});
+    EXPECT_NEAR(end_of(s, 1).x(), 1, 1e-9);
+    s.settings.forbid = {"kinematics"};
+    EXPECT_EQ(end_of(s, 1).x(), 0);
+}
+
 TEST(Effects, WhatIsNotCalledForIsNotCalled) {
     Scene s = two_bodies();
     Simulation simulation(s, colliders(), "reference");

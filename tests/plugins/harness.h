@@ -59,8 +59,12 @@ bool same(const std::vector<Contact>& p, const std::vector<Contact>& q);
 /// Area spanned by the contacts' points on a, seen along the normal of the first [m²].
 double spanned_area(const std::vector<Contact>& contacts);
 
+/// Whether a contact set says which features touch; a back-end's own need not.
+enum class Features { known, some };
+
 /// Checks what holds for every contact set: signs, units, order, unique features.
-void expect_sound(const std::vector<Contact>& contacts, double margin);
+void expect_sound(const std::vector<Contact>& contacts, double margin,
+                  Features features = Features::known);
 
 class EachPlugin : public ::testing::TestWithParam<std::string> {
 protected:

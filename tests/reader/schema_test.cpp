@@ -99,12 +99,12 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
     // them a field in core/reader/settings.cpp.
     const Settings settings;
     [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
-                                  position_iterations, method, precision, threads, lanes, margin,
-                                  reuse_distance, stiffness, recovery_speed, collision_depth,
-                                  anchor_stiffness, gyroscopic, joints, exact_islands, joint_tolerance, warm_start,
-                                  alternate_sweeps, shared_push, shared_cone, require, forbid] =
-        settings;
-    constexpr std::size_t kMembers = 26, kPreset = 1;
+                                  position_iterations, method, precision, threads, lanes, contacts,
+                                  margin, reuse_distance, stiffness, recovery_speed,
+                                  collision_depth, anchor_stiffness, gyroscopic, joints,
+                                  exact_islands, joint_tolerance, warm_start, alternate_sweeps,
+                                  shared_push, shared_cone, require, forbid] = settings;
+    constexpr std::size_t kMembers = 27, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "dt",
@@ -116,6 +116,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "precision",
                              "threads",
                              "lanes",
+                             "contacts",
                              "margin",
                              "stiffness",
                              "recovery_speed",

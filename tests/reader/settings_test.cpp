@@ -29,7 +29,7 @@ TEST(Settings, FillsEveryMember) {
         "lanes": 16, "margin": 0.1, "stiffness": 0.3, "recovery_speed": 2, "collision_depth": 0.001,
         "anchor_stiffness": 0.5, "gyroscopic": "implicit", "warm_start": false, "alternate_sweeps": false,
         "shared_cone": false, "shared_push": false, "joints": "tree",
-        "exact_islands": 12, "joint_tolerance": 1e-6, "require": ["a", "b"], "forbid": ["c"])");
+        "exact_islands": 12, "contacts": "raw", "joint_tolerance": 1e-6, "require": ["a", "b"], "forbid": ["c"])");
     EXPECT_EQ(s.gravity, Eigen::Vector3d(1, 2, 3));
     EXPECT_EQ(s.dt, 0.02);
     EXPECT_EQ(s.duration, 3);
@@ -51,6 +51,7 @@ TEST(Settings, FillsEveryMember) {
     EXPECT_FALSE(s.shared_push);
     EXPECT_EQ(s.joints, JointMethod::tree);
     EXPECT_EQ(s.exact_islands, 12u);
+    EXPECT_EQ(s.contacts, ContactOrigin::raw);
     EXPECT_EQ(s.joint_tolerance, 1e-6);
     EXPECT_EQ(s.require, (std::vector<std::string>{"a", "b"}));
     EXPECT_EQ(s.forbid, (std::vector<std::string>{"c"}));
@@ -86,6 +87,10 @@ TEST(Settings, KnowsItsWords) {
                  "did you mean \"double\"?");
     expect_error(R"({"settings": {"gyroscopic": "exact"}})", "/settings/gyroscopic",
                  "Allowed: conserving, implicit, explicit");
+    expect_error(R"({"settings": {"contacts": "rwa"}})", "/settings/contacts",
+                 "did you mean \"raw\"?");
+    expect_error(R"({"settings": {"contacts": "clipped"}})", "/settings/contacts",
+                 "Allowed: shared, raw");
     expect_error(R"({"settings": {"method": "pdb"}})", "/settings/method", "did you mean \"pbd\"?");
 }
 
