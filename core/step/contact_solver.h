@@ -64,13 +64,18 @@ public:
         is_fresh_ = true;
     }
 
-    /// Impulses that the contacts remember of the step before. Those of an island that was solved
-    /// exactly may be jammed against each other by more than sweeps can take back.
-    void load_impulses(const World& world) {
+    /// Impulses that the contacts remember of the step before. `exact` as in `load`: where an
+    /// island that was solved exactly comes back to the sweeps, those of bodies that are upset are
+    /// left.
+    void load_impulses(const World& world, const IslandGroup* exact) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             const ContactMemory& memory = world.contacts.memory[contact];
-            if (!memory.matched || memory.exact) return;
+            if (!memory.matched) return;
+            const Contact& c = world.contacts.found[contact];
+            if (memory.exact && exact &&
+                (exact->is_upset(world, c.a) || exact->is_upset(world, c.b)))
+                return;
             rows.normals[k].lambda_velocity[lane] = static_cast<Real>(memory.normal_impulse);
             if (!rows.frictions) return;
             FrictionRow<Real, W>& across = rows.frictions[k];

@@ -84,6 +84,7 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     if (pairs.empty()) return;
     found_.find(pairs, world.dynamic_count);
     mark_jointed(world);
+    upset_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     taken_.assign(pairs.size(), 0);
     for (const ContactIsland& island : found_.islands())
         if (is_exact(world, island, pairs)) take(world, island, pairs);
@@ -126,16 +127,27 @@ bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
         const BodyPair& pair = pairs[found_.pairs()[i]];
         const Contact& first = world.contacts.found[pair.first];
         const double radius = smaller_radius(b, first);
+        bool upset = false;
         for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
             const double overlap = -world.contacts.found[k].gap;
             const ContactMemory& before = world.contacts.memory[k];
             const bool stuck = before.known && before.exact && overlap > -kStuck * before.gap;
             const bool jammed = overlap > kJam * radius && (stuck || before.jammed);
             if (jammed) jammed_.push_back(k);
-            deep |= jammed || overlap > kDeep * radius;
+            upset |= jammed || overlap > kDeep * radius;
         }
+        if (upset) mark_upset(world, pair);
+        deep |= upset;
     }
+    if (deep && world.kinematic_count > 0)  // what others squeeze is jammed as a whole
+        for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+            mark_upset(world, pairs[found_.pairs()[i]]);
     return deep;
+}
+
+void IslandGroup::mark_upset(const World& world, const BodyPair& pair) {
+    for (const std::int32_t row : {pair.row_a, pair.row_b})
+        if (row < world.dynamic_count) upset_[static_cast<std::size_t>(row)] = 1;
 }
 
 bool IslandGroup::is_calm(const World& world, const ContactIsland& island,

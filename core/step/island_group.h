@@ -25,6 +25,12 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
+    /// Whether a body of an island that is left to sweeps touches what is jammed or too deep: the
+    /// impulses there may hold each other by more than sweeps can take back.
+    bool is_upset(const World& world, std::uint32_t body) const {
+        return world.bodies.motion[body] == Motion::dynamic && upset_[world.bodies.row[body]];
+    }
+
     /// Once a substep of length h [s]: velocities, forces included, and what is asked of them.
     /// Returns how many contacts overlap deeper than `recovery` [m], the most that is pushed out.
     std::uint32_t begin(const World& world, double h, double recovery);
@@ -52,6 +58,7 @@ private:
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
     void mark_jointed(const World& world);
+    void mark_upset(const World& world, const BodyPair& pair);
     void take(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
     void take_memory(const World& world);
@@ -67,6 +74,7 @@ private:
     bool rubs_, resists_turning_;
     ContactIslands found_;
     std::vector<std::uint8_t> jointed_;  // [dynamic row]
+    std::vector<std::uint8_t> upset_;    // [dynamic row]
     std::vector<std::uint8_t> taken_;    // [pair]
     BlockCholesky::Pattern pattern_;
 

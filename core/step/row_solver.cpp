@@ -58,8 +58,9 @@ public:
     }
 
     void load_contacts(const World& world) override {
-        contacts_.load(world, nullptr, islands_ ? &*islands_ : nullptr);
-        if (warm_start_) contacts_.load_impulses(world);
+        IslandGroup* exact = islands_ ? &*islands_ : nullptr;
+        contacts_.load(world, nullptr, exact);
+        if (warm_start_) contacts_.load_impulses(world, exact);
         if (has_impacts_) impacts_.reserve(world, contacts_.pairs()), contacts_.reserve_impacts();
         if (!shocks_) return;
         find_levels(world, levels_);
