@@ -56,7 +56,7 @@ double fitted(const std::vector<Dot>& dots, std::size_t begin, std::size_t end) 
 
 /// Whether from each dot of [begin, end) to the next the error falls as the whole of them does.
 bool is_straight(const std::vector<Dot>& dots, std::size_t begin, std::size_t end) {
-    constexpr double kFalls = 0.3, kAlike = 0.35;
+    constexpr double kFalls = 0.3, kAlike = 0.25;
     const double slope = fitted(dots, begin, end);
     if (slope > -kFalls) return false;
     for (std::size_t i = begin; i + 1 < end; ++i)

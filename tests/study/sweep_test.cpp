@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: MIT
+/// Sweeps: whole, cut off and resumed, in parts; scenes against finer runs of themselves; tuning.
+#include "study/sweep.h"
+#include "study/cases.h"
+#include "study/findings.h"
+#include "study/journal.h"
+#include "study/self_reference.h"
+#include "study/tune.h"
+#include "support/scenes.h"
+
+#include "output/error.h"
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace plumb::test {
+namespace {
+
+using namespace study;
+namespace fs = std::filesystem;
+
+/// A folder that goes with the test.
+class Sweeps : public testing::Test {
+protected:
+    Sweeps() { fs::remove_all(folder_); }
+    ~Sweeps() override { fs::remove_all(folder_); }
+    std::string in(const std::string& name) const { return (folder_ / name).string(); }
+
+    static std::vector<Subject> subjects() {
+        std::vector<Subject> all{find_case("parabola")->make()};
+        all.front().scene.settings.duration = 0.5;
+        return all;
+    }
+
+private:
+    fs::path folder_ = fs::temp_directory_path() /
+                       ("plumb_sweeps_" +
+                        std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+};
+
+/// All that a table says, times aside.
+std::string without_times(StudyTable table) {
+    std::ostringstream text;
+    text.precision(17);
+    for (const Row& r : table.rows) {
+        text << r.point.key() << ' ' << name_of(r.status) << ' ' << r.note;
+        for (const double e : r.errors) text << ' ' << e;
+        text << '\n';
+    }
+    return text.str();
+}
+
+StudyTable swept(const std::vector<Subject>& subjects, const std::string& folder,
+                 SweepOptions options) {
+    StudyTable table = plan_sweep(subjects, {}, colliders());
+    Journal journal(folder, table);
+    options.repeats = 2;
+    options.ran = [&](std::size_t row, bool judged, const Outcome& o) {
+        journal.add(row, judged, o);
+    };
+    sweep(table, subjects, colliders(), options);
+    return table;
+}
+
+TEST_F(Sweeps, RunEveryPointAndFindTheOrder) {
+    const auto all = subjects();
+    const StudyTable table = swept(all, in("whole"), {});
+    for (const Row& r : table.rows) {
+        EXPECT_EQ(r.status, study::Status::done) << r.point.key() << ": " << r.note;
+        EXPECT_EQ(r.costs.size(), 2u);
+    }
+    bool measured = false;
+    for (const CurveRows& c : curves_of(table)) {
+        if (c.curve != "pbd" || c.precision != "double" || c.ladder != Ladder::substeps) continue;
+        const auto slope = slope_of(table, c);
+        ASSERT_TRUE(slope);
+        EXPECT_NEAR(slope->order, slope->expected, 0.15);
+        measured = true;
+    }
+    EXPECT_TRUE(measured);
+}
+
+TEST_F(Sweeps, GoOnWhereTheyWereCutOff) {
+    const auto all = subjects();
+    const StudyTable whole = swept(all, in("whole"), {});
+    int runs = 0;
+    SweepOptions cut;
+    cut.interrupted = [&] { return ++runs > 4000; };  // asked once a step
+    const StudyTable half = swept(all, in("cut"), cut);
+    ASSERT_NE(without_times(half), without_times(whole)) << "it was not cut off";
+    // killed while a line was written
+    std::ofstream(in("cut") + "/runs.csv", std::ios::app) << "3,1,done,12.";
+    EXPECT_EQ(without_times(swept(all, in("cut"), {})), without_times(whole));
+}
+
+TEST_F(Sweeps, PartsMakeTheWhole) {
+    const auto all = subjects();
+    const StudyTable whole = swept(all, in("whole"), {});
+    std::vector<std::string> folders;
+    for (std::uint32_t i = 1; i <= 4; ++i) {
+        folders.push_back(in("part" + std::to_string(i)));
+        SweepOptions part;
+        part.shard = i;
+        part.of = 4;
+        swept(all, folders.back(), part);
+    }
+    EXPECT_EQ(without_times(merged(folders)), without_times(whole));
+    folders.pop_back();
+    EXPECT_NE(without_times(merged(folders)), without_times(whole));
+}
+
+TEST_F(Sweeps, RefuseTheFolderOfAnother) {
+    const auto all = subjects();
+    StudyTable table = plan_sweep(all, {}, colliders());
+    { const Journal journal(in("a"), table); }
+    StudyTable other = plan_sweep({find_case("pendulum")->make()}, {}, colliders());
+    EXPECT_THROW(Journal(in("a"), other), OutputError);
+    { const Journal journal(in("b"), other); }
+    EXPECT_THROW(merged({in("a"), in("b")}), OutputError);
+    EXPECT_THROW(merged({in("absent")}), OutputError);
+}
+
+TEST_F(Sweeps, NotesWhatTheBudgetLeftOut) {
+    SweepOptions options;
+    options.budget = 1e-9;
+    const StudyTable table = swept(subjects(), in("poor"), options);
+    for (const Row& r : table.rows) {
+        EXPECT_EQ(r.status, study::Status::not_run);
+        EXPECT_FALSE(r.note.empty());
+    }
+}
+
+/// A rod on a joint as any scene: its error against a finer run is that against the formula.
+TEST(SelfReference, TellsTheErrorThatTheFormulaTells) {
+    Subject known = find_case("pendulum")->make();
+    known.scene.settings.duration = 1;
+    const Subject blind =
+        self_referenced(known.scene, "blind", colliders(), {.seconds = 30, .stop = {}});
+    EXPECT_EQ(blind.metrics.front().name, "pose");
+    const Point p = {.subject = "blind",
+                     .curve = "pbd",
+                     .precision = "double",
+                     .ladder = Ladder::substeps,
+                     .value = 4,
+                     .collider = "reference",
+                     .contacts = "shared",
+                     .settings = {"precision=double", "substeps=4"}};
+    const Outcome formula = run_point(known, p, colliders(), true, {});
+    const Outcome reference = run_point(blind, p, colliders(), true, {});
+    ASSERT_EQ(reference.status, study::Status::done) << reference.note;
+    const double radius = 0.5;  // from the joint to the centre [m]
+    EXPECT_NEAR(reference.errors[0], radius * formula.errors[0], 0.1 * reference.errors[0]);
+    EXPECT_LT(blind.reference_error, 0.1 * reference.errors[0]);
+}
+
+TEST(Tune, ReachesAnErrorWithFewRuns) {
+    const Subject subject = find_case("pendulum")->make();
+    for (const double error : {0.02, 3e-3, 4e-4}) {
+        TuneOptions options;
+        options.error = error;
+        const TuneResult result = tune(subject, colliders(), options);
+        ASSERT_TRUE(result.best) << error;
+        EXPECT_LE(result.best->error(), error);
+        EXPECT_GT(result.best->error(), error / 4) << "finer than need be";
+        EXPECT_LE(result.trials.size() + 1, 15u);
+    }
+}
+
+TEST(Tune, SaysWhereItDoesNotGetThere) {
+    TuneOptions options;
+    options.error = 1e-300;
+    EXPECT_FALSE(tune(find_case("pendulum")->make(), colliders(), options).best);
+}
+
+}  // namespace
+}  // namespace plumb::test
