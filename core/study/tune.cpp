@@ -34,10 +34,16 @@ public:
 
     TuneResult run() {
         Choice best = refine({});
+        Choice finer;
+        finer.substeps = 4;
+        for (finer.step_share = 0.25;
+             !reaches(best) && options_.error > 0 && may_run() && finer.step_share > kFinestStep;
+             finer.step_share /= 4)
+            best = better_of(best, refine(finer));
         if (!reaches(best) && options_.error > 0) {
             Choice exact = best;
             exact.is_double = true;
-            best = refine(exact);
+            best = better_of(best, exact);
         }
         for (const bool coarser : {true, false}) best = walk(best, coarser);
         best = better_of(best, with_iterations(best));
@@ -130,13 +136,19 @@ private:
             std::clamp(std::ceil(wanted), 1.0, double(kMostSubsteps)));
     }
 
+    /// Whether more substeps no longer help: the error is that of the steps between detections.
+    bool has_stalled(const Choice& before, const Choice& last) {
+        return options_.error > 0 && !reaches(last) && last.substeps > before.substeps &&
+               error_of(last) > kStalls * error_of(before);
+    }
+
     /// Substeps that just reach what is wanted, all else as in `start`.
     Choice refine(const Choice& start) {
         Choice before = start, last = start;
         last.substeps = 2 * start.substeps;
         error_of(before);
         Choice best = better_of(before, last);
-        for (int i = 0; i < kRefinements && may_run(); ++i) {
+        for (int i = 0; i < kRefinements && may_run() && !has_stalled(before, last); ++i) {
             Choice next = last;
             next.substeps = foretold(before, last);
             if (next.substeps == last.substeps || next.substeps == before.substeps) break;
@@ -178,6 +190,7 @@ private:
 
     static constexpr double kAim = 0.9;  ///< share of what is allowed that is aimed at
     static constexpr double kNearEnough = 0.7;
+    static constexpr double kStalls = 0.85, kFinestStep = 1.0 / 100;
     static constexpr int kRefinements = 4;
 
     const Subject& subject_;
