@@ -15,7 +15,10 @@
 #include "study/sweep.h"
 
 #include <algorithm>
+#include <charconv>
+#include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -28,7 +31,7 @@ constexpr double kForReferences = 0.25;
 struct Options {
     std::vector<std::string> subjects, colliders, curves, merge;
     std::string out, plugin_path, budget = "5m", shard = "1/1", metric;
-    std::uint32_t repeats = 5;
+    std::uint32_t repeats = 5, reference = 0;
     bool list = false, quiet = false;
 };
 
@@ -37,10 +40,14 @@ struct Shard {
 };
 
 Shard shard_of(const std::string& text) {
+    constexpr std::uint32_t kMost = 100000;
     Shard s;
-    int end = 0;
-    if (std::sscanf(text.c_str(), "%u/%u%n", &s.number, &s.of, &end) != 2 ||
-        end != static_cast<int>(text.size()) || s.number < 1 || s.number > s.of)
+    const char* const end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, s.number);
+    const bool divided = number.ec == std::errc() && number.ptr != end && *number.ptr == '/';
+    const auto of = std::from_chars(divided ? number.ptr + 1 : end, end, s.of);
+    if (!divided || of.ec != std::errc() || of.ptr != end || s.number < 1 || s.number > s.of ||
+        s.of > kMost)
         throw UsageError("--shard " + text + ": must be I/N with 1 ≤ I ≤ N, such as 2/4");
     return s;
 }
@@ -49,6 +56,8 @@ void check(const Options& o) {
     if (o.out.empty()) throw UsageError("--out is required; name a folder for the report");
     if (!o.merge.empty() && !o.subjects.empty())
         throw UsageError("--merge takes its cases from the folders; name none beside it");
+    const std::set<std::string> colliders(o.colliders.begin(), o.colliders.end());
+    if (colliders.size() < o.colliders.size()) throw UsageError("--colliders names one twice");
     const std::set<std::string> distinct(o.subjects.begin(), o.subjects.end());
     if (distinct.size() < o.subjects.size()) throw UsageError("a case or scene is named twice");
     for (const std::string& curve : o.curves) {
@@ -70,11 +79,19 @@ std::vector<study::Subject> subjects_of(const Options& o, const ColliderLibrary&
     std::vector<std::string> names = o.subjects;
     if (names.empty())
         for (const study::CaseEntry& c : study::cases()) names.emplace_back(c.name);
+    const auto before = study::plan_in(o.out);  // a sweep that is gone on with keeps its references
     std::vector<study::Subject> subjects;
     for (const std::string& name : names) {
+        const std::string called = std::filesystem::path(name).stem().string();
+        for (const study::Subject& s : subjects)
+            if (s.name == called)
+                throw UsageError(name + ": another one is called \"" + called +
+                                 "\", too; rename a file");
+        const study::SubjectSummary* known = before ? before->find(called) : nullptr;
         subjects.push_back(subject_named(name, colliders,
                                          o.colliders.empty() ? "auto" : o.colliders.front(),
-                                         seconds / static_cast<double>(names.size())));
+                                         seconds / static_cast<double>(names.size()),
+                                         known ? known->reference_substeps : o.reference));
         if (!o.metric.empty()) choose_metric(subjects.back(), o.metric);
     }
     return subjects;
@@ -103,30 +120,45 @@ int finish(const Options& o, const study::StudyTable& table) {
     print_findings(table);
     for (const std::string& remark : remarks) std::fprintf(stderr, "plumb: %s\n", remark.c_str());
     if (interrupted()) return kInterrupted;
-    for (const study::Row& r : table.rows)
+    const study::Row* refused = nullptr;
+    bool diverged = false;
+    for (const study::Row& r : table.rows) {
         if (r.status == study::Status::done) return kDone;
-    for (const study::Row& r : table.rows)
-        if (r.status == study::Status::diverged) {
-            std::fprintf(stderr, "plumb: every point that was run diverged\n");
-            return kDiverged;
-        }
+        diverged |= r.status == study::Status::diverged;
+        if (r.status == study::Status::refused) refused = &r;
+    }
+    if (diverged) {
+        std::fprintf(stderr, "plumb: every point that was run diverged\n");
+        return kDiverged;
+    }
+    if (refused) {
+        std::fprintf(stderr, "plumb: every point is refused: %s\n", refused->note.c_str());
+        return kColliderUnable;
+    }
     std::fprintf(stderr, "plumb: the budget of %s was too small for a single point\n",
                  o.budget.c_str());
     return kUsage;
 }
 
 int measure(const Options& o) {
+    const auto start = std::chrono::steady_clock::now();
     const double budget = seconds_of(o.budget, "--budget");
     const Shard shard = shard_of(o.shard);
     const ColliderLibrary colliders(o.plugin_path);
     catch_interrupts();
     const std::vector<study::Subject> subjects = subjects_of(o, colliders, kForReferences * budget);
     study::StudyTable table = study::plan_sweep(subjects, {o.colliders, o.curves}, colliders);
+    if (table.rows.empty())
+        throw UsageError("--curves: nothing of these is called for by what is to be swept");
+    if (shard.number > table.rows.size())
+        throw UsageError("--shard " + o.shard + ": there are only " +
+                         std::to_string(table.rows.size()) + " points");
     study::Journal journal(o.out, table);
 
     Progress progress(table.rows.size(), o.quiet);
     study::SweepOptions options;
-    options.budget = budget;
+    options.budget =
+        budget - std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     options.repeats = o.repeats;
     options.shard = shard.number;
     options.of = shard.of;
@@ -178,10 +210,16 @@ Verb add_cost(CLI::App& command) {
         ->type_name("I/N");
     command.add_option("--merge", o->merge, "make one report of the folders of several parts")
         ->type_name("DIR");
+    command
+        .add_option("--reference", o->reference,
+                    "substeps of a scene's reference to one of its steps; as many as a quarter of "
+                    "the budget allows unless told. Parts on several machines need the same")
+        ->check(CLI::Range(8u, 1u << 20))
+        ->type_name("N");
     command.add_flag("--list", o->list, "name the cases");
     command.add_flag("--quiet", o->quiet, "no progress bar");
     add_plugin_path_option(command, o->plugin_path);
-    return [o] { return cost(*o); };
+    return [o] { return with_references([&] { return cost(*o); }); };
 }
 
 }  // namespace plumb::app

@@ -3,6 +3,7 @@
 
 #include "app/interrupt.h"
 #include "app/usage.h"
+#include "app/verbs.h"
 #include "output/file.h"
 #include "reader/reader.h"
 #include "scene/nearest.h"
@@ -50,15 +51,17 @@ double seconds_of(std::string_view text, const std::string& option) {
 }
 
 study::Subject subject_named(const std::string& name, const ColliderLibrary& colliders,
-                             const std::string& collider, double seconds) {
+                             const std::string& collider, double seconds,
+                             std::uint32_t reference_substeps) {
     if (const study::CaseEntry* entry = study::find_case(name)) return entry->make();
     const std::filesystem::path file(name);
     if (!std::filesystem::exists(file) && file.extension().empty())
         throw UsageError(name + ": is neither a case nor a scene's file" +
                          advice(name, case_names()) + "; plumb cost --list names the cases");
     const Scene scene = read_scene(file);
-    study::Subject subject = study::self_referenced(scene, file.stem().string(), colliders,
-                                                    {collider, seconds, interrupted});
+    study::Subject subject =
+        study::self_referenced(scene, file.stem().string(), colliders,
+                               {collider, seconds, reference_substeps, interrupted});
     subject.fingerprint = fingerprint(read_file(name));
     return subject;
 }
@@ -76,8 +79,18 @@ void choose_metric(study::Subject& subject, const std::string& metric) {
     if (found == names.begin()) return;
     const auto first = subject.metrics.begin();
     std::rotate(first, first + (found - names.begin()), first + (found - names.begin()) + 1);
-    subject.tolerance = subject.reference_error = 0;
+    subject.tolerance = subject.horizon = 0;
     subject.orders = {};
+}
+
+int with_references(const std::function<int()>& verb) {
+    try {
+        return verb();
+    } catch (const study::NoReference& e) {
+        std::fprintf(stderr, "plumb: %s\n", e.what());
+        if (e.reason == study::NoReference::stopped) return kInterrupted;
+        return e.reason == study::NoReference::runs_off ? kDiverged : kUsage;
+    }
 }
 
 }  // namespace plumb::app

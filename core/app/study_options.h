@@ -7,6 +7,8 @@
 #include "study/subject.h"
 
 #include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,9 +19,14 @@ namespace plumb::app {
 double seconds_of(std::string_view text, const std::string& option);
 
 /// The case of this name, or the scene of this file, which is measured against finer runs of
-/// itself that may take `seconds`. Throws UsageError for a name that is neither.
+/// itself that may take `seconds`, or have so many substeps to a step. Throws UsageError for a name
+/// that is neither.
 study::Subject subject_named(const std::string& name, const ColliderLibrary& colliders,
-                             const std::string& collider, double seconds);
+                             const std::string& collider, double seconds,
+                             std::uint32_t reference_substeps = 0);
+
+/// Runs a verb of the study; what leaves a scene without a reference gets its sentence and code.
+int with_references(const std::function<int()>& verb);
 
 /// Puts the metric of this name first. Throws UsageError where the subject has none.
 void choose_metric(study::Subject& subject, const std::string& metric);

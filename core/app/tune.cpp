@@ -28,13 +28,14 @@ void check(const Options& o) {
 /// A reference that is itself less exact than what is asked for cannot tell.
 void check_reach(const Options& o, const study::Subject& subject) {
     constexpr double kMargin = 2;
-    if (!(o.error > 0) || o.error >= kMargin * subject.reference_error) return;
+    const double known = subject.metrics.front().reference_error;
+    if (!(o.error > 0) || o.error >= kMargin * known) return;
     char text[240];
     std::snprintf(text, sizeof text,
                   "--error %g: the references that --budget %s allows are only known to %.2g %s; "
                   "ask for at least %.2g, or give them more time",
-                  o.error, o.budget.c_str(), subject.reference_error,
-                  subject.metrics.front().unit.c_str(), kMargin * subject.reference_error);
+                  o.error, o.budget.c_str(), known, subject.metrics.front().unit.c_str(),
+                  kMargin * known);
     throw UsageError(text);
 }
 
@@ -62,22 +63,35 @@ void print_trials(const study::Subject& subject, const study::TuneResult& result
     }
 }
 
+/// Says why there are no such settings, and returns the exit code.
 int not_reached(const Options& o, const study::Subject& subject, const study::TuneResult& result) {
-    double least = 0;
-    bool any = false;
-    for (const study::Trial& t : result.trials)
-        if (t.is_done()) least = any ? std::min(least, t.error()) : t.error(), any = true;
     if (interrupted()) return kInterrupted;
-    if (!any) {
-        std::fprintf(stderr, "plumb: %s diverges at all settings that were tried\n",
-                     subject.name.c_str());
-        return kDiverged;
+    const study::Trial *exact = nullptr, *cheap = nullptr, *failed = nullptr;
+    for (const study::Trial& t : result.trials) {
+        if (!t.is_done()) {
+            failed = &t;
+            continue;
+        }
+        if (!exact || t.error() < exact->error()) exact = &t;
+        if (!cheap || t.outcome.cost.total < cheap->outcome.cost.total) cheap = &t;
     }
-    std::fprintf(stderr,
-                 "plumb: no settings were found that reach it; the least error was %.3g %s\n",
-                 least, subject.metrics.front().unit.c_str());
+    const char* unit = subject.metrics.front().unit.c_str();
+    if (!exact) {
+        const bool refused = failed && failed->outcome.status == study::Status::refused;
+        std::fprintf(stderr, "plumb: %s %s at all settings that were tried: %s\n",
+                     subject.name.c_str(), refused ? "is refused" : "diverges",
+                     failed ? failed->outcome.note.c_str() : "");
+        return refused ? kColliderUnable : kDiverged;
+    }
     if (o.time > 0)
-        std::fprintf(stderr, "plumb: --time %g µs a simulated second may be too short\n", o.time);
+        std::fprintf(stderr,
+                     "plumb: no settings were found within %g µs a simulated second that reach it; "
+                     "the cheapest took %.0f µs, the most exact left %.3g %s\n",
+                     o.time, cheap->outcome.cost.total, exact->error(), unit);
+    else
+        std::fprintf(stderr,
+                     "plumb: no settings were found that reach it; the least error was %.3g %s\n",
+                     exact->error(), unit);
     return kUsage;
 }
 
@@ -145,7 +159,7 @@ Verb add_tune(CLI::App& command) {
         ->type_name("TIME");
     command.add_flag("--quiet", o->quiet, "no progress bar, no table of runs");
     add_plugin_path_option(command, o->plugin_path);
-    return [o] { return tune(*o); };
+    return [o] { return with_references([&] { return tune(*o); }); };
 }
 
 }  // namespace plumb::app

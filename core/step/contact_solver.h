@@ -64,18 +64,15 @@ public:
         is_fresh_ = true;
     }
 
-    /// Impulses that the contacts remember of the step before. `exact` as in `load`: where an
-    /// island that was solved exactly comes back to the sweeps, those of bodies that are upset are
-    /// left.
+    /// Impulses that the contacts remember of the step before. `exact` as in `load`: of an island
+    /// that was solved exactly and comes back to the sweeps, it says which contacts go on.
     void load_impulses(const World& world, const IslandGroup* exact) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             const ContactMemory& memory = world.contacts.memory[contact];
             if (!memory.matched) return;
             const Contact& c = world.contacts.found[contact];
-            if (memory.exact && exact &&
-                (exact->is_upset(world, c.a) || exact->is_upset(world, c.b)))
-                return;
+            if (memory.exact && !(exact && exact->goes_on(world, c, memory.normal_impulse))) return;
             rows.normals[k].lambda_velocity[lane] = static_cast<Real>(memory.normal_impulse);
             if (!rows.frictions) return;
             FrictionRow<Real, W>& across = rows.frictions[k];

@@ -84,7 +84,7 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     if (pairs.empty()) return;
     found_.find(pairs, world.dynamic_count);
     mark_jointed(world);
-    upset_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+    bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     taken_.assign(pairs.size(), 0);
     for (const ContactIsland& island : found_.islands())
         if (is_exact(world, island, pairs)) take(world, island, pairs);
@@ -122,7 +122,7 @@ bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
 bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) {
     const Bodies& b = world.bodies;
-    bool deep = false;
+    upset_.clear();
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         const Contact& first = world.contacts.found[pair.first];
@@ -136,18 +136,38 @@ bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
             if (jammed) jammed_.push_back(k);
             upset |= jammed || overlap > kDeep * radius;
         }
-        if (upset) mark_upset(world, pair);
-        deep |= upset;
+        if (upset) upset_.push_back(pair);
     }
-    if (deep && world.kinematic_count > 0)  // what others squeeze is jammed as a whole
-        for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
-            mark_upset(world, pairs[found_.pairs()[i]]);
-    return deep;
+    if (upset_.empty()) return false;
+    // what others squeeze is jammed as a whole
+    if (world.kinematic_count > 0) return true;
+    const double bears =
+        weight_of(world, island, pairs) * world.settings.dt / world.settings.substeps;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+        mark(world, pairs[found_.pairs()[i]], bears);
+    for (const BodyPair& pair : upset_) mark(world, pair, 0);
+    return true;
 }
 
-void IslandGroup::mark_upset(const World& world, const BodyPair& pair) {
+double IslandGroup::weight_of(const World& world, const ContactIsland& island,
+                              const std::vector<BodyPair>& pairs) {
+    weighed_.assign(island.last_body - island.first_body, 0);
+    double weight = 0;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const Contact& c = world.contacts.found[pairs[found_.pairs()[i]].first];
+        for (const std::uint32_t body : {c.a, c.b}) {
+            if (world.bodies.motion[body] != Motion::dynamic) continue;
+            std::uint8_t& weighed = weighed_[found_.index_in_island(world.bodies.row[body])];
+            if (!weighed) weight += world.bodies.mass[body] * pull_on(world, body);
+            weighed = 1;
+        }
+    }
+    return weight;
+}
+
+void IslandGroup::mark(const World& world, const BodyPair& pair, double bears) {
     for (const std::int32_t row : {pair.row_a, pair.row_b})
-        if (row < world.dynamic_count) upset_[static_cast<std::size_t>(row)] = 1;
+        if (row < world.dynamic_count) bears_[static_cast<std::size_t>(row)] = bears;
 }
 
 bool IslandGroup::is_calm(const World& world, const ContactIsland& island,

@@ -25,10 +25,16 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
-    /// Whether a body of an island that is left to sweeps touches what is jammed or too deep: the
-    /// impulses there may hold each other by more than sweeps can take back.
-    bool is_upset(const World& world, std::uint32_t body) const {
-        return world.bodies.motion[body] == Motion::dynamic && upset_[world.bodies.row[body]];
+    /// Whether a contact that was solved exactly goes on from its impulses in the sweeps: where its
+    /// island is left to them because some of it is jammed or too deep, neither of its bodies
+    /// touches that, and it bears no more than the island weighs. What is jammed or was hit may
+    /// hold each other by more than sweeps can take back.
+    bool goes_on(const World& world, const Contact& c, double impulse) const {
+        const auto bears = [&](std::uint32_t body) {
+            return world.bodies.motion[body] != Motion::dynamic ||
+                   impulse <= bears_[world.bodies.row[body]];
+        };
+        return bears(c.a) && bears(c.b);
     }
 
     /// Once a substep of length h [s]: velocities, forces included, and what is asked of them.
@@ -58,7 +64,9 @@ private:
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
     void mark_jointed(const World& world);
-    void mark_upset(const World& world, const BodyPair& pair);
+    void mark(const World& world, const BodyPair& pair, double bears);
+    double weight_of(const World& world, const ContactIsland& island,
+                     const std::vector<BodyPair>& pairs);
     void take(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
     void take_memory(const World& world);
@@ -74,7 +82,9 @@ private:
     bool rubs_, resists_turning_;
     ContactIslands found_;
     std::vector<std::uint8_t> jointed_;  // [dynamic row]
-    std::vector<std::uint8_t> upset_;    // [dynamic row]
+    std::vector<double> bears_;          // [dynamic row], see goes_on [N s]
+    std::vector<std::uint8_t> weighed_;  // [body of an island]
+    std::vector<BodyPair> upset_;        // of an island: what is jammed or too deep
     std::vector<std::uint8_t> taken_;    // [pair]
     BlockCholesky::Pattern pattern_;
 

@@ -135,7 +135,8 @@ std::string settings_sentence(const Point& p) {
     std::string text;
     if (p.ladder == Ladder::substeps)
         text = std::string(value) + (p.value == 1 ? " substep" : " substeps") + " × 1 iteration";
-    if (p.ladder == Ladder::iterations) text = "1 substep × " + std::string(value) + " iterations";
+    if (p.ladder == Ladder::iterations)
+        text = "1 substep × " + std::string(value) + (p.value == 1 ? " iteration" : " iterations");
     if (p.ladder == Ladder::step) text = "steps of " + std::string(value) + " s";
     text += " in " + p.precision;
     if (p.curve != "pbd") text += ", " + p.curve;
@@ -278,15 +279,25 @@ std::vector<Departure> departures_of(const StudyTable& table) {
 std::vector<std::string> advice_on(const StudyTable& table, const SubjectSummary& subject) {
     constexpr std::size_t kMost = 4;
     const std::string& unit = subject.metrics.front().unit;
-    double most = errors_of(table, subject.name).second;
+    double most = 0;
+    bool any = false;
+    for (const Row& r : table.rows)
+        if (r.point.subject == subject.name && can_be_drawn(r) && is_for_users(r.point))
+            most = std::max(most, r.error()), any = true;
     if (unit.empty()) most = std::min(most, 0.1);
     std::vector<std::string> sentences;
+    if (any && !(most > 0)) sentences.push_back("no settings that were run leave any error");
     if (!(most > 0)) return sentences;
+    std::optional<std::size_t> before;
+    const double least = 2 * subject.reference_error;
     int decade = static_cast<int>(std::floor(std::log10(most)));
     for (; sentences.size() < kMost && decade > -16; --decade) {
         const double error = std::pow(10.0, decade);
+        if (error < least) break;
         const auto row = cheapest(table, subject.name, error);
         if (!row) break;
+        if (row == before) sentences.pop_back();  // it does better yet
+        before = row;
         const Row& r = table.rows[*row];
         sentences.push_back(error_text(error, unit) + " costs " +
                             short_number(r.median_cost().total) +

@@ -8,6 +8,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace plumb::study {
@@ -95,6 +96,7 @@ Json subject_json(const SubjectSummary& s) {
               {"step", s.orders.step}}},
             {"horizon", s.horizon},
             {"reference_error", s.reference_error},
+            {"reference_substeps", s.reference_substeps},
             {"fingerprint", s.fingerprint}};
 }
 
@@ -108,6 +110,7 @@ SubjectSummary subject_of(const Json& j) {
                                 j.at("orders").at("step")},
                      .horizon = j.at("horizon"),
                      .reference_error = j.at("reference_error"),
+                     .reference_substeps = j.at("reference_substeps"),
                      .fingerprint = j.at("fingerprint")};
     for (const Json& m : j.at("metrics"))
         s.metrics.push_back({m.at("name"), m.at("unit"), m.at("what")});
@@ -146,7 +149,12 @@ void read_runs(const std::string& text, StudyTable& table, const std::string& pa
         if (row >= table.rows.size())
             throw OutputError(
                 path, "line " + std::to_string(line_number) + " is none of a sweep's journal");
-        enter(table.rows[row], f[1] == "1",
+        const bool judged = f[1] == "1";
+        const std::size_t wanted = table.find(table.rows[row].point.subject)->metrics.size();
+        if (judged && f[2] == name_of(Status::done) && numbers_of(f[5]).size() != wanted)
+            throw OutputError(path, "line " + std::to_string(line_number) +
+                                        " has not as many errors as its subject has metrics");
+        enter(table.rows[row], judged,
               {status_of(f[2]),
                f[6],
                numbers_of(f[5]),
@@ -156,7 +164,10 @@ void read_runs(const std::string& text, StudyTable& table, const std::string& pa
 
 bool same_plan(const StudyTable& a, const StudyTable& b) {
     StudyTable x = a, y = b;
-    x.machine = y.machine = {};
+    for (StudyTable* t : {&x, &y}) {
+        t->machine = {};
+        for (SubjectSummary& s : t->subjects) s.reference_error = s.horizon = 0;  // measured
+    }
     return plan_json(x) == plan_json(y);
 }
 
@@ -210,7 +221,7 @@ void enter(Row& row, bool judged, const Outcome& o) {
         row.note = o.note;
         row.errors = o.errors;
     }
-    if (o.status == Status::done) row.costs.push_back(o.cost);
+    if (o.status == Status::done || o.status == Status::diverged) row.costs.push_back(o.cost);
 }
 
 Journal::Journal(const std::string& folder, StudyTable& table)
@@ -221,7 +232,13 @@ Journal::Journal(const std::string& folder, StudyTable& table)
     const bool goes_on = fs::exists(in_folder(folder, kPlanFile)) && fs::exists(path_);
     std::string text;
     if (goes_on) {
-        if (!same_plan(read_plan(folder), table))
+        const StudyTable before = read_plan(folder);
+        if (before.machine.version != table.machine.version ||
+            before.machine.flags != table.machine.flags || before.machine.cpu != table.machine.cpu)
+            throw OutputError(folder,
+                              "holds a sweep of another machine or build; name another "
+                              "folder");
+        if (!same_plan(before, table))
             throw OutputError(folder,
                               "holds another sweep; name another folder, or remove this one");
         text = read_file(path_);
@@ -245,13 +262,26 @@ void Journal::add(std::size_t row, bool judged, const Outcome& outcome) {
     if (!file_) throw OutputError(path_, "cannot be written: the disk may be full");
 }
 
+std::optional<StudyTable> plan_in(const std::string& folder) {
+    if (!fs::exists(in_folder(folder, kPlanFile))) return std::nullopt;
+    return read_plan(folder);
+}
+
 StudyTable merged(const std::vector<std::string>& folders) {
     std::optional<StudyTable> all;
+    std::set<fs::path> seen;
     for (const std::string& folder : folders) {
+        std::error_code failed;
+        if (!seen.insert(fs::weakly_canonical(folder, failed)).second)
+            throw OutputError(folder, "is named twice");
         const StudyTable plan = read_plan(folder);
         if (!all) all = plan;
         if (!same_plan(*all, plan))
             throw OutputError(folder, "is of another sweep than " + folders.front());
+        if (all->machine.version != plan.machine.version ||
+            all->machine.flags != plan.machine.flags)
+            throw OutputError(folder, "was run by another build than " + folders.front());
+        if (all->machine.cpu != plan.machine.cpu) all->machine.cpu = "several processors";
         const std::string path = in_folder(folder, kRunsFile);
         read_runs(read_file(path), *all, path);
     }

@@ -36,6 +36,9 @@ private:
     std::string path_;
 };
 
+/// The plan of the sweep in a folder; nothing where it holds none. Throws OutputError.
+std::optional<StudyTable> plan_in(const std::string& folder);
+
 /// The tables of several journals as one: rows that one of them has run. Throws OutputError where a
 /// folder holds no journal, or they are of different plans.
 StudyTable merged(const std::vector<std::string>& folders);

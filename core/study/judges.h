@@ -68,23 +68,27 @@ private:
 
 inline Metric largest(std::string name, std::string unit, std::string what,
                       LargestDeviation::Deviation deviation) {
-    return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
+    return {std::move(name), std::move(unit), std::move(what),
+            [deviation = std::move(deviation)] {
                 return std::make_unique<LargestDeviation>(deviation);
-            }};
+            },
+            0};
 }
 
 inline Metric last(std::string name, std::string unit, std::string what,
                    LastDeviation::Deviation deviation) {
-    return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
-                return std::make_unique<LastDeviation>(deviation);
-            }};
+    return {
+        std::move(name), std::move(unit), std::move(what),
+        [deviation = std::move(deviation)] { return std::make_unique<LastDeviation>(deviation); },
+        0};
 }
 
 inline Metric mean_over_time(std::string name, std::string unit, std::string what,
                              MeanDeviation::Deviation deviation) {
-    return {std::move(name), std::move(unit), std::move(what), [deviation = std::move(deviation)] {
-                return std::make_unique<MeanDeviation>(deviation);
-            }};
+    return {
+        std::move(name), std::move(unit), std::move(what),
+        [deviation = std::move(deviation)] { return std::make_unique<MeanDeviation>(deviation); },
+        0};
 }
 
 }  // namespace plumb::study

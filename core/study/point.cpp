@@ -1,12 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "study/point.h"
 
-#include "measure/measure.h"
-
+#include <algorithm>
 #include <array>
 #include <fstream>
 
 namespace plumb::study {
+namespace {
+
+/// The middle value, or the mean of the two in the middle; 0 of none.
+double median(std::vector<double> values) {
+    if (values.empty()) return 0;
+    std::sort(values.begin(), values.end());
+    const std::size_t half = values.size() / 2;
+    return values.size() % 2 == 1 ? values[half] : 0.5 * (values[half - 1] + values[half]);
+}
+
+}  // namespace
 
 std::string_view name_of(Ladder ladder) {
     constexpr std::array<std::string_view, 3> kNames{"substeps", "iterations", "step"};
@@ -32,7 +42,7 @@ std::string Point::key() const {
 Cost Row::median_cost() const {
     std::vector<double> total, solver;
     for (const Cost& c : costs) total.push_back(c.total), solver.push_back(c.solver);
-    return {percentile(total, 0.5), percentile(solver, 0.5)};
+    return {median(total), median(solver)};
 }
 
 SubjectSummary summary_of(const Subject& s) {
@@ -43,7 +53,8 @@ SubjectSummary summary_of(const Subject& s) {
                            .tolerance = s.tolerance,
                            .orders = s.orders,
                            .horizon = s.horizon,
-                           .reference_error = s.reference_error,
+                           .reference_error = s.metrics.front().reference_error,
+                           .reference_substeps = s.reference_substeps,
                            .fingerprint = s.fingerprint};
     for (const Metric& m : s.metrics) summary.metrics.push_back({m.name, m.unit, m.what});
     return summary;

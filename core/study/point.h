@@ -72,7 +72,8 @@ struct SubjectSummary {
     Orders orders;
     double horizon = 0;          ///< until when poses are compared [s]; 0: all along
     double reference_error = 0;  ///< of the reference itself, in the first metric; 0: exact
-    std::string fingerprint;     ///< Subject::fingerprint
+    std::uint32_t reference_substeps = 0;  ///< Subject::reference_substeps
+    std::string fingerprint;               ///< Subject::fingerprint
 };
 SubjectSummary summary_of(const Subject& subject);
 

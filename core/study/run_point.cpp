@@ -34,6 +34,13 @@ Outcome made(const Subject& subject, Simulation& simulation, bool judged, const 
     std::vector<std::unique_ptr<Judge>> judges;
     if (judged) judges = judges_of(subject);
     std::uint64_t total = 0, solver = 0;
+    const auto cost = [&](double simulated) -> Cost {
+        const double per_second = simulated > 0 ? 1e-3 / simulated : 0;
+        return {static_cast<double>(total) * per_second, static_cast<double>(solver) * per_second};
+    };
+    const auto diverged = [&](std::string note, double simulated) -> Outcome {
+        return {Status::diverged, std::move(note), {}, cost(simulated)};
+    };
     for (const auto& judge : judges) judge->look(simulation.world());
     for (std::uint64_t i = 0; i < steps; ++i) {
         if (stop && stop()) return ended(Status::not_run, "time was up");
@@ -41,8 +48,8 @@ Outcome made(const Subject& subject, Simulation& simulation, bool judged, const 
         total += simulation.ledger().step_nanoseconds;
         solver += simulation.ledger().solver_nanoseconds();
         if (!report.finite || !within_reach(simulation.world()))
-            return ended(Status::diverged,
-                         "ran off after " + std::to_string(simulation.time()) + " s");
+            return diverged("ran off after " + std::to_string(simulation.time()) + " s",
+                            simulation.time());
         if (report.collider_unusable) return ended(Status::refused, report.message);
         for (const auto& judge : judges) judge->look(simulation.world());
     }
@@ -50,11 +57,9 @@ Outcome made(const Subject& subject, Simulation& simulation, bool judged, const 
     for (const auto& judge : judges) {
         outcome.errors.push_back(judge->error());
         if (!std::isfinite(judge->error()))
-            return ended(Status::diverged, "the error is no number");
+            return diverged("the error is no number", simulation.time());
     }
-    const double per_second = 1e-3 / (static_cast<double>(steps) * s.dt);
-    outcome.cost = {static_cast<double>(total) * per_second,
-                    static_cast<double>(solver) * per_second};
+    outcome.cost = cost(simulation.time());
     return outcome;
 }
 

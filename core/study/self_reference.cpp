@@ -3,6 +3,7 @@
 
 #include "host/simulation.h"
 #include "measure/measure.h"
+#include "scene/error.h"
 #include "study/gauges.h"
 #include "study/judges.h"
 #include "study/trajectory.h"
@@ -10,17 +11,19 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <stdexcept>
 
 namespace plumb::study {
 namespace {
 
-constexpr int kMoments = 200;             ///< of a trajectory, about
-constexpr std::uint32_t kCoarsest = 4;    ///< times dt: the longest step that is compared
-constexpr std::uint32_t kFinest = 4096;   ///< substeps to one of the scene's steps, at most
-constexpr std::uint32_t kDetections = 8;  ///< to one of the scene's steps
-constexpr double kParted = 0.01;          ///< share of a body's radius at which prediction ends
+constexpr int kMoments = 200;                ///< of a trajectory, about
+constexpr std::uint32_t kCoarsest = 4;       ///< times dt: the longest step that is compared
+constexpr std::uint32_t kFinest = 4096;      ///< substeps to one of the scene's steps, at most
+constexpr std::uint32_t kDetections = 8;     ///< to one of the scene's steps
+constexpr int kFewest = 2 * int(kCoarsest);  ///< steps of a scene
+constexpr double kPatience = 4;   ///< times the seconds that were asked for, after which it ends
+constexpr double kParted = 0.01;  ///< share of a body's radius at which prediction ends
 
+using Clock = std::chrono::steady_clock;
 using Shared = std::shared_ptr<const Trajectory>;
 
 /// The scene at so many substeps to each of its own steps, in double.
@@ -42,17 +45,26 @@ double interval_of(const Settings& s) {
 }
 
 Trajectory recorded(const Scene& scene, double interval, double duration,
-                    const ColliderLibrary& colliders, const ReferenceOptions& options) {
+                    const ColliderLibrary& colliders, const ReferenceOptions& options,
+                    Clock::time_point deadline) {
     Simulation simulation(scene, colliders, options.collider);
     Trajectory t{interval, {moment_of(simulation.world())}};
     const auto steps = static_cast<std::uint64_t>(std::llround(duration / scene.settings.dt));
     for (std::uint64_t i = 0; i < steps; ++i) {
         if (options.stop && options.stop())
-            throw std::runtime_error("the references were not finished");
-        if (!simulation.step().finite)
-            throw std::runtime_error("scene \"" + scene.name +
-                                     "\" runs off however finely it is stepped: after " +
-                                     std::to_string(simulation.time()) + " s");
+            throw NoReference(NoReference::stopped, "the references were not finished");
+        if (std::chrono::steady_clock::now() > deadline)
+            throw NoReference(NoReference::out_of_time,
+                              "scene \"" + scene.name +
+                                  "\" takes longer than the budget leaves for its references; "
+                                  "give it more, or a shorter duration");
+        const StepReport report = simulation.step();
+        if (report.collider_unusable) throw ColliderError(report.message);
+        if (!report.finite)
+            throw NoReference(NoReference::runs_off,
+                              "scene \"" + scene.name +
+                                  "\" runs off however finely it is stepped: after " +
+                                  std::to_string(simulation.time()) + " s");
         if (t.index_at(simulation.time()) == Trajectory::kNone &&
             std::abs(std::remainder(simulation.time(), interval)) < 1e-6 * interval)
             t.moments.push_back(moment_of(simulation.world()));
@@ -63,16 +75,15 @@ Trajectory recorded(const Scene& scene, double interval, double duration,
 /// Substeps to one of the scene's steps that two references may have in the time: by how long a
 /// short run takes.
 std::uint32_t affordable(const Scene& scene, const ColliderLibrary& colliders,
-                         const ReferenceOptions& options) {
-    constexpr std::uint32_t kTrial = 16;
-    constexpr double kShare = 0.03;
-    const auto start = std::chrono::steady_clock::now();
+                         const ReferenceOptions& options, Clock::time_point deadline) {
+    constexpr std::uint32_t kTrial = 8;
+    constexpr double kShare = 0.05;
+    const auto start = Clock::now();
     const double duration = std::max(kShare * scene.settings.duration, scene.settings.dt);
-    recorded(refined(scene, kTrial), duration, duration, colliders, options);
-    const double spent =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    recorded(refined(scene, kTrial), duration, duration, colliders, options, deadline);
+    const double spent = std::chrono::duration<double>(Clock::now() - start).count();
     const double of_one = spent * scene.settings.duration / duration / kTrial;
-    std::uint32_t substeps = 2 * kTrial;
+    std::uint32_t substeps = kTrial;
     while (substeps < kFinest && 1.5 * of_one * 2 * substeps < options.seconds) substeps *= 2;
     return substeps;
 }
@@ -85,6 +96,16 @@ double size_of(const World& world) {
             sum += world.bodies.reach[i];
     const double mean = sum / std::max(1, world.dynamic_count);
     return mean > 0 ? mean : 1;
+}
+
+/// Refuses what has nothing to compare.
+void check_length(const Scene& scene, const World& world) {
+    if (world.dynamic_count == 0)
+        throw SceneError(scene.name, "/bodies",
+                         "none of them is dynamic: there is nothing to measure");
+    if (scene.settings.duration < kFewest * scene.settings.dt)
+        throw SceneError(scene.name, "/settings/duration",
+                         "must be at least " + std::to_string(kFewest) + " steps to be measured");
 }
 
 /// How long two runs stay together: index of the last moment of that.
@@ -105,7 +126,7 @@ Metric pose_metric(const Shared& reference, double horizon) {
                    });
 }
 
-/// Compares a value's mean over time with that of the reference.
+/// How far a value is from that of the reference: the root of the mean square over time.
 class MeanAgainst : public Judge {
 public:
     MeanAgainst(Shared reference, double Moment::*value, double scale)
@@ -114,24 +135,31 @@ public:
     void look(const World& world) override {
         const std::size_t i = reference_->index_at(world.time);
         if (i == Trajectory::kNone || i == 0) return;
-        difference_ += moment_of(world).*value_ - reference_->moments[i].*value_;
+        const double difference = moment_of(world).*value_ - reference_->moments[i].*value_;
+        square_ += difference * difference;
         ++count_;
     }
-    double error() const override {
-        return count_ > 0 ? std::abs(difference_) / count_ / scale_ : 0;
-    }
+    double error() const override { return count_ > 0 ? std::sqrt(square_ / count_) / scale_ : 0; }
 
 private:
     Shared reference_;
     double Moment::*value_;
     double scale_;
-    double difference_ = 0, count_ = 0;
+    double square_ = 0, count_ = 0;
 };
 
+/// `coarser` tells how exact the reference itself is.
 Metric mean_metric(std::string name, std::string unit, std::string what, const Shared& reference,
-                   double Moment::*value, double scale) {
+                   const Shared& coarser, double Moment::*value, double scale) {
+    double square = 0;
+    const std::size_t count = std::min(reference->moments.size(), coarser->moments.size());
+    for (std::size_t i = 1; i < count; ++i) {
+        const double d = reference->moments[i].*value - coarser->moments[i].*value;
+        square += d * d / static_cast<double>(count - 1);
+    }
     return {std::move(name), std::move(unit), std::move(what),
-            [=] { return std::make_unique<MeanAgainst>(reference, value, scale); }};
+            [=] { return std::make_unique<MeanAgainst>(reference, value, scale); },
+            std::sqrt(square) / scale};
 }
 
 /// What energy was turned over: the most that was ever in motion [J].
@@ -146,12 +174,17 @@ double turnover(const Trajectory& t) {
 Subject self_referenced(const Scene& scene, const std::string& name,
                         const ColliderLibrary& colliders, const ReferenceOptions& options) {
     const Simulation start(scene, colliders, options.collider);
+    check_length(scene, start.world());
+    const Clock::time_point deadline =
+        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                           options.substeps > 0 ? 1e9 : kPatience * options.seconds));
     const double interval = interval_of(scene.settings);
     const double duration = scene.settings.duration;
-    const std::uint32_t substeps = affordable(scene, colliders, options);
+    const std::uint32_t substeps =
+        options.substeps > 0 ? options.substeps : affordable(scene, colliders, options, deadline);
     const auto record = [&](std::uint32_t n) {
         return std::make_shared<const Trajectory>(
-            recorded(refined(scene, n), interval, duration, colliders, options));
+            recorded(refined(scene, n), interval, duration, colliders, options, deadline));
     };
     const Shared finer = record(substeps), coarser = record(substeps / 2);
     const std::size_t last = together(*finer, *coarser, kParted * size_of(start.world()));
@@ -162,20 +195,21 @@ Subject self_referenced(const Scene& scene, const std::string& name,
     s.scene = scene;
     s.reference = "a run of " + std::to_string(substeps) + " substeps to each step of " +
                   std::to_string(scene.settings.dt) + " s, in double";
+    s.reference_substeps = substeps;
     const bool ends = last + 1 < finer->moments.size();
     const double horizon = static_cast<double>(last) * interval;
     if (last > 0) {
         s.metrics.push_back(pose_metric(finer, horizon));
         s.horizon = ends ? horizon : 0;
+        double& error = s.metrics.front().reference_error;
         for (std::size_t i = 0; i <= last; ++i)
-            s.reference_error = std::max(s.reference_error,
-                                         largest_distance(finer->moments[i], coarser->moments[i]));
+            error = std::max(error, largest_distance(finer->moments[i], coarser->moments[i]));
     }
-    s.metrics.push_back(mean_metric("height", "m", "mean height over time, against the reference",
-                                    finer, &Moment::height, 1));
+    s.metrics.push_back(mean_metric("height", "m", "error of the mean height, rms over time", finer,
+                                    coarser, &Moment::height, 1));
     s.metrics.push_back(mean_metric("energy", "",
-                                    "mean energy over time, against the reference's turnover",
-                                    finer, &Moment::energy, turnover(*finer)));
+                                    "error of the energy over what was in motion, rms over time",
+                                    finer, coarser, &Moment::energy, turnover(*finer)));
     for (Metric& gauge : gauges_of(start.plan())) s.metrics.push_back(std::move(gauge));
     return s;
 }

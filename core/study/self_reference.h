@@ -10,18 +10,30 @@
 #include "study/run_point.h"
 #include "study/subject.h"
 
+#include <cstdint>
+#include <stdexcept>
 #include <string>
 
 namespace plumb::study {
 
 struct ReferenceOptions {
     std::string collider = "auto";
-    double seconds = 60;  ///< that making the references may take
-    Stop stop;            ///< asked between steps
+    double seconds = 60;         ///< that making the references may take, about
+    std::uint32_t substeps = 0;  ///< of the finer one, to a step of the scene; 0: as many as the
+                                 ///< time allows
+    Stop stop;                   ///< asked between steps
 };
 
-/// Throws SceneError or ColliderError for what cannot run, and std::runtime_error where even the
-/// finest run that the time allows goes astray, or `stop` ended it.
+/// Why there is no reference.
+struct NoReference : std::runtime_error {
+    enum Reason { stopped, out_of_time, runs_off } reason;
+    NoReference(Reason why, const std::string& sentence)
+        : std::runtime_error(sentence), reason(why) {}
+};
+
+/// Throws SceneError or ColliderError for what cannot run, or does not run for eight steps or has
+/// nothing that moves; and NoReference where the time is far too short, where even a fine run goes
+/// astray, or where `stop` ended it.
 Subject self_referenced(const Scene& scene, const std::string& name,
                         const ColliderLibrary& colliders, const ReferenceOptions& options);
 

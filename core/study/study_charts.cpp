@@ -23,7 +23,7 @@ ChartSeries series_of(const StudyTable& table, const CurveRows& curve, const std
     series.name = name;
     for (const std::size_t i : curve.rows) {
         const Row& r = table.rows[i];
-        if (r.costs.empty() || r.errors.empty()) continue;
+        if (r.costs.empty()) continue;
         const double x = r.median_cost().total;
         if (r.status == Status::done)
             series.points.push_back({x, r.error()});
@@ -49,6 +49,12 @@ Chart empty_chart(const StudyTable& table, const SubjectSummary& s) {
         char name[64];
         std::snprintf(name, sizeof name, "tolerance %g %s", s.tolerance, metric.unit.c_str());
         chart.rules.push_back({name, s.tolerance});
+    }
+    if (s.reference_error > 0) {
+        char name[64];
+        std::snprintf(name, sizeof name, "error of the reference, %.2g %s", s.reference_error,
+                      metric.unit.c_str());
+        chart.rules.push_back({name, s.reference_error});
     }
     return chart;
 }

@@ -8,6 +8,7 @@
 #include "scene/scene.h"
 #include "world/world.h"
 
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
@@ -33,6 +34,7 @@ struct Metric {
     std::string unit;  ///< "" where it is a ratio
     std::string what;  ///< what it is, in a few words: "largest error of the angle"
     std::function<std::unique_ptr<Judge>()> judge;  ///< makes a judge for a run that begins
+    double reference_error = 0;                     ///< of what runs are compared with; 0: exact
 };
 
 /// Order of convergence that theory gives, for one way of refining; 0 where it gives none.
@@ -51,8 +53,9 @@ struct Subject {
     double tolerance = 0;  ///< error that the scene's own settings keep within; 0: not stated
     Orders orders;         ///< of the first metric
     double horizon = 0;    ///< until when poses can be predicted and are compared [s]; 0: all along
-    double reference_error = 0;  ///< of the reference itself, in the first metric; 0: exact
-    std::string fingerprint;     ///< of the file that the scene came from; "" of a case
+    std::uint32_t reference_substeps =
+        0;                    ///< of a reference that is a run, to a step; 0: a formula
+    std::string fingerprint;  ///< of the file that the scene came from; "" of a case
 };
 
 }  // namespace plumb::study

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <chrono>
 #include <map>
-#include <numeric>
+#include <stdexcept>
 
 namespace plumb::study {
 namespace {
@@ -114,6 +114,8 @@ StudyTable plan_sweep(const std::vector<Subject>& subjects, const SweepChoice& c
     StudyTable table;
     table.machine = this_machine();
     for (const Subject& s : subjects) {
+        if (table.find(s.name))
+            throw std::invalid_argument("two subjects are called \"" + s.name + "\"");
         table.subjects.push_back(summary_of(s));
         for (Point& p : points_of(s, choice, colliders)) {
             Row row;

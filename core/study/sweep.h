@@ -33,7 +33,8 @@ struct SweepOptions {
     Stop interrupted;  ///< asked between steps
 };
 
-/// The table of a sweep before anything ran.
+/// The table of a sweep before anything ran. Throws std::invalid_argument where two subjects have
+/// one name, and what points_of throws.
 StudyTable plan_sweep(const std::vector<Subject>& subjects, const SweepChoice& choice,
                       const ColliderLibrary& colliders);
 

@@ -73,9 +73,16 @@ private:
     /// touches, one is as good as any.
     void choose_colliders(const ColliderLibrary& library) {
         if (!choice_.colliders.empty()) {
-            for (const std::string& name : choice_.colliders)
-                library.check_abilities(library.find(name), subject_.scene);
-            colliders_ = choice_.colliders;
+            for (const std::string& name : choice_.colliders) {
+                const ColliderInfo& collider = library.find(name);
+                library.check_abilities(collider, subject_.scene);
+                for (const std::string& other : colliders_)
+                    if (conflicting(*library.find(other).table, *collider.table))
+                        throw ColliderError("collider \"" + name +
+                                            "\" must not share a process with \"" + other +
+                                            "\": sweep them one by one");
+                colliders_.push_back(name);
+            }
         } else {
             colliders_ = {library.choose(subject_.scene).collider->name};
             for (const ColliderInfo& c : library.all())

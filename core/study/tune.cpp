@@ -33,6 +33,7 @@ public:
     }
 
     TuneResult run() {
+        colliders_.check_abilities(colliders_.find(collider_), subject_.scene);
         Choice best = refine({});
         Choice finer;
         finer.substeps = 4;

@@ -151,7 +151,7 @@ TEST(SelfReference, TellsTheErrorThatTheFormulaTells) {
     ASSERT_EQ(reference.status, study::Status::done) << reference.note;
     const double radius = 0.5;  // from the joint to the centre [m]
     EXPECT_NEAR(reference.errors[0], radius * formula.errors[0], 0.1 * reference.errors[0]);
-    EXPECT_LT(blind.reference_error, 0.1 * reference.errors[0]);
+    EXPECT_LT(blind.metrics.front().reference_error, 0.1 * reference.errors[0]);
 }
 
 TEST(Tune, ReachesAnErrorWithFewRuns) {
