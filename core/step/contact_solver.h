@@ -71,8 +71,9 @@ public:
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             const ContactMemory& memory = world.contacts.memory[contact];
             if (!memory.matched) return;
-            const Contact& c = world.contacts.found[contact];
-            if (memory.exact && !(exact && exact->goes_on(world, c, memory.normal_impulse))) return;
+            if (memory.exact &&
+                !(exact && exact->goes_on(world, static_cast<std::uint32_t>(contact))))
+                return;
             rows.normals[k].lambda_velocity[lane] = static_cast<Real>(memory.normal_impulse);
             if (!rows.frictions) return;
             FrictionRow<Real, W>& across = rows.frictions[k];

@@ -279,6 +279,20 @@ void IslandGroup::take_geometry(const World& world, IslandPoint& p, std::uint32_
     p.cone.rolling = surface.rolling_friction / p.length;
 }
 
+bool IslandGroup::goes_on(const World& world, std::uint32_t contact) const {
+    const Contact& c = world.contacts.found[contact];
+    const double impulse = world.contacts.memory[contact].normal_impulse;
+    double pull = 0;
+    for (const std::uint32_t body : {c.a, c.b}) {
+        if (world.bodies.motion[body] != Motion::dynamic) continue;
+        if (impulse > bears_[world.bodies.row[body]]) return false;
+        pull = std::max(pull, pull_on(world, body));
+    }
+    // what rests has been pulled on for a substep already
+    const double h = world.settings.dt / world.settings.substeps;
+    return relative_velocity(world, contact).norm() <= 2 * pull * h;
+}
+
 // ---- once a substep
 
 std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) {

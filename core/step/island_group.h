@@ -27,15 +27,9 @@ public:
 
     /// Whether a contact that was solved exactly goes on from its impulses in the sweeps: where its
     /// island is left to them because some of it is jammed or too deep, neither of its bodies
-    /// touches that, and it bears no more than the island weighs. What is jammed or was hit may
-    /// hold each other by more than sweeps can take back.
-    bool goes_on(const World& world, const Contact& c, double impulse) const {
-        const auto bears = [&](std::uint32_t body) {
-            return world.bodies.motion[body] != Motion::dynamic ||
-                   impulse <= bears_[world.bodies.row[body]];
-        };
-        return bears(c.a) && bears(c.b);
-    }
+    /// touches that, it is at rest, and it bears no more than the island weighs. What is jammed or
+    /// was hit may hold each other by more than sweeps can take back.
+    bool goes_on(const World& world, std::uint32_t contact) const;
 
     /// Once a substep of length h [s]: velocities, forces included, and what is asked of them.
     /// Returns how many contacts overlap deeper than `recovery` [m], the most that is pushed out.
