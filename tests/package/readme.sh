@@ -15,7 +15,7 @@ links=$(grep -o '](\([^)]*\))' "$readme" | sed 's/^](//; s/)$//' | grep -v '^htt
 [ -n "$links" ] || fail "has no links"
 for link in $links; do [ -e "$source/$link" ] || fail "$link is not there"; done
 
-for verb in run colliders effects check compare export; do "$plumb" "$verb" --help; done >"$work/help.txt"
+for verb in run colliders effects check compare cost tune export; do "$plumb" "$verb" --help; done >"$work/help.txt"
 options=$(awk '/^## The program/ { inside = 1; next } /^## / { inside = 0 } inside' "$readme" | grep -oE -- '--[a-z-]+' | sort -u)
 [ -n "$options" ] || fail "names no options"
 for option in $options; do grep -qE -- "(^|[ ,])$option( |$)" "$work/help.txt" || fail "the program has no $option"; done
