@@ -290,7 +290,7 @@ bool IslandGroup::goes_on(const World& world, std::uint32_t contact) const {
     }
     // what rests has been pulled on for a substep already
     const double h = world.settings.dt / world.settings.substeps;
-    return relative_velocity(world, contact).norm() <= 2 * pull * h;
+    return relative_velocity(world, contact).norm() <= 1.05 * pull * h;
 }
 
 // ---- once a substep
