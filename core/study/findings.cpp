@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "study/findings.h"
 
-#include "measure/measure.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <map>
 #include <tuple>
 
@@ -94,15 +93,11 @@ private:
     std::vector<Dot> dots_;
 };
 
-/// Smallest and largest error of a subject's rows.
-std::pair<double, double> errors_of(const StudyTable& table, const std::string& subject) {
-    std::pair<double, double> errors{std::numeric_limits<double>::infinity(), 0};
+double least_error(const StudyTable& table, const std::string& subject) {
+    double least = std::numeric_limits<double>::infinity();
     for (const Row& r : table.rows)
-        if (r.point.subject == subject && can_be_drawn(r)) {
-            errors.first = std::min(errors.first, r.error());
-            errors.second = std::max(errors.second, r.error());
-        }
-    return errors;
+        if (r.point.subject == subject && can_be_drawn(r)) least = std::min(least, r.error());
+    return least;
 }
 
 const CurveRows* find_curve(const std::vector<CurveRows>& curves, const std::string& subject,
@@ -314,7 +309,7 @@ std::vector<Profile> profiles_of(const StudyTable& table) {
     std::map<std::string, double> least;                         // [subject]
     for (const Row& r : table.rows) {
         const SubjectSummary& s = *table.find(r.point.subject);
-        const double wanted = s.tolerance > 0 ? s.tolerance : 10 * errors_of(table, s.name).first;
+        const double wanted = s.tolerance > 0 ? s.tolerance : 10 * least_error(table, s.name);
         if (!can_be_drawn(r) || r.error() > wanted) continue;
         const double cost = r.median_cost().total;
         auto& of_kind = costs[name_of_kind(r.point)];

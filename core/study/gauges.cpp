@@ -22,28 +22,31 @@ double widest_joint(const World& world) {
     return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
 }
 
-/// Contacts of the last step: `found` as they were at its start, with what they pushed in it. The
-/// product gap × push is 0 of each contact that is solved exactly.
-double complementarity(const World& world) {
-    double product = 0, pushes = 0;
+/// Of the last step's contacts, the sum of `figure(contact, what it pushed and rubbed)` over the
+/// sum of what they pushed. Gaps are those at the step's start.
+template <class Figure>
+double per_push(const World& world, Figure figure) {
     const ContactTable& c = world.contacts;
-    for (std::size_t i = 0; i < c.found.size() && i < c.memory.size(); ++i) {
-        product += std::max(0.0, c.found[i].gap) * c.memory[i].normal_impulse;
-        pushes += c.memory[i].normal_impulse;
+    double sum = 0, pushes = 0;
+    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
+        sum += figure(c.found_before[i], c.memory_before[i]);
+        pushes += c.memory_before[i].normal_impulse;
     }
-    return pushes > 0 ? product / pushes : 0;
+    return pushes > 0 ? sum / pushes : 0;
+}
+
+/// The product gap × push is 0 of each contact that is solved exactly.
+double complementarity(const World& world) {
+    return per_push(world, [](const Contact& contact, const ContactMemory& memory) {
+        return std::max(0.0, contact.gap) * memory.normal_impulse;
+    });
 }
 
 double cone_excess(const World& world) {
-    double excess = 0, pushes = 0;
-    const ContactTable& c = world.contacts;
-    for (std::size_t i = 0; i < c.found.size() && i < c.memory.size(); ++i) {
-        const double push = c.memory[i].normal_impulse;
-        const double bound = world.surface_pair(c.found[i].a, c.found[i].b).friction * push;
-        excess += std::max(0.0, c.memory[i].friction_impulse.norm() - bound);
-        pushes += push;
-    }
-    return pushes > 0 ? excess / pushes : 0;
+    return per_push(world, [&](const Contact& contact, const ContactMemory& memory) {
+        const double friction = world.surface_pair(contact.a, contact.b).friction;
+        return std::max(0.0, memory.friction_impulse.norm() - friction * memory.normal_impulse);
+    });
 }
 
 }  // namespace

@@ -66,29 +66,15 @@ private:
     double count_ = 0;
 };
 
-inline Metric largest(std::string name, std::string unit, std::string what,
-                      LargestDeviation::Deviation deviation) {
+/// A metric whose judges are made of a deviation alone.
+template <class J>
+Metric metric_by(std::string name, std::string unit, std::string what,
+                 typename J::Deviation deviation) {
     return {std::move(name), std::move(unit), std::move(what),
-            [deviation = std::move(deviation)] {
-                return std::make_unique<LargestDeviation>(deviation);
-            },
-            0};
+            [deviation = std::move(deviation)] { return std::make_unique<J>(deviation); }, 0};
 }
-
-inline Metric last(std::string name, std::string unit, std::string what,
-                   LastDeviation::Deviation deviation) {
-    return {
-        std::move(name), std::move(unit), std::move(what),
-        [deviation = std::move(deviation)] { return std::make_unique<LastDeviation>(deviation); },
-        0};
-}
-
-inline Metric mean_over_time(std::string name, std::string unit, std::string what,
-                             MeanDeviation::Deviation deviation) {
-    return {
-        std::move(name), std::move(unit), std::move(what),
-        [deviation = std::move(deviation)] { return std::make_unique<MeanDeviation>(deviation); },
-        0};
-}
+inline constexpr auto largest = metric_by<LargestDeviation>;
+inline constexpr auto last = metric_by<LastDeviation>;
+inline constexpr auto mean_over_time = metric_by<MeanDeviation>;
 
 }  // namespace plumb::study

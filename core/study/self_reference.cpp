@@ -187,7 +187,7 @@ Subject self_referenced(const Scene& scene, const std::string& name,
             recorded(refined(scene, n), interval, duration, colliders, options, deadline));
     };
     const Shared finer = record(substeps), coarser = record(substeps / 2);
-    const std::size_t last = together(*finer, *coarser, kParted * size_of(start.world()));
+    const std::size_t parted = together(*finer, *coarser, kParted * size_of(start.world()));
 
     Subject s;
     s.name = name;
@@ -196,13 +196,13 @@ Subject self_referenced(const Scene& scene, const std::string& name,
     s.reference = "a run of " + std::to_string(substeps) + " substeps to each step of " +
                   std::to_string(scene.settings.dt) + " s, in double";
     s.reference_substeps = substeps;
-    const bool ends = last + 1 < finer->moments.size();
-    const double horizon = static_cast<double>(last) * interval;
-    if (last > 0) {
+    const bool ends = parted + 1 < finer->moments.size();
+    const double horizon = static_cast<double>(parted) * interval;
+    if (parted > 0) {
         s.metrics.push_back(pose_metric(finer, horizon));
         s.horizon = ends ? horizon : 0;
         double& error = s.metrics.front().reference_error;
-        for (std::size_t i = 0; i <= last; ++i)
+        for (std::size_t i = 0; i <= parted; ++i)
             error = std::max(error, largest_distance(finer->moments[i], coarser->moments[i]));
     }
     s.metrics.push_back(mean_metric("height", "m", "error of the mean height, rms over time", finer,

@@ -8,7 +8,7 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <charconv>
 #include <optional>
 
 namespace plumb::study {
@@ -168,14 +168,8 @@ Settings settings_at(const Subject& subject, const Point& point) {
 
 std::string number_text(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.17g", value);
-    double back = 0;
-    for (int digits = 1; digits < 17; ++digits) {
-        char shorter[32];
-        std::snprintf(shorter, sizeof shorter, "%.*g", digits, value);
-        if (std::sscanf(shorter, "%lf", &back) == 1 && back == value) return shorter;
-    }
-    return text;
+    const auto end = std::to_chars(text, text + sizeof text, value, std::chars_format::general).ptr;
+    return {text, end};
 }
 
 double work_of(const Subject& subject, const Settings& s) {
