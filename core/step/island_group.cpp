@@ -16,7 +16,8 @@ namespace {
 constexpr std::uint32_t kVerySmall = 8;
 
 /// An island is calm where its contacts slide, part and approach by less than this times √(g r), r
-/// the radius of its largest body: about the speed of what fell by r/32.
+/// the radius of its largest body, in the root of the mean square: about the speed of what fell by
+/// r/32. One body that drops on a heap does not take all others out of their rest.
 constexpr double kCalm = 0.25;
 
 /// Share of the island's speed below which a velocity is asked for as 0, so that what is at rest
@@ -113,16 +114,21 @@ void IslandGroup::mark_jointed(const World& world) {
 bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
                            const std::vector<BodyPair>& pairs) {
     const std::uint32_t n = island.last_body - island.first_body;
-    if (n < 2 || n > world.settings.exact_islands) return false;
+    if (n < 2) return false;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
         if (jointed_[found_.bodies()[i]]) return false;
-    return !is_deep(world, island, pairs) && (n <= kVerySmall || is_calm(world, island, pairs));
+    upset_.clear();
+    if (n <= world.settings.exact_islands) {
+        find_upset(world, island, pairs);
+        if (upset_.empty() && (n <= kVerySmall || is_calm(world, island, pairs))) return true;
+    }
+    mark_what_goes_on(world, island, pairs);
+    return false;
 }
 
-bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
-                          const std::vector<BodyPair>& pairs) {
+void IslandGroup::find_upset(const World& world, const ContactIsland& island,
+                             const std::vector<BodyPair>& pairs) {
     const Bodies& b = world.bodies;
-    upset_.clear();
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         const Contact& first = world.contacts.found[pair.first];
@@ -138,15 +144,25 @@ bool IslandGroup::is_deep(const World& world, const ContactIsland& island,
         }
         if (upset) upset_.push_back(pair);
     }
-    if (upset_.empty()) return false;
+}
+
+void IslandGroup::mark_what_goes_on(const World& world, const ContactIsland& island,
+                                    const std::vector<BodyPair>& pairs) {
     // what others squeeze is jammed as a whole
-    if (world.kinematic_count > 0) return true;
+    if (!upset_.empty() && world.kinematic_count > 0) return;
+    const std::vector<ContactMemory>& memory = world.contacts.memory;
+    const auto was_exact = [&](std::uint32_t at) {
+        const auto first = memory.begin() + pairs[at].first;
+        return std::any_of(first, first + pairs[at].count,
+                           [](const ContactMemory& m) { return m.matched && m.exact; });
+    };
+    const auto first = found_.pairs().begin();
+    if (std::none_of(first + island.first_pair, first + island.last_pair, was_exact)) return;
     const double bears =
         weight_of(world, island, pairs) * world.settings.dt / world.settings.substeps;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
         mark(world, pairs[found_.pairs()[i]], bears);
     for (const BodyPair& pair : upset_) mark(world, pair, 0);
-    return true;
 }
 
 double IslandGroup::weight_of(const World& world, const ContactIsland& island,
@@ -173,11 +189,12 @@ void IslandGroup::mark(const World& world, const BodyPair& pair, double bears) {
 bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const {
     const Bodies& b = world.bodies;
-    double fastest = 0, radius = 0, pull = 0;
+    double squares = 0, contacts = 0, radius = 0, pull = 0;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
-            fastest = std::max(fastest, relative_velocity(world, k).norm());
+            squares += relative_velocity(world, k).squaredNorm();
+        contacts += pair.count;
         const Contact& c = world.contacts.found[pair.first];
         for (const std::uint32_t body : {c.a, c.b}) {
             if (b.motion[body] != Motion::dynamic) continue;
@@ -187,7 +204,7 @@ bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
     }
     // what rests has been pulled on for a substep already
     const double h = world.settings.dt / world.settings.substeps;
-    return fastest <= kCalm * std::sqrt(pull * radius) + 2 * pull * h;
+    return std::sqrt(squares / contacts) <= kCalm * std::sqrt(pull * radius) + 2 * pull * h;
 }
 
 void IslandGroup::take(const World& world, const ContactIsland& island,

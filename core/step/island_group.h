@@ -26,9 +26,10 @@ public:
     void load(const World& world, std::vector<BodyPair>& pairs);
 
     /// Whether a contact that was solved exactly goes on from its impulses in the sweeps: where its
-    /// island is left to them because some of it is jammed or too deep, neither of its bodies
-    /// touches that, it is at rest, and it bears no more than the island weighs. What is jammed or
-    /// was hit may hold each other by more than sweeps can take back.
+    /// island is left to them because it has grown, or some of it moves, is jammed or too deep,
+    /// neither of its bodies touches what is jammed or too deep, it is at rest, and it bears no
+    /// more than the island weighs. What is jammed or was hit may hold each other by more than
+    /// sweeps can take back.
     bool goes_on(const World& world, std::uint32_t contact) const;
 
     /// Once a substep of length h [s]: velocities, forces included, and what is asked of them.
@@ -53,8 +54,10 @@ private:
     };
     bool is_exact(const World& world, const ContactIsland& island,
                   const std::vector<BodyPair>& pairs);
-    bool is_deep(const World& world, const ContactIsland& island,
-                 const std::vector<BodyPair>& pairs);
+    void find_upset(const World& world, const ContactIsland& island,
+                    const std::vector<BodyPair>& pairs);
+    void mark_what_goes_on(const World& world, const ContactIsland& island,
+                           const std::vector<BodyPair>& pairs);
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
     void mark_jointed(const World& world);

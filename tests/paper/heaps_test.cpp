@@ -4,6 +4,8 @@
 /// PLUMB_TEST_COLLIDERS names. Each must meet the figures of the pile, and lie as high as on the
 /// others where the bodies are so many that chance does not tell. Sampled each 0.1 s of the last
 /// 2 s, over the bodies within 8 m of the axis (without rolling friction some balls roll away).
+/// How a heap falls hangs on its last digit: where single falls differ by much, the median of
+/// several counts, each begun up to 0.05 mm aside.
 #include "reader/reader.h"
 #include "support/scenes.h"
 
@@ -12,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <random>
 #include <sstream>
 
 namespace plumb::test {
@@ -62,9 +65,20 @@ void measure_end(const World& world, Rest& rest) {
     rest.mean_height /= static_cast<double>(near);
 }
 
-Rest fall(const std::filesystem::path& file, const std::string& collider) {
+/// Moves what can fall by up to 0.05 mm along each axis.
+void shake(Scene& scene, unsigned seed) {
+    std::mt19937 random(seed);
+    for (BodySpec& body : scene.bodies)
+        if (body.motion == Motion::dynamic)
+            for (double& x : body.placement.position)
+                x += 1e-4 * (static_cast<double>(random()) / 0x1p32 - 0.5);
+}
+
+/// One fall of the scene; of `start` 0 as it stands in the file.
+Rest fall(const std::filesystem::path& file, const std::string& collider, unsigned start) {
     Rest rest;
-    const Scene scene = read_scene(file);
+    Scene scene = read_scene(file);
+    if (start > 0) shake(scene, start);
     Simulation simulation(scene, colliders(), collider);
     for (int i = 1; i <= 1000; ++i) {
         EXPECT_TRUE(simulation.step().finite);
@@ -77,6 +91,25 @@ Rest fall(const std::filesystem::path& file, const std::string& collider) {
               << rest.p99_depth * 1e3 << ", largest " << rest.deepest * 1e3 << " mm; "
               << rest.contacts << " contacts, " << rest.away << " rolled away, mean height "
               << rest.mean_height << " m\n";
+    return rest;
+}
+
+/// Of each figure the median of all falls; of those that count what went wrong, the greatest.
+Rest typical(const std::vector<Rest>& falls) {
+    const auto median = [&](auto figure) {
+        std::vector<Rest> sorted = falls;
+        const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+        std::ranges::nth_element(sorted, middle, {}, figure);
+        return (*middle).*figure;
+    };
+    Rest rest;
+    for (const auto figure : {&Rest::median_speed, &Rest::p90_speed, &Rest::mean_depth,
+                              &Rest::p99_depth, &Rest::deepest, &Rest::mean_height})
+        rest.*figure = median(figure);
+    rest.bodies = falls[0].bodies;
+    rest.contacts = median(&Rest::contacts);
+    rest.away = median(&Rest::away);
+    for (const Rest& one : falls) rest.fallen = std::max(rest.fallen, one.fallen);
     return rest;
 }
 
@@ -93,6 +126,7 @@ struct Heap {
     bool is_large;  ///< so many bodies that a start a millimetre aside hardly changes the height
     double bottom;  ///< what heights are measured from: the ground, or where valleys end [m]
     double median_speed = 1e-3, mean_depth = 0.2e-3;  ///< at most [m/s], [m]
+    unsigned falls = 1;
 
     std::filesystem::path file() const {
         return std::filesystem::path(PLUMB_TEST_ROOT) / folder / (name + ".json");
@@ -104,10 +138,10 @@ const std::string kSamples = "samples/scenes", kOwn = "tests/paper/scenes";
 
 class Heaps : public testing::TestWithParam<Heap> {};
 INSTANTIATE_TEST_SUITE_P(, Heaps,
-                         testing::Values(Heap{"pile", kSamples, true, 0, 0.4e-3, 6e-6},
+                         testing::Values(Heap{"pile", kSamples, true, 0, 0.4e-3, 6e-6, 3},
                                          Heap{"tori", kSamples, false, 0},
                                          Heap{"many_tori", kOwn, true, 0},
-                                         Heap{"hulls", kSamples, true, 0},
+                                         Heap{"hulls", kSamples, true, 0, 1e-3, 0.2e-3, 5},
                                          Heap{"terrain", kSamples, true, -1.2},
                                          Heap{"heightfield", kSamples, true, -1.2}),
                          [](const auto& which) { return which.param.name; });
@@ -127,7 +161,9 @@ TEST_P(Heaps, ComeToRestOnEveryColliderAndAsHigh) {
     double first = 0;  // height [m]
     for (const std::string& collider : wanted_colliders()) {
         SCOPED_TRACE(collider);
-        const Rest rest = fall(heap.file(), collider);
+        std::vector<Rest> falls;
+        for (unsigned i = 0; i < heap.falls; ++i) falls.push_back(fall(heap.file(), collider, i));
+        const Rest rest = typical(falls);
         expect_rest(rest, heap);
         const double height = rest.mean_height - heap.bottom;
         if (first == 0) first = height;
