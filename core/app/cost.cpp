@@ -12,6 +12,7 @@
 #include "study/cases.h"
 #include "study/findings.h"
 #include "study/journal.h"
+#include "study/self_reference.h"
 #include "study/sweep.h"
 
 #include <algorithm>
@@ -24,9 +25,6 @@
 
 namespace plumb::app {
 namespace {
-
-/// Of the budget, what the references of a scene without a formula may take.
-constexpr double kForReferences = 0.25;
 
 struct Options {
     std::vector<std::string> subjects, colliders, curves, merge;
@@ -88,22 +86,31 @@ std::vector<study::Subject> subjects_of(const Options& o, const ColliderLibrary&
                 throw UsageError(name + ": another one is called \"" + called +
                                  "\", too; rename a file");
         const study::SubjectSummary* known = before ? before->find(called) : nullptr;
-        subjects.push_back(subject_named(name, colliders,
-                                         o.colliders.empty() ? "auto" : o.colliders.front(),
-                                         seconds / static_cast<double>(names.size()),
-                                         known ? known->reference_substeps : o.reference));
+        try {
+            subjects.push_back(subject_named(name, colliders,
+                                             o.colliders.empty() ? "auto" : o.colliders.front(),
+                                             seconds / static_cast<double>(names.size()),
+                                             known ? known->reference_substeps : o.reference));
+        } catch (const study::NoReference& e) {
+            if (e.reason == study::NoReference::stopped || names.size() == 1) throw;
+            std::fprintf(stderr, "plumb: left out: %s\n", e.what());
+            continue;
+        }
         if (!o.metric.empty()) choose_metric(subjects.back(), o.metric);
     }
+    if (subjects.empty()) throw UsageError("no scene is left to be measured");
     return subjects;
 }
 
-/// What a person wants to know, on stdout.
-void print_findings(const study::StudyTable& table) {
-    std::size_t ran = 0, failed = 0, left = 0;
-    for (const study::Row& r : table.rows) {
-        ran += r.status == study::Status::done;
-        failed += r.status == study::Status::diverged || r.status == study::Status::refused;
-        left += r.status == study::Status::not_run;
+/// What a person wants to know, on stdout. Points of other parts are not missed.
+void print_findings(const study::StudyTable& table, const Shard& shard) {
+    std::size_t ran = 0, failed = 0, left = 0, of_others = 0;
+    for (std::size_t i = 0; i < table.rows.size(); ++i) {
+        const study::Status status = table.rows[i].status;
+        ran += status == study::Status::done;
+        failed += status == study::Status::diverged || status == study::Status::refused;
+        if (status == study::Status::not_run)
+            ++(i % shard.of == shard.number - 1 ? left : of_others);
     }
     for (const study::SubjectSummary& s : table.subjects) {
         std::printf("%s: %s\n", s.name.c_str(), s.title.c_str());
@@ -111,13 +118,15 @@ void print_findings(const study::StudyTable& table) {
         for (const std::string& sentence : sentences) std::printf("  %s\n", sentence.c_str());
         if (sentences.empty()) std::printf("  no settings gave a result\n");
     }
-    std::printf("%zu points ran, %zu failed, %zu were not run\n", ran, failed, left);
+    std::printf("%zu points ran, %zu failed, %zu were not run", ran, failed, left);
+    if (of_others > 0) std::printf("; %zu are for other parts", of_others);
+    std::printf("\n");
 }
 
 /// Writes what came of it, and tells it.
-int finish(const Options& o, const study::StudyTable& table) {
+int finish(const Options& o, const study::StudyTable& table, const Shard& shard) {
     const std::vector<std::string> remarks = write_study(table, o.out);
-    print_findings(table);
+    print_findings(table, shard);
     for (const std::string& remark : remarks) std::fprintf(stderr, "plumb: %s\n", remark.c_str());
     if (interrupted()) return kInterrupted;
     const study::Row* refused = nullptr;
@@ -170,14 +179,14 @@ int measure(const Options& o) {
         progress.show_runs(p.done, p.all, p.next->point.subject + ": " + p.next->point.curve);
     };
     study::sweep(table, subjects, colliders, options);
-    return finish(o, table);
+    return finish(o, table, shard);
 }
 
 int cost(const Options& o) {
     if (o.list) return list_cases();
     check(o);
     if (o.merge.empty()) return measure(o);
-    return finish(o, study::merged(o.merge));
+    return finish(o, study::merged(o.merge), {});
 }
 
 }  // namespace
@@ -208,14 +217,18 @@ Verb add_cost(CLI::App& command) {
         ->type_name("N");
     command.add_option("--shard", o->shard, "run only the I-th of N parts of the plan")
         ->type_name("I/N");
-    command.add_option("--merge", o->merge, "make one report of the folders of several parts")
-        ->type_name("DIR");
+    CLI::Option* merge =
+        command.add_option("--merge", o->merge, "make one report of the folders of several parts")
+            ->type_name("DIR");
     command
         .add_option("--reference", o->reference,
                     "substeps of a scene's reference to one of its steps; as many as a quarter of "
                     "the budget allows unless told. Parts on several machines need the same")
         ->check(CLI::Range(8u, 1u << 20))
         ->type_name("N");
+    for (const char* of_a_sweep :
+         {"--budget", "--metric", "--colliders", "--curves", "--repeats", "--shard", "--reference"})
+        merge->excludes(command.get_option(of_a_sweep));
     command.add_flag("--list", o->list, "name the cases");
     command.add_flag("--quiet", o->quiet, "no progress bar");
     add_plugin_path_option(command, o->plugin_path);

@@ -15,6 +15,9 @@
 
 namespace plumb::app {
 
+/// Of a budget, what the references of scenes without a formula may take.
+inline constexpr double kForReferences = 0.25;
+
 /// "90", "90s", "5m", "1h" as seconds. Throws UsageError, naming the option, for anything else.
 double seconds_of(std::string_view text, const std::string& option);
 

@@ -15,7 +15,7 @@ namespace plumb::app {
 namespace {
 
 struct Options {
-    std::string subject, collider = "auto", metric, budget = "1m", plugin_path;
+    std::string subject, collider = "auto", metric, budget = "4m", plugin_path;
     double error = 0, time = 0;
     bool quiet = false;
 };
@@ -66,6 +66,8 @@ void print_trials(const study::Subject& subject, const study::TuneResult& result
 /// Says why there are no such settings, and returns the exit code.
 int not_reached(const Options& o, const study::Subject& subject, const study::TuneResult& result) {
     if (interrupted()) return kInterrupted;
+    const std::string over =
+        result.ran_out ? "the budget of " + o.budget + " was over before all was tried; " : "";
     const study::Trial *exact = nullptr, *cheap = nullptr, *failed = nullptr;
     for (const study::Trial& t : result.trials) {
         if (!t.is_done()) {
@@ -76,6 +78,10 @@ int not_reached(const Options& o, const study::Subject& subject, const study::Tu
         if (!cheap || t.outcome.cost.total < cheap->outcome.cost.total) cheap = &t;
     }
     const char* unit = subject.metrics.front().unit.c_str();
+    if (!exact && result.ran_out) {
+        std::fprintf(stderr, "plumb: %sno run ended\n", over.c_str());
+        return kUsage;
+    }
     if (!exact) {
         const bool refused = failed && failed->outcome.status == study::Status::refused;
         std::fprintf(stderr, "plumb: %s %s at all settings that were tried: %s\n",
@@ -84,14 +90,15 @@ int not_reached(const Options& o, const study::Subject& subject, const study::Tu
         return refused ? kColliderUnable : kDiverged;
     }
     if (o.time > 0)
-        std::fprintf(stderr,
-                     "plumb: no settings were found within %g µs a simulated second that reach it; "
-                     "the cheapest took %.0f µs, the most exact left %.3g %s\n",
-                     o.time, cheap->outcome.cost.total, exact->error(), unit);
+        std::fprintf(
+            stderr,
+            "plumb: %sno settings were found within %g µs a simulated second that reach it; "
+            "the cheapest took %.0f µs, the most exact left %.3g %s\n",
+            over.c_str(), o.time, cheap->outcome.cost.total, exact->error(), unit);
     else
         std::fprintf(stderr,
-                     "plumb: no settings were found that reach it; the least error was %.3g %s\n",
-                     exact->error(), unit);
+                     "plumb: %sno settings were found that reach it; the least error was %.3g %s\n",
+                     over.c_str(), exact->error(), unit);
     return kUsage;
 }
 
@@ -100,7 +107,8 @@ int tune(const Options& o) {
     const double seconds = seconds_of(o.budget, "--budget");
     const ColliderLibrary colliders(o.plugin_path);
     catch_interrupts();
-    study::Subject subject = subject_named(o.subject, colliders, o.collider, seconds);
+    study::Subject subject =
+        subject_named(o.subject, colliders, o.collider, kForReferences * seconds);
     if (!o.metric.empty()) choose_metric(subject, o.metric);
     check_reach(o, subject);
 
@@ -108,6 +116,7 @@ int tune(const Options& o) {
     options.error = o.error;
     if (o.time > 0) options.time = o.time;
     options.collider = o.collider;
+    options.seconds = (1 - kForReferences) * seconds;
     options.stop = interrupted;
     study::TuneResult result;
     {
@@ -155,7 +164,8 @@ Verb add_tune(CLI::App& command) {
         ->type_name("NAME");
     command
         .add_option("--budget", o->budget,
-                    "time that the references of a scene may take; 1m unless told")
+                    "time for all runs, of which the references of a scene may take a quarter; "
+                    "4m unless told")
         ->type_name("TIME");
     command.add_flag("--quiet", o->quiet, "no progress bar, no table of runs");
     add_plugin_path_option(command, o->plugin_path);

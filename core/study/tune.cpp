@@ -6,6 +6,7 @@
 #include "world/world.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 namespace plumb::study {
@@ -61,7 +62,15 @@ private:
     static constexpr std::uint32_t kMostSubsteps = 2048;
 
     /// Runs that may be made before the one that verifies.
-    bool may_run() const { return result_.trials.size() + 1 < options_.most_runs; }
+    bool may_run() {
+        result_.ran_out |= is_late();
+        return !result_.ran_out && result_.trials.size() + 1 < options_.most_runs;
+    }
+
+    bool is_late() const {
+        const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+        return spent.count() > options_.seconds;
+    }
 
     Point point_of(const Choice& c) const {
         Point p{.subject = subject_.name,
@@ -92,8 +101,8 @@ private:
             options_.progress(static_cast<std::uint32_t>(result_.trials.size()) + 1,
                               options_.most_runs, point);
         choices_.push_back(c);
-        result_.trials.push_back(
-            {point, run_point(subject_, point, colliders_, true, options_.stop)});
+        const Stop stop = [this] { return (options_.stop && options_.stop()) || is_late(); };
+        result_.trials.push_back({point, run_point(subject_, point, colliders_, true, stop)});
         return &result_.trials.back();
     }
 
@@ -201,6 +210,7 @@ private:
     std::string collider_;
     std::vector<Choice> choices_;  ///< [trial]
     TuneResult result_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
 }  // namespace

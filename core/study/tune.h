@@ -24,6 +24,7 @@ struct TuneOptions {
     double time = std::numeric_limits<double>::infinity();  ///< CPU allowed [µs/s]
     std::string collider = "auto";
     std::uint32_t most_runs = 15;
+    double seconds = std::numeric_limits<double>::infinity();  ///< for all runs but the last [s]
     Stop stop;
     std::function<void(std::uint32_t run, std::uint32_t most, const Point&)> progress;
 };
@@ -42,6 +43,7 @@ struct Trial {
 struct TuneResult {
     std::optional<Trial> best;  ///< with the outcome of the run that verified it; none: not reached
     std::vector<Trial> trials;  ///< in the order in which they were made
+    bool ran_out = false;       ///< whether TuneOptions::seconds were over before all was tried
 };
 
 TuneResult tune(const Subject& subject, const ColliderLibrary& colliders,

@@ -44,6 +44,9 @@ for i in 1 2 3 4; do "${sweep[@]}" --out "$work/part$i" --shard $i/4 >/dev/null 
 "$plumb" cost --merge "$work/part1" "$work/part2" "$work/part3" "$work/part4" --out "$work/merged" >/dev/null 2>&1 ||
   fail "parts cannot be merged"
 [ "$(table "$work/whole")" = "$(table "$work/merged")" ] || fail "four parts make another table"
+"${sweep[@]}" --out "$work/part5" --shard 1/4 2>&1 | grep -q ", 0 were not run; .* are for other parts" ||
+  fail "a part misses the points of others"
+expect 2 "--curves excludes --merge" "$plumb" cost --merge "$work/part1" --out "$work/x" --curves pbd
 
 expect 2 "--out is required" "$plumb" cost pendulum
 expect 2 'did you mean "pendulum"' "$plumb" cost pendulm --out "$work/x"
@@ -62,9 +65,13 @@ expect 4 "odd" "$plumb" cost stack --colliders odd --out "$work/x"
 "$plumb" tune pendulum --error 0.002 --quiet >"$work/settings" 2>"$work/err" || fail "tune: $(cat "$work/err")"
 (printf '{'; cat "$work/settings"; printf ', "bodies": []}') >"$work/pasted.json"
 "$plumb" check "$work/pasted.json" >/dev/null 2>&1 || fail "tuned settings cannot be pasted: $(cat "$work/settings")"
+"$plumb" cost pendulum "$scenes/pile.json" --curves pbd --repeats 1 --budget 8s --quiet --out "$work/rest" >/dev/null 2>"$work/err" ||
+  fail "one scene ends a sweep: $(cat "$work/err")"
+grep -q "left out: .*pile.* takes longer" "$work/err" || fail "what was left out: $(cat "$work/err")"
+expect 2 "was over before all was tried" "$plumb" tune stack --error 1e-300 --budget 0.05s --quiet
 expect 2 "--error or --time is required" "$plumb" tune pendulum
 expect 2 "the least error was" "$plumb" tune pendulum --error 1e-300 --quiet
-expect 2 "ask for at least" "$plumb" tune "$scenes/bounce.json" --error 1e-30 --budget 2s --quiet
+expect 2 "ask for at least" "$plumb" tune "$scenes/bounce.json" --error 1e-30 --budget 8s --quiet
 expect 3 "absent.json" "$plumb" tune "$work/absent.json" --error 1
 
 [ $failures = 0 ]

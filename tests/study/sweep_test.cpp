@@ -173,5 +173,15 @@ TEST(Tune, SaysWhereItDoesNotGetThere) {
     EXPECT_FALSE(tune(find_case("pendulum")->make(), colliders(), options).best);
 }
 
+TEST(Tune, EndsWhenItsTimeIsOver) {
+    TuneOptions options;
+    options.error = 1e-300;
+    options.seconds = 0;
+    const TuneResult result = tune(find_case("pendulum")->make(), colliders(), options);
+    EXPECT_FALSE(result.best);
+    EXPECT_TRUE(result.ran_out);
+    EXPECT_TRUE(result.trials.empty());
+}
+
 }  // namespace
 }  // namespace plumb::test
