@@ -4,8 +4,8 @@
 #include "app/interrupt.h"
 #include "app/statistics.h"
 #include "measure/measure.h"
+#include "study/trajectory.h"
 
-#include <algorithm>
 #include <exception>
 #include <memory>
 
@@ -30,15 +30,6 @@ private:
     bool finite_ = true;
 };
 
-double largest_distance(const Bodies& p, const Bodies& q) {
-    double largest = 0;
-    for (std::size_t i = 0; i < p.size(); ++i)
-        largest = std::max(largest, (p.position[i] - q.position[i]).norm());
-    return largest;
-}
-
-double energy_of(const World& world) { return kinetic_energy(world) + potential_energy(world); }
-
 std::string divergence(const Trial& with, const Trial& without) {
     if (!with.finite())
         return "the run itself is no longer finite after step " + std::to_string(with.steps());
@@ -59,8 +50,9 @@ void run_pair(AblatedEffect& result, std::vector<double>& with_ms, std::vector<d
         result.trouble = divergence(with, without);
         return;
     }
-    result.error = largest_distance(with.world().bodies, without.world().bodies);
-    result.energy_change = energy_of(without.world()) - energy_of(with.world());
+    const study::Moment a = study::moment_of(with.world()), b = study::moment_of(without.world());
+    result.error = largest_distance(a, b);
+    result.energy_change = b.energy - a.energy;
 }
 
 AblatedEffect without(const std::string& name, const Scene& scene, const ColliderLibrary& colliders,

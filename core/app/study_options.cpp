@@ -4,6 +4,7 @@
 #include "app/interrupt.h"
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "math/fnv1a.h"
 #include "output/file.h"
 #include "reader/reader.h"
 #include "scene/nearest.h"
@@ -25,12 +26,12 @@ std::vector<std::string> case_names() {
     return names;
 }
 
-/// FNV-1a of a file's bytes, as text.
+/// Hash of a file's bytes, as text.
 std::string fingerprint(const std::string& bytes) {
-    std::uint64_t hash = 14695981039346656037ull;
-    for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
+    Fnv1a hash;
+    hash.add(bytes.data(), bytes.size());
     char text[20];
-    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash));
+    std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(hash.value()));
     return text;
 }
 

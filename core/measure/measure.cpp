@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "measure/measure.h"
 
+#include "math/fnv1a.h"
 #include "step/joint_state.h"
 #include "world/body_momentum.h"
 
 #include <algorithm>
-#include <cstring>
 
 namespace plumb {
 namespace {
@@ -94,16 +94,9 @@ std::vector<double> joint_turn_errors(const World& world) {
 }
 
 std::uint64_t state_hash(const World& world) {
-    std::uint64_t hash = 1469598103934665603ull;
-    auto add = [&](const double* values, int count) {
-        for (int k = 0; k < count; ++k) {
-            std::uint64_t bits;
-            std::memcpy(&bits, values + k, sizeof bits);
-            for (int byte = 0; byte < 8; ++byte) {
-                hash ^= (bits >> (8 * byte)) & 0xff;
-                hash *= 1099511628211ull;
-            }
-        }
+    Fnv1a hash;
+    const auto add = [&](const double* values, std::size_t count) {
+        hash.add(values, count * sizeof *values);
     };
     const Bodies& b = world.bodies;
     for (std::size_t i = 0; i < b.size(); ++i) {
@@ -113,7 +106,7 @@ std::uint64_t state_hash(const World& world) {
         add(b.velocity[i].data(), 3);
         add(b.angular_velocity[i].data(), 3);
     }
-    return hash;
+    return hash.value();
 }
 
 void capture(const World& world, Frame& frame) {
