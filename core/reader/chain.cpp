@@ -2,6 +2,7 @@
 /// Entries {"chain": …}: capsules from one point to another, joined by balls.
 #include "reader/drafts.h"
 #include "reader/frames.h"
+#include "scene/build.h"
 
 namespace plumb::reader {
 
@@ -49,14 +50,9 @@ const Table<ChainDraft>& entry_table() {
 
 /// One capsule along y for all links, which touches both of its joints.
 std::uint32_t add_link_shape(const ChainDraft& chain, double length) {
-    Geometry capsule;
-    capsule.name = chain.name;
-    capsule.kind = ShapeKind::capsule;
-    capsule.radius = chain.radius;
-    capsule.half_height = length / 2 - chain.radius;
-    auto& geometries = chain.scene->scene.geometries;
-    geometries.push_back(capsule);
-    return static_cast<std::uint32_t>(geometries.size() - 1);
+    Geometry link = capsule(chain.radius, length / 2 - chain.radius);
+    link.name = chain.name;
+    return add_geometry(chain.scene->scene, std::move(link));
 }
 
 JointSpec ball(std::string name, std::uint32_t a, std::uint32_t b, const Eigen::Vector3d& anchor) {

@@ -9,6 +9,7 @@
 
 #include "reader/drafts.h"
 #include "reader/random.h"
+#include "scene/build.h"
 
 namespace plumb::reader {
 
@@ -64,11 +65,9 @@ std::vector<double> add_rods(Scene& scene, const MobileDraft& mobile) {
     for (std::size_t level = mobile.levels - 1; level > 0; --level)
         halves[level - 1] = halves[level] * kGrowth;
     for (const double half : halves) {
-        Geometry box;
-        box.name = mobile.name;
-        box.kind = ShapeKind::box;
-        box.half_extents = {half, kHalfWidth, kHalfWidth};
-        scene.geometries.push_back(box);
+        Geometry rod = box(half, kHalfWidth, kHalfWidth);
+        rod.name = mobile.name;
+        add_geometry(scene, std::move(rod));
     }
     return halves;
 }

@@ -12,6 +12,7 @@
 #include "reader/urdf_loads.h"
 #include "reader/urdf_shapes.h"
 #include "reader/urdf_tree.h"
+#include "scene/build.h"
 
 namespace plumb {
 
@@ -237,18 +238,6 @@ double lowest_of_all(const Scene& scene) {
     return y;
 }
 
-void add_ground(Scene& scene) {
-    BodySpec ground;
-    ground.name = "ground";
-    ground.motion = Motion::fixed;
-    ground.geometry = static_cast<std::uint32_t>(scene.geometries.size());
-    Geometry plane;
-    plane.kind = ShapeKind::plane;
-    plane.name = ground.name;
-    scene.geometries.push_back(std::move(plane));
-    scene.bodies.push_back(std::move(ground));
-}
-
 }  // namespace
 }  // namespace reader
 
@@ -265,7 +254,8 @@ Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options) {
     scene.name = add_robot(scene, file, options).name;
     const double lowest = reader::lowest_of_all(scene);
     if (std::isfinite(lowest)) reader::lift(scene, options.placement.position.y() - lowest);
-    reader::add_ground(scene);
+    BodySpec& ground = add_ground(scene);
+    ground.name = scene.geometries.back().name = "ground";
     scene.settings.dt = 0.005, scene.settings.substeps = 10;
     return scene;
 }

@@ -13,6 +13,7 @@
 #include "reader/obj.h"
 #include "reader/polyhedra.h"
 #include "reader/stl.h"
+#include "scene/build.h"
 
 namespace plumb::reader {
 
@@ -36,27 +37,19 @@ double size(double value, const char* what) {
     return value;
 }
 
-Geometry box(const urdf::Box& b) {
-    Geometry g;
-    g.kind = ShapeKind::box;
-    for (int i = 0; i < 3; ++i)
-        g.half_extents[i] = size(to_eigen(b.dim)[i] / 2, "half the size of a box");
-    return g;
+Geometry shape_of(const urdf::Box& b) {
+    Eigen::Vector3d half;
+    for (int i = 0; i < 3; ++i) half[i] = size(to_eigen(b.dim)[i] / 2, "half the size of a box");
+    return box(half);
 }
 
-Geometry sphere(const urdf::Sphere& s) {
-    Geometry g;
-    g.kind = ShapeKind::sphere;
-    g.radius = size(s.radius, "the radius of a sphere");
-    return g;
+Geometry shape_of(const urdf::Sphere& s) {
+    return sphere(size(s.radius, "the radius of a sphere"));
 }
 
-Geometry cylinder(const urdf::Cylinder& c) {
-    Geometry g;
-    g.kind = ShapeKind::cylinder;
-    g.radius = size(c.radius, "the radius of a cylinder");
-    g.half_height = size(c.length / 2, "half the length of a cylinder");
-    return g;
+Geometry shape_of(const urdf::Cylinder& c) {
+    const double radius = size(c.radius, "the radius of a cylinder");
+    return cylinder(radius, size(c.length / 2, "half the length of a cylinder"));
 }
 
 bool is_file(const fs::path& path) {
@@ -142,13 +135,13 @@ GeometryPart part(const urdf::Collision& collision, bool moves, const CollisionO
     const urdf::Geometry& g = *collision.geometry;
     switch (g.type) {
         case urdf::Geometry::BOX:
-            part.geometry = box(static_cast<const urdf::Box&>(g));
+            part.geometry = shape_of(static_cast<const urdf::Box&>(g));
             break;
         case urdf::Geometry::SPHERE:
-            part.geometry = sphere(static_cast<const urdf::Sphere&>(g));
+            part.geometry = shape_of(static_cast<const urdf::Sphere&>(g));
             break;
         case urdf::Geometry::CYLINDER:
-            part.geometry = cylinder(static_cast<const urdf::Cylinder&>(g));
+            part.geometry = shape_of(static_cast<const urdf::Cylinder&>(g));
             part.local.rotation = part.local.rotation * y_to_z();
             break;
         case urdf::Geometry::MESH:

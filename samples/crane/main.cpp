@@ -6,6 +6,7 @@
 /// is hauled in. What the hook bears and how the load flies is held against formulas; the exit code
 /// tells whether they agree.
 #include "host/simulation.h"
+#include "scene/build.h"
 
 #include <cmath>
 #include <cstdio>
@@ -52,19 +53,14 @@ bool agree(const char* what, double is, double should_be, double tolerance) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-    plumb::Geometry ground, link, box;
-    ground.kind = plumb::ShapeKind::plane;
-    link.kind = plumb::ShapeKind::capsule;
-    link.radius = 0.05, link.half_height = kHalfLink - 0.05;
-    box.kind = plumb::ShapeKind::box;
-    box.half_extents = {0.3, 0.3, 0.3};
     plumb::Scene scene;
-    scene.geometries = {ground, link, box};
-    plumb::BodySpec floor, trolley;
-    floor.motion = plumb::Motion::fixed, floor.geometry = 0;
+    plumb::add_ground(scene);
+    plumb::BodySpec trolley;
     trolley.motion = plumb::Motion::kinematic;
     trolley.placement.position = {0, 8, 0};
-    scene.bodies = {floor, trolley};
+    scene.bodies.push_back(trolley);
+    const std::uint32_t link = add_geometry(scene, plumb::capsule(0.05, kHalfLink - 0.05));
+    const std::uint32_t box = add_geometry(scene, plumb::box(0.3, 0.3, 0.3));
 
     const plumb::ColliderLibrary colliders(PLUGIN_DIRECTORY);
     plumb::Simulation simulation(scene, colliders, argc > 1 ? argv[1] : "ode");
@@ -73,11 +69,11 @@ int main(int argc, char** argv) try {
     Vector end = trolley.placement.position;
     std::uint32_t last = 1;  // the trolley
     for (int i = 0; i < 8; ++i, end.y() -= 2 * kHalfLink) {
-        chain.push_back(hang(simulation, 1, kLinkMass, kHalfLink, last, end));
+        chain.push_back(hang(simulation, link, kLinkMass, kHalfLink, last, end));
         last = chain.back().body;
         run(simulation, 0.2);
     }
-    const Hung load = hang(simulation, 2, kLoadMass, 0.3, last, end);
+    const Hung load = hang(simulation, box, kLoadMass, 0.3, last, end);
     run(simulation, 2);
     bool good = agree("the hook bears [N]", simulation.joint_load(chain[0].joint).force.y(),
                       (8 * kLinkMass + kLoadMass) * kG, 0.1);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "effects/meetings.h"
+#include "scene/build.h"
 
 #include <gtest/gtest.h>
 
@@ -8,10 +9,7 @@ namespace {
 
 Scene scene_of(const std::vector<BodySpec>& bodies) {
     Scene scene;
-    Geometry ball;
-    ball.kind = ShapeKind::sphere;
-    ball.radius = 0.5;
-    scene.geometries.push_back(ball);
+    add_geometry(scene, sphere(0.5));
     scene.bodies = bodies;
     return scene;
 }

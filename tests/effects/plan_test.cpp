@@ -8,13 +8,6 @@ namespace {
 
 bool runs(const Scene& scene, Effect effect) { return make_plan(build_world(scene)).runs(effect); }
 
-Geometry cylinder() {
-    Geometry g;
-    g.kind = ShapeKind::cylinder;
-    g.radius = 0.2, g.half_height = 0.3;
-    return g;
-}
-
 /// A box on the ground, which a cylinder may join.
 Scene box_on_the_ground() {
     Scene s;
@@ -26,7 +19,7 @@ Scene box_on_the_ground() {
 TEST(Plan, RimsRunWhereShapesHaveThem) {
     Scene s = box_on_the_ground();
     EXPECT_FALSE(runs(s, Effect::rims));
-    Geometry part = cylinder(), compound;
+    Geometry part = cylinder(0.2, 0.3), compound;
     compound.kind = ShapeKind::compound;
     compound.parts.push_back({part, {}});
     for (const Geometry& g : {part, compound}) {
@@ -40,7 +33,7 @@ TEST(Plan, RimsRunWhereShapesHaveThem) {
 
 TEST(Plan, RimsLeaveNoTablesOnceTheLastIsGone) {
     Scene s = box_on_the_ground();
-    add_body(s, cylinder(), {1, 0.3, 0});
+    add_body(s, cylinder(0.2, 0.3), {1, 0.3, 0});
     Simulation simulation(s, colliders(), "ode");
     simulation.step();
     const ContactTable& c = simulation.world().contacts;

@@ -12,13 +12,6 @@ namespace {
 constexpr double kRadius = 0.05, kHalf = 0.25;  // of the bodies; of the box inside of its walls [m]
 constexpr std::uint32_t kBodies = 100, kLid = 5, kFirst = 6;
 
-Geometry capsule(double radius, double half_height) {
-    Geometry g;
-    g.kind = ShapeKind::capsule;
-    g.radius = radius, g.half_height = half_height;
-    return g;
-}
-
 /// Four walls, a lid high above, and a hundred bodies in layers.
 Scene boxed_heap(Scene s, const Geometry& shape) {
     s.materials[0].rolling_friction = 0.005;

@@ -55,10 +55,7 @@ struct FreeHeap {
     static Geometry shape(int kind) {
         if (kind == 0) return sphere(0.2);
         if (kind == 1) return box(0.1, 0.12, 0.16);
-        Geometry capsule;
-        capsule.kind = ShapeKind::capsule;
-        capsule.radius = 0.1, capsule.half_height = 0.1;
-        return capsule;
+        return capsule(0.1, 0.1);
     }
 };
 

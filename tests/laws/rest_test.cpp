@@ -15,11 +15,7 @@ TEST_P(Rest, NothingSinks) {
         add_ground(s);
         add_body(s, box(0.5, 0.5, 0.5), {0, 0.5, 0});
         add_body(s, sphere(0.3), {2, 0.3, 0});
-        Geometry capsule;
-        capsule.kind = ShapeKind::capsule;
-        capsule.radius = 0.2;
-        capsule.half_height = 0.5;
-        add_body(s, capsule, {-2, 0.2, 0}).placement.rotation =
+        add_body(s, capsule(0.2, 0.5), {-2, 0.2, 0}).placement.rotation =
             Rotation(Eigen::AngleAxisd(std::numbers::pi / 2, Vector::UnitX()));
         Simulation simulation(s, colliders(), collider());
         run_for(simulation, 5);

@@ -12,14 +12,6 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180, kGravity = 9.81;
 
-Geometry round_shape(ShapeKind kind, double radius, double half_height) {
-    Geometry g;
-    g.kind = kind;
-    g.radius = radius;
-    g.half_height = half_height;
-    return g;
-}
-
 /// A prism of n sides around y.
 Geometry prism(std::uint32_t n, double radius, double half_height) {
     Geometry g;
@@ -55,7 +47,7 @@ struct Start {
 Start cylinder(const std::string& name, double radius, double half_height, double tilt,
                double about_axis, double about_upright) {
     return {name,
-            round_shape(ShapeKind::cylinder, radius, half_height),
+            round_about_y(ShapeKind::cylinder, radius, half_height),
             radius,
             half_height,
             tilt,

@@ -4,35 +4,13 @@
 #pragma once
 
 #include "measure/frame.h"
-#include "scene/scene.h"
+#include "scene/build.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 namespace plumb::test {
-
-inline Geometry sphere(double radius) {
-    Geometry g;
-    g.kind = ShapeKind::sphere;
-    g.radius = radius;
-    return g;
-}
-
-inline Geometry box(double x, double y, double z) {
-    Geometry g;
-    g.kind = ShapeKind::box;
-    g.half_extents = {x, y, z};
-    return g;
-}
-
-inline Geometry round(ShapeKind kind, double radius, double half_height) {
-    Geometry g;
-    g.kind = kind;
-    g.radius = radius;
-    g.half_height = half_height;
-    return g;
-}
 
 /// An octahedron.
 inline Geometry hull(double r) {
@@ -61,8 +39,7 @@ inline Geometry compound(double r) {
     right.position = {2 * r, 0, 0};
     Placement bar;
     bar.rotation = Eigen::AngleAxisd(std::acos(0.0), Eigen::Vector3d::UnitZ());
-    g.parts = {
-        {sphere(r), left}, {sphere(r), right}, {round(ShapeKind::cylinder, r / 3, 2 * r), bar}};
+    g.parts = {{sphere(r), left}, {sphere(r), right}, {cylinder(r / 3, 2 * r), bar}};
     return g;
 }
 
@@ -82,15 +59,13 @@ inline Scene falling_scene(int count) {
     Scene scene;
     scene.name = "Falling bodies";
     scene.description = "Spheres, boxes and others on their way to the ground";
-    Geometry plane;
-    plane.kind = ShapeKind::plane;
-    scene.geometries = {plane,
+    scene.geometries = {plane(),
                         sphere(0.3),
                         box(0.3, 0.3, 0.3),
                         box(0.45, 0.15, 0.25),
-                        round(ShapeKind::capsule, 0.18, 0.25),
-                        round(ShapeKind::cylinder, 0.25, 0.3),
-                        round(ShapeKind::cone, 0.3, 0.35),
+                        capsule(0.18, 0.25),
+                        cylinder(0.25, 0.3),
+                        cone(0.3, 0.35),
                         hull(0.36),
                         mesh(0.24),
                         compound(0.2),

@@ -61,8 +61,8 @@ TEST(ChosenView, IsTheScenesUnlessItCannotBeDrawn) {
 TEST(BoundingRadius, IsTheFarthestPoint) {
     EXPECT_DOUBLE_EQ(bounding_radius(sphere(2)), 2);
     EXPECT_DOUBLE_EQ(bounding_radius(box(1, 2, 2)), 3);
-    EXPECT_DOUBLE_EQ(bounding_radius(round(ShapeKind::capsule, 1, 2)), 3);
-    EXPECT_DOUBLE_EQ(bounding_radius(round(ShapeKind::cone, 3, 4)), 5);
+    EXPECT_DOUBLE_EQ(bounding_radius(capsule(1, 2)), 3);
+    EXPECT_DOUBLE_EQ(bounding_radius(cone(3, 4)), 5);
     EXPECT_DOUBLE_EQ(bounding_radius(hull(0.5)), 0.5);
     EXPECT_DOUBLE_EQ(bounding_radius(compound(1)), 3);
 }

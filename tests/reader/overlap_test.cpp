@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reader/random.h"
+#include "scene/build.h"
 
 namespace plumb::test {
 
@@ -14,27 +15,6 @@ namespace {
 
 using Eigen::Vector3d;
 using reader::overlap;
-
-Geometry sphere(double radius) {
-    Geometry g;
-    g.kind = ShapeKind::sphere;
-    g.radius = radius;
-    return g;
-}
-
-Geometry box(const Vector3d& half) {
-    Geometry g;
-    g.kind = ShapeKind::box;
-    g.half_extents = half;
-    return g;
-}
-
-Geometry cylinder(double radius, double half_height) {
-    Geometry g;
-    g.kind = ShapeKind::cylinder;
-    g.radius = radius, g.half_height = half_height;
-    return g;
-}
 
 /// Expects shapes to overlap at b's place less 1 mm, and not at the place plus 1 mm, along `away`.
 void expect_touch(const Geometry& a, const Geometry& b, const Vector3d& away, double distance,

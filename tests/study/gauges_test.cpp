@@ -13,8 +13,8 @@ protected:
     Gauges() {
         Scene scene;
         scene.materials[0].friction = 0.5;
-        test::add_ground(scene);
-        test::add_body(scene, test::box(0.5, 0.5, 0.5), {0, 0.5, 0});
+        add_ground(scene);
+        add_body(scene, box(0.5, 0.5, 0.5), {0, 0.5, 0});
         simulation_ = std::make_unique<Simulation>(scene, test::colliders(), "reference");
         world_ = simulation_->world();
         world_.steps = 1;

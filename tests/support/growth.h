@@ -17,13 +17,7 @@ namespace plumb::test {
 inline Scene scene_of(const Structure& structure, const Settings& settings) {
     Scene s;
     s.settings = settings;
-    Geometry plane;
-    plane.kind = ShapeKind::plane;
-    BodySpec ground;
-    ground.motion = Motion::fixed;
-    ground.geometry = 0;
-    s.geometries.push_back(plane);
-    s.bodies.push_back(ground);
+    add_ground(s);
     add_structure(s, structure);
     return s;
 }

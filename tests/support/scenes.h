@@ -4,6 +4,7 @@
 
 #include "host/simulation.h"
 #include "measure/measure.h"
+#include "scene/build.h"
 #include "scene/scene.h"
 
 #include <gtest/gtest.h>
@@ -21,42 +22,6 @@ using Rotation = Eigen::Quaterniond;
 inline const ColliderLibrary& colliders() {
     static const ColliderLibrary library(PLUMB_TEST_PLUGINS);
     return library;
-}
-
-inline std::uint32_t add_geometry(Scene& scene, const Geometry& geometry) {
-    scene.geometries.push_back(geometry);
-    return static_cast<std::uint32_t>(scene.geometries.size()) - 1;
-}
-inline Geometry box(double x, double y, double z) {
-    Geometry g;
-    g.kind = ShapeKind::box;
-    g.half_extents = {x, y, z};
-    return g;
-}
-inline Geometry sphere(double radius) {
-    Geometry g;
-    g.kind = ShapeKind::sphere;
-    g.radius = radius;
-    return g;
-}
-inline Geometry plane() {
-    Geometry g;
-    g.kind = ShapeKind::plane;
-    return g;
-}
-
-/// Adds a body and returns it, to be changed; its index is the scene's last.
-inline BodySpec& add_body(Scene& scene, const Geometry& geometry, const Vector& position,
-                          Motion motion = Motion::dynamic) {
-    BodySpec body;
-    body.motion = motion;
-    body.geometry = add_geometry(scene, geometry);
-    body.placement.position = position;
-    scene.bodies.push_back(body);
-    return scene.bodies.back();
-}
-inline BodySpec& add_ground(Scene& scene) {
-    return add_body(scene, plane(), Vector::Zero(), Motion::fixed);
 }
 
 /// 60 Hz with 20 substeps of one iteration each: the finest that the laws may take.

@@ -2,6 +2,7 @@
 /// Structures of loose boxes that statics says must stand.
 #pragma once
 
+#include "scene/build.h"
 #include "scene/scene.h"
 #include "support/random.h"
 
@@ -107,17 +108,7 @@ inline Structure unevenly(Structure s, double most, unsigned seed) {
 
 /// Adds the structure's blocks behind the scene's bodies.
 inline void add_structure(Scene& scene, const Structure& structure) {
-    for (const Block& b : structure) {
-        Geometry g;
-        g.kind = ShapeKind::box;
-        g.half_extents = b.half;
-        BodySpec body;
-        body.motion = Motion::dynamic;
-        body.geometry = static_cast<std::uint32_t>(scene.geometries.size());
-        scene.geometries.push_back(g);
-        body.placement.position = b.centre;
-        scene.bodies.push_back(body);
-    }
+    for (const Block& b : structure) add_body(scene, box(b.half), b.centre);
 }
 
 }  // namespace plumb::test

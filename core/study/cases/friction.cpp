@@ -17,7 +17,7 @@ const Vector3d kHalf(0.2, 0.1, 0.2);  // of the block [m]
 /// Puts a block of body 1 on ground that climbs by `angle` [rad]; `friction` is that of both.
 BodySpec& add_block(Scene& scene, double angle, double friction) {
     scene.materials[0].friction = friction;
-    add_ground(scene, angle);
+    add_slope(scene, angle);
     BodySpec& block = add_body(scene, box(kHalf), slope_of(angle) * Vector3d(0, kHalf.y(), 0));
     block.placement.rotation = slope_of(angle);
     return block;

@@ -49,7 +49,7 @@ Subject rolling_down() {
     Subject s = begin_subject("rolling_down", "A ball rolls down a slope of 20°",
                               "s = 5/14 g sin θ t², as long as 7 μ > 2 tan θ", 2);
     const double angle = 20 * std::numbers::pi / 180, rate = 5.0 / 7 * kGravity * std::sin(angle);
-    add_ground(s.scene, angle);
+    add_slope(s.scene, angle);
     const Eigen::Quaterniond slope = slope_of(angle);
     add_body(s.scene, sphere(kRadius), slope * Vector3d(0, kRadius, 0));
     const Vector3d down = slope * -Vector3d::UnitX();
