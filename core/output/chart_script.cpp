@@ -133,10 +133,18 @@ std::vector<std::string> log_ticks(const ChartAxis& axis) {
     return high > low ? ticks : std::vector<std::string>{};
 }
 
+/// A label in as many lines as a side of so many pixels calls for.
+std::string wrapped_label(const std::string& label, int side) {
+    std::string text;
+    for (const std::string& line : wrapped(label, static_cast<std::size_t>(side / kLetter)))
+        text += (text.empty() ? "" : ".\"\\n\".") + gnuplot_string(line);
+    return text.empty() ? gnuplot_string("") : text;
+}
+
 std::string axis_lines(const char* name, const ChartAxis& axis, double top,
-                       const std::string& label) {
+                       const std::string& label, int side) {
     const std::string n = name;
-    std::string text = "set " + n + "label " + gnuplot_string(label) + " noenhanced\n";
+    std::string text = "set " + n + "label " + wrapped_label(label, side) + " noenhanced\n";
     text += "set " + n + "range [" + text_of(axis.low) + ":" + text_of(top) + "]\n";
     if (!axis.log) return text;
     text += "set logscale " + n + "\n";
@@ -262,8 +270,8 @@ std::string chart_script(const std::string& name, const Chart& chart, const Char
     text += "set lmargin " + across(kLeft) + "\nset rmargin " + across(kLeft + kPlotWidth) + "\n";
     text += "set tmargin at screen " + sheet.down(sheet.frame) + "\n";
     text += "set bmargin at screen " + sheet.down(sheet.frame + kPlotHeight) + "\n";
-    text += axis_lines("x", stage.x, stage.x.high, chart.x_label);
-    text += axis_lines("y", stage.y, stage.top, chart.y_label);
+    text += axis_lines("x", stage.x, stage.x.high, chart.x_label, kPlotWidth);
+    text += axis_lines("y", stage.y, stage.top, chart.y_label, kPlotHeight);
     text +=
         "set tics out nomirror\nset border 3 lw 1.2 lc rgb '#4a5763'\n"
         "set grid xtics ytics mxtics mytics lt 1 lw 1 lc rgb '#d3d9de', lt 1 lw 0.6 lc rgb "

@@ -58,6 +58,15 @@ TEST_F(ChartFilesTest, WithoutGnuplotNumbersAndScriptAreThereAndASentenceSaysSo)
     EXPECT_THAT(read_file(path("pendulum-cost.dat")), HasSubstr("\n15 0.5\n"));
 }
 
+TEST_F(ChartFilesTest, ALongLabelTakesTwoLines) {
+    Chart chart = falling_lines("");
+    chart.y_label = "largest distance of the lower tip from where it should be at any time [m]";
+    write_chart_files(path(""), "a", chart, "no-such-gnuplot");
+    EXPECT_THAT(read_file(path("a.gp")),
+                HasSubstr("set ylabel 'largest distance of the lower tip from"));
+    EXPECT_THAT(read_file(path("a.gp")), HasSubstr("'.\"\\n\".'"));
+}
+
 TEST_F(ChartFilesTest, AFolderThatIsNotThereIsAnError) {
     EXPECT_THROW(write_chart_files(path("nowhere"), "a", falling_lines("")), OutputError);
 }
