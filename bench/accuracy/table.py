@@ -1,0 +1,134 @@
+# SPDX-License-Identifier: MIT
+"""Compares the fronts of error against CPU time: a table on stdout, and a chart by gnuplot.
+
+    table.py OUT_DIR CASE ...
+
+OUT_DIR holds what accuracy.sh wrote. Each engine is judged by its front, the least CPU time at which
+any of its settings keeps within an error, linear between points in both logarithms.
+"""
+import csv
+import glob
+import math
+import sys
+
+ROUNDING = 1e-16  # errors below count as this
+SAMPLES = 50
+COLOURS = ["#cc3311", "#0077bb", "#33bbee", "#117733", "#88bb55", "#aa4499", "#ddaa33", "#777777"]
+
+
+def rows(path):
+    with open(path, newline="") as file:
+        return list(csv.DictReader(file))
+
+
+def front(points):
+    """Points (error, cost) that no other beats in both, from the cheapest on."""
+    best = []
+    for cost, error in sorted((cost, max(error, ROUNDING)) for error, cost in points):
+        if not best or error < best[-1][0]:
+            best.append((error, cost))
+    return best
+
+
+def cost_at(line, error):
+    """Least cost of an error that the front reaches."""
+    for (e0, c0), (e1, c1) in zip(line, line[1:]):
+        if e1 <= error <= e0:
+            share = math.log(e0 / error) / math.log(e0 / e1)
+            return c0 * (c1 / c0) ** share
+    return line[0][1] if error >= line[0][0] else line[-1][1]
+
+
+def ratio(peer, plumb):
+    """Geometric mean of peer's cost over Plumb's, over the errors that both reach."""
+    least = max(peer[-1][0], plumb[-1][0])
+    most = max(least, min(peer[0][0], plumb[0][0]))
+    errors = [least * (most / least) ** (i / (SAMPLES - 1)) for i in range(SAMPLES)]
+    logs = [math.log(cost_at(peer, e) / cost_at(plumb, e)) for e in errors]
+    return math.exp(sum(logs) / SAMPLES)
+
+
+def read_case(out, case):
+    """The metric that all engines have, the fronts by engine, Plumb first, and who is unable."""
+    metric, unit, points, unable = None, "", {"Plumb": []}, {}
+    for path in sorted(glob.glob(f"{out}/{case}.accuracy_*.csv")):
+        for row in rows(path):
+            if row["status"] == "unable":
+                unable[row["engine"]] = row["note"]
+                continue
+            metric = metric or row["metric"]
+            if row["metric"] != metric:
+                continue
+            unit = row["unit"]
+            engine = points.setdefault(row["engine"], [])
+            if row["status"] == "done":
+                engine.append((float(row["error"]), float(row["cost_us_per_s"])))
+    for row in rows(f"{out}/plumb/{case}/points.csv"):
+        if row["status"] == "done":
+            metric, unit = metric or row["metric"], unit or row["unit"]
+            errors = dict(pair.split("=") for pair in row["others"].split())
+            errors[row["metric"]] = row["error"]
+            points["Plumb"].append((float(errors[metric]), float(row["us_per_s"])))
+    fronts = {engine: front(found) for engine, found in points.items()}
+    for engine in [e for e, line in fronts.items() if not line]:
+        unable[engine] = "no run was good"
+        del fronts[engine]
+    return metric, unit, fronts, unable
+
+
+def write_chart(out, charts, engines):
+    columns = min(4, len(charts))
+    lines = -(-len(charts) // columns)
+    with open(f"{out}/chart.gp", "w") as gp:
+        gp.write(f"set terminal svg size {380 * columns},{300 * lines} font 'sans,11'\n"
+                 f"set output '{out}/accuracy.svg'\n"
+                 f"set multiplot layout {lines},{columns}\n"
+                 "set logscale xy\nset format '10^{%T}'\nset grid lc '#dddddd'\n"
+                 "set key bottom left font ',8' samplen 1\n")
+        for case, (metric, unit, fronts, _) in charts.items():
+            gp.write(f"set title '{case}: {metric}{' [' + unit + ']' if unit else ''}' noenhanced\n"
+                     "set xlabel 'CPU time [µs per simulated s]' font ',9'\n")
+            plots = []
+            for engine, line in fronts.items():
+                block = f"${case}_{engine}".replace(" ", "_")
+                gp.write(f"{block} << EOD\n" + "".join(f"{c} {e}\n" for e, c in line) + "EOD\n")
+                width = 3 if engine == "Plumb" else 1.5
+                colour = COLOURS[engines.index(engine) % len(COLOURS)]
+                plots.append(f"{block} using 1:2 with linespoints lw {width} pt 7 ps 0.3 "
+                             f"lc '{colour}' title '{engine}' noenhanced")
+            gp.write("plot " + ", ".join(plots) + "\n")
+
+
+def main(out, cases):
+    charts = {case: read_case(out, case) for case in cases}
+    engines = ["Plumb"] + sorted({e for c in charts.values() for e in c[2] if e != "Plumb"})
+    print("ratio: the engine's CPU time over Plumb's, at the errors that both reach; above 1 Plumb is ahead")
+    print(f"{'case':16} {'engine':15} {'ratio':>9} {'least error':>12} {'of Plumb':>12}  finer alone")
+    ahead, behind, finer = [], [], []
+    for case, (_, _, fronts, unable) in charts.items():
+        if "Plumb" not in fronts:
+            print(f"{case:16} Plumb has no good run")
+            continue
+        plumb, lost = fronts["Plumb"], []
+        for engine in sorted(e for e in fronts if e != "Plumb"):
+            line = fronts[engine]
+            times, least, own = ratio(line, plumb), line[-1][0], plumb[-1][0]
+            alone = "Plumb" if own < least else engine if least < own else "-"
+            print(f"{case:16} {engine:15} {times:9.3g} {least:12.2g} {own:12.2g}  {alone}")
+            if times <= 1:
+                lost.append(f"{engine} {times:.2g}")
+            if alone == engine:
+                finer.append(f"{case} ({engine})")
+        for engine, reason in unable.items():
+            print(f"{case:16} {engine:15} {reason}")
+        if lost:
+            behind.append(f"{case} ({', '.join(lost)})")
+        else:
+            ahead.append(case)
+    print(f"Plumb's front is ahead of all on {len(ahead)} of {len(charts)} cases; "
+          f"behind on: {'; '.join(behind) or 'none'}")
+    print(f"Another alone reaches the least errors on: {'; '.join(finer) or 'none'}")
+    write_chart(out, charts, engines)
+
+
+main(sys.argv[1], sys.argv[2:])
