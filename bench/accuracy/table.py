@@ -40,9 +40,14 @@ def cost_at(line, error):
 
 
 def ratio(peer, plumb):
-    """Geometric mean of peer's cost over Plumb's, over the errors that both reach."""
+    """Geometric mean of peer's cost over Plumb's, over the errors that both fronts span.
+
+    Where they span none together, over those that one spans and the other keeps within anyway.
+    """
     least = max(peer[-1][0], plumb[-1][0])
-    most = max(least, min(peer[0][0], plumb[0][0]))
+    most = min(peer[0][0], plumb[0][0])
+    if most <= least:
+        most = max(peer[0][0], plumb[0][0])
     errors = [least * (most / least) ** (i / (SAMPLES - 1)) for i in range(SAMPLES)]
     logs = [math.log(cost_at(peer, e) / cost_at(plumb, e)) for e in errors]
     return math.exp(sum(logs) / SAMPLES)
@@ -76,34 +81,38 @@ def read_case(out, case):
     return metric, unit, fronts, unable
 
 
+def style(engines, engine):
+    width = 3 if engine == "Plumb" else 1.5
+    return f"with linespoints lw {width} pt 7 ps 0.3 lc '{COLOURS[engines.index(engine) % len(COLOURS)]}'"
+
+
 def write_chart(out, charts, engines):
-    columns = min(4, len(charts))
-    lines = -(-len(charts) // columns)
+    """A panel for each case, and one for the key."""
+    columns = min(4, len(charts) + 1)
+    lines = -(-(len(charts) + 1) // columns)
     with open(f"{out}/chart.gp", "w") as gp:
-        gp.write(f"set terminal svg size {380 * columns},{300 * lines} font 'sans,11'\n"
+        gp.write(f"set terminal svg size {380 * columns},{300 * lines} font 'sans,11' background 'white'\n"
                  f"set output '{out}/accuracy.svg'\n"
                  f"set multiplot layout {lines},{columns}\n"
-                 "set logscale xy\nset format '10^{%T}'\nset grid lc '#dddddd'\n"
-                 "set key bottom left font ',8' samplen 1\n")
+                 "set logscale xy\nset format '10^{%T}'\nset grid lc '#cccccc'\nunset key\n"
+                 "set xlabel 'CPU time [µs per simulated s]' font ',9'\n")
         for case, (metric, unit, fronts, _) in charts.items():
-            gp.write(f"set title '{case}: {metric}{' [' + unit + ']' if unit else ''}' noenhanced\n"
-                     "set xlabel 'CPU time [µs per simulated s]' font ',9'\n")
+            gp.write(f"set title '{case}: {metric}{' [' + unit + ']' if unit else ''}' noenhanced\n")
             plots = []
-            for engine, line in fronts.items():
+            for engine, line in reversed(fronts.items()):  # Plumb above the others
                 block = f"${case}_{engine}".replace(" ", "_")
                 gp.write(f"{block} << EOD\n" + "".join(f"{c} {e}\n" for e, c in line) + "EOD\n")
-                width = 3 if engine == "Plumb" else 1.5
-                colour = COLOURS[engines.index(engine) % len(COLOURS)]
-                plots.append(f"{block} using 1:2 with linespoints lw {width} pt 7 ps 0.3 "
-                             f"lc '{colour}' title '{engine}' noenhanced")
+                plots.append(f"{block} using 1:2 {style(engines, engine)}")
             gp.write("plot " + ", ".join(plots) + "\n")
+        gp.write("unset border\nunset tics\nunset xlabel\nunset title\nset key center center\nplot [1:2][1:2] "
+                 + ", ".join(f"NaN {style(engines, e)} title '{e}'" for e in engines) + "\n")
 
 
 def main(out, cases):
     charts = {case: read_case(out, case) for case in cases}
     engines = ["Plumb"] + sorted({e for c in charts.values() for e in c[2] if e != "Plumb"})
     print("ratio: the engine's CPU time over Plumb's, at the errors that both reach; above 1 Plumb is ahead")
-    print(f"{'case':16} {'engine':15} {'ratio':>9} {'least error':>12} {'of Plumb':>12}  finer alone")
+    print(f"{'case':16} {'engine':20} {'ratio':>9} {'least error':>12} {'of Plumb':>12}  finer alone")
     ahead, behind, finer = [], [], []
     for case, (_, _, fronts, unable) in charts.items():
         if "Plumb" not in fronts:
@@ -114,13 +123,13 @@ def main(out, cases):
             line = fronts[engine]
             times, least, own = ratio(line, plumb), line[-1][0], plumb[-1][0]
             alone = "Plumb" if own < least else engine if least < own else "-"
-            print(f"{case:16} {engine:15} {times:9.3g} {least:12.2g} {own:12.2g}  {alone}")
+            print(f"{case:16} {engine:20} {times:9.3g} {least:12.2g} {own:12.2g}  {alone}")
             if times <= 1:
                 lost.append(f"{engine} {times:.2g}")
             if alone == engine:
                 finer.append(f"{case} ({engine})")
         for engine, reason in unable.items():
-            print(f"{case:16} {engine:15} {reason}")
+            print(f"{case:16} {engine:20} {reason}")
         if lost:
             behind.append(f"{case} ({', '.join(lost)})")
         else:
