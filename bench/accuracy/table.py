@@ -11,7 +11,8 @@ import glob
 import math
 import sys
 
-ROUNDING = 1e-16  # errors below count as this
+ROUNDING = 1e-12  # errors below count as this
+USELESS = 0.1  # of a length in m, of an angle in rad, of a ratio: nobody would want a larger error
 SAMPLES = 50
 COLOURS = ["#cc3311", "#0077bb", "#33bbee", "#117733", "#88bb55", "#aa4499", "#ddaa33", "#777777"]
 
@@ -40,14 +41,9 @@ def cost_at(line, error):
 
 
 def ratio(peer, plumb):
-    """Geometric mean of peer's cost over Plumb's, over the errors that both fronts span.
-
-    Where they span none together, over those that one spans and the other keeps within anyway.
-    """
+    """Geometric mean of peer's cost over Plumb's, over the errors of use that both keep within."""
     least = max(peer[-1][0], plumb[-1][0])
-    most = min(peer[0][0], plumb[0][0])
-    if most <= least:
-        most = max(peer[0][0], plumb[0][0])
+    most = max(least, min(USELESS, max(peer[0][0], plumb[0][0])))
     errors = [least * (most / least) ** (i / (SAMPLES - 1)) for i in range(SAMPLES)]
     logs = [math.log(cost_at(peer, e) / cost_at(plumb, e)) for e in errors]
     return math.exp(sum(logs) / SAMPLES)
@@ -111,32 +107,38 @@ def write_chart(out, charts, engines):
 def main(out, cases):
     charts = {case: read_case(out, case) for case in cases}
     engines = ["Plumb"] + sorted({e for c in charts.values() for e in c[2] if e != "Plumb"})
-    print("ratio: the engine's CPU time over Plumb's, at the errors that both reach; above 1 Plumb is ahead")
+    print("ratio: the engine's CPU time over Plumb's, the geometric mean over the errors up to "
+          f"{USELESS} that both keep within; above 1 Plumb is ahead")
     print(f"{'case':16} {'engine':20} {'ratio':>9} {'least error':>12} {'of Plumb':>12}  finer alone")
-    ahead, behind, finer = [], [], []
+    behind, finer, wins = {}, [], {engine: [] for engine in engines[1:]}
     for case, (_, _, fronts, unable) in charts.items():
         if "Plumb" not in fronts:
             print(f"{case:16} Plumb has no good run")
+            behind[case] = ["has no good run"]
             continue
-        plumb, lost = fronts["Plumb"], []
+        plumb = fronts["Plumb"]
         for engine in sorted(e for e in fronts if e != "Plumb"):
             line = fronts[engine]
-            times, least, own = ratio(line, plumb), line[-1][0], plumb[-1][0]
+            least, own = line[-1][0], plumb[-1][0]
+            if least > USELESS:
+                print(f"{case:16} {engine:20} {'-':>9} {least:12.2g} {own:12.2g}  Plumb")
+                wins[engine].append(True)
+                continue
+            times = ratio(line, plumb)
             alone = "Plumb" if own < least else engine if least < own else "-"
             print(f"{case:16} {engine:20} {times:9.3g} {least:12.2g} {own:12.2g}  {alone}")
+            wins[engine].append(times > 1)
             if times <= 1:
-                lost.append(f"{engine} {times:.2g}")
+                behind.setdefault(case, []).append(f"{engine} {times:.2g}")
             if alone == engine:
                 finer.append(f"{case} ({engine})")
         for engine, reason in unable.items():
             print(f"{case:16} {engine:20} {reason}")
-        if lost:
-            behind.append(f"{case} ({', '.join(lost)})")
-        else:
-            ahead.append(case)
-    print(f"Plumb's front is ahead of all on {len(ahead)} of {len(charts)} cases; "
-          f"behind on: {'; '.join(behind) or 'none'}")
+    for engine, won in wins.items():
+        print(f"against {engine}: ahead on {sum(won)} of {len(won)} cases")
     print(f"Another alone reaches the least errors on: {'; '.join(finer) or 'none'}")
+    print(f"Plumb's front is ahead of all on {len(charts) - len(behind)} of {len(charts)} cases; behind on: "
+          + ("; ".join(f"{case} ({', '.join(by)})" for case, by in behind.items()) or "none"))
     write_chart(out, charts, engines)
 
 
