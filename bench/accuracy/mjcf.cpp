@@ -12,7 +12,9 @@ namespace plumb::bench {
 namespace {
 
 constexpr const char* kHardest = "0.9999 0.9999 0.001";  // greatest impedance that there is
-constexpr double kBounceRoot = 0.5;  // a bounce takes this times the root of a step [√s]
+// A bounce takes this times the root of a step, and so long is a contact's time constant [√s]:
+// were they shares of a step, neither restitution nor the hops of what slides would converge.
+constexpr double kBounceRoot = 0.5, kContactRoot = 0.15;
 
 /// Damping ratio of a spring and damper that only push, for a restitution e:
 /// e = exp(−2 ζ/√(1−ζ²) atan(√(1−ζ²)/ζ)); by bisection.
@@ -95,7 +97,7 @@ private:
             const double rate = std::numbers::pi / (kBounceRoot * std::sqrt(dt_));
             text_ << -rate * rate << " " << -2 * damping_ratio(surface.restitution) * rate;
         } else {
-            text_ << 2 * dt_ << " 1";
+            text_ << std::max(2 * dt_, kContactRoot * std::sqrt(dt_)) << " 1";
         }
         text_ << "'/>";
     }

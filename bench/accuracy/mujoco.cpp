@@ -2,10 +2,10 @@
 /// MuJoCo 2.2 by semi-implicit Euler ("mujoco") and by Runge and Kutta ("mujoco RK4"), both with
 /// elliptic cones, and the latter with pyramids, too, by which bodies slide more exactly.
 ///
-/// Newton's solver. Constraints are as stiff as it allows: the greatest impedance, and the shortest
-/// time constant, of two steps. Where bodies bounce, contacts are springs and dampers whose
-/// restitution is that of the material, and stiffer with shorter steps. Joints make trees in
-/// generalized coordinates; what closes a loop is a constraint.
+/// Newton's solver. Constraints have the greatest impedance and the shortest time constant, two
+/// steps; that of contacts is longer where steps are short, for else what slides hops off. Where
+/// bodies bounce, contacts are springs and dampers whose restitution is that of the material.
+/// Joints make trees in generalized coordinates; what closes a loop is a constraint.
 #include "accuracy/mjcf.h"
 #include "accuracy/peer.h"
 
