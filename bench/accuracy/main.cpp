@@ -4,7 +4,7 @@
 #include "step/joint_state.h"
 #include "study/cases.h"
 
-#include <array>
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -71,21 +71,30 @@ Result run(const study::Subject& subject, const Engine& engine, const Fineness& 
     return result;
 }
 
-/// The errors of one run, and the median of several costs.
-Result measure(const study::Subject& subject, const Engine& engine, const Fineness& fineness,
-               double limit) {
-    Result result;
+Result run_or_diverge(const study::Subject& subject, const Engine& engine, const Fineness& fineness,
+                      bool judged, double limit) {
     try {
-        result = run(subject, engine, fineness, true, limit);
+        return run(subject, engine, fineness, judged, limit);
     } catch (const EngineFailure&) {
         return {{}, 0, "diverged"};
     }
-    if (std::strcmp(result.status, "done") != 0) return result;
-    std::array<double, kRuns> costs{result.cost};
-    for (int i = 1; i < kRuns; ++i)
-        costs[i] = run(subject, engine, fineness, false, 2 * limit).cost;
-    std::nth_element(costs.begin(), costs.begin() + kRuns / 2, costs.end());
-    result.cost = costs[kRuns / 2];
+}
+
+bool is_done(const Result& result) { return std::strcmp(result.status, "done") == 0; }
+
+/// The errors of one run, and the median of several costs.
+Result measure(const study::Subject& subject, const Engine& engine, const Fineness& fineness,
+               double limit) {
+    Result result = run_or_diverge(subject, engine, fineness, true, limit);
+    if (!is_done(result)) return result;
+    std::vector<double> costs{result.cost};
+    for (int i = 1; i < kRuns; ++i) {
+        const Result again = run_or_diverge(subject, engine, fineness, false, 2 * limit);
+        if (is_done(again)) costs.push_back(again.cost);
+    }
+    const auto middle = costs.begin() + static_cast<std::ptrdiff_t>(costs.size() / 2);
+    std::nth_element(costs.begin(), middle, costs.end());
+    result.cost = *middle;
     return result;
 }
 
@@ -97,7 +106,7 @@ void print(const study::Subject& subject, const Engine& engine, const char* way,
         std::printf("%s,%s,%s,%.9g,%.9g,%d,%s,%s,", subject.name.c_str(), engine.name.c_str(), way,
                     value, fineness.dt, fineness.iterations, metric.name.c_str(),
                     metric.unit.c_str());
-        if (std::strcmp(result.status, "done") == 0)
+        if (is_done(result))
             std::printf("%.9g,%.9g,", result.errors[next++], result.cost);
         else
             std::printf(",,");
