@@ -33,7 +33,9 @@ struct BodyList {
 };
 
 struct BodyKernels {
-    using Integrate = void (*)(const BodyColumns&, BodyList, const double (&gravity)[3], double h);
+    /// `push`: how long forces act [s], of a substep of length h [s].
+    using Integrate = void (*)(const BodyColumns&, BodyList, const double (&gravity)[3], double h,
+                               double push);
     using Move = void (*)(const BodyColumns&, BodyList, double h);
 
     Integrate integrate;          ///< without the gyroscopic term

@@ -14,42 +14,42 @@ namespace plumb::kernels {
 template <int W, class T = Number<double, W>>
 inline Symmetric3<T> integrate_travel(const BodyColumns& b, const ItemGroup<W>& group,
                                       const UnitQuaternion<T>& q, const double (&gravity)[3],
-                                      double h) {
+                                      double push) {
     Vector3<T> axes[3];
     q.columns(axes);
     const Symmetric3<T> inverse = rotated_diagonal<T>(axes, group.vector(b.inverse_inertia));
     const Vector3<T> g = Vector3<T>(T(gravity[0]), T(gravity[1]), T(gravity[2]));
     const Vector3<T> rate = g + group.vector(b.force) * group.number(b.inverse_mass);
     group.write(b.world_inverse_inertia, inverse);
-    group.write(b.velocity, Vector3<T>(group.vector(b.velocity) + rate * T(h)));
+    group.write(b.velocity, Vector3<T>(group.vector(b.velocity) + rate * T(push)));
     return inverse;
 }
 
 template <int W>
 [[gnu::flatten]] void integrate(const BodyColumns& b, BodyList list, const double (&gravity)[3],
-                                double h) {
+                                double, double push) {
     using T = Number<double, W>;
     for (std::size_t i = 0; i < list.count; i += W) {
         const ItemGroup<W> group(list, i);
         const Symmetric3<T> inverse =
-            integrate_travel<W>(b, group, group.rotation(b.orientation), gravity, h);
+            integrate_travel<W>(b, group, group.rotation(b.orientation), gravity, push);
         const Vector3<T> w = group.vector(b.angular_velocity);
         group.write(b.angular_velocity,
-                    Vector3<T>(w + Vector3<T>(inverse * group.vector(b.torque)) * T(h)));
+                    Vector3<T>(w + Vector3<T>(inverse * group.vector(b.torque)) * T(push)));
     }
 }
 
 template <int W>
 [[gnu::flatten]] void integrate_turning(const BodyColumns& b, BodyList list,
-                                        const double (&gravity)[3], double h) {
+                                        const double (&gravity)[3], double h, double push) {
     using T = Number<double, W>;
     for (std::size_t i = 0; i < list.count; i += W) {
         const ItemGroup<W> group(list, i);
         const UnitQuaternion<T> q = group.rotation(b.orientation);
-        integrate_travel<W>(b, group, q, gravity, h);
+        integrate_travel<W>(b, group, q, gravity, push);
         const Vector3<T> inertia = group.vector(b.inertia);
         const Vector3<T> rate = q.inverse() * group.vector(b.angular_velocity);
-        const Vector3<T> pushed = q.inverse() * Vector3<T>(group.vector(b.torque) * T(h));
+        const Vector3<T> pushed = q.inverse() * Vector3<T>(group.vector(b.torque) * T(push));
         const Vector3<T> momentum = inertia.cwiseProduct(rate) + pushed;
         group.write(b.angular_momentum, q * momentum);
         group.write(b.angular_velocity,

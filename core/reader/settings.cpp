@@ -107,6 +107,9 @@ const Table<Settings>& settings_table() {
                  "sweep forwards and backwards in turn"),
         field<S>("shared_push", Flag{}, &S::shared_push,
                  "The push of both passes together stays repulsive, not that of each pass alone."),
+        field<S>("leapfrog_start", Flag{}, &S::leapfrog_start,
+                 "Forces act for half of the first substep: places are then of second order in its "
+                 "length, and velocities those in the middle of substeps."),
         field<S>("shared_cone", Flag{}, &S::shared_cone,
                  "one bound of friction for the velocity and the position pass"),
         field<S>("require", TextList{}, &S::require,

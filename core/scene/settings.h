@@ -47,6 +47,8 @@ struct Settings {
     double anchor_stiffness =
         0.02;  ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
     Gyroscopic gyroscopic = Gyroscopic::conserving;
+    bool leapfrog_start = false;  ///< half a push in the first substep: places are then of second
+                                  ///< order in its length, velocities those of substeps' middles
 
     JointMethod joints = JointMethod::auto_;
     std::uint32_t exact_islands = 400;  ///< islands of at most so many bodies that touch are solved

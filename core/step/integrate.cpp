@@ -3,7 +3,8 @@
 ///
 /// The paper's explicit form gains energy; the implicit one loses some; the conserving one carries
 /// the angular momentum from step to step and turns with the rate of the step's middle
-/// (math/free_rotation.h).
+/// (math/free_rotation.h). With a leapfrog start the very first push is half of one: velocities are
+/// then those in the middle of substeps, for which the same formulas are of second order.
 #include "kernels/contact_kernels.h"
 #include "step/body_columns.h"
 #include "step/stages.h"
@@ -57,8 +58,10 @@ void integrate_velocities(World& world, const Plan& plan, const MotionLists& lis
     const BodyColumns columns = columns_of(world.bodies);
     const Vector3d& g = world.settings.gravity;
     const double gravity[3] = {g.x(), g.y(), g.z()};
-    kernels.integrate(columns, list_of(lists.plain), gravity, h);
-    kernels.integrate_turning(columns, list_of(lists.turning), gravity, h);
+    const bool starts = world.settings.leapfrog_start && world.time == 0;
+    const double push = starts ? 0.5 * h : h;
+    kernels.integrate(columns, list_of(lists.plain), gravity, h, push);
+    kernels.integrate_turning(columns, list_of(lists.turning), gravity, h, push);
     if (plan.runs(Effect::gyroscopic) && world.settings.gyroscopic != Gyroscopic::conserving)
         add_gyroscopic_term(world.bodies, lists.plain, world.settings.gyroscopic, h);
 }

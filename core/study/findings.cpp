@@ -23,7 +23,8 @@ double fineness(const Row& r) {
 /// Whether the point is what a user would choose, rather than a departure switched off to see what
 /// it buys.
 bool is_for_users(const Point& p) {
-    return p.contacts == "shared" && (p.curve == "pbd" || p.curve.rfind("joints ", 0) == 0);
+    return p.contacts == "shared" &&
+           (p.curve == "pbd" || p.curve == kLeapfrogCurve || p.curve.rfind("joints ", 0) == 0);
 }
 
 struct Dot {
@@ -198,6 +199,7 @@ std::optional<Slope> slope_of(const StudyTable& table, const CurveRows& curve) {
     slope.from = value(best_begin);
     slope.to = value(best_end - 1);
     const Orders& orders = table.find(curve.subject)->orders;
+    if (curve.curve == kLeapfrogCurve) return slope;  // orders are stated without it
     slope.expected = is_step                            ? orders.step
                      : curve.ladder == Ladder::substeps ? orders.substeps
                                                         : orders.iterations;

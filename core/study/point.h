@@ -19,6 +19,9 @@ enum class Ladder : std::uint32_t {
 };
 std::string_view name_of(Ladder ladder);
 
+/// The curve of runs with Settings::leapfrog_start.
+inline constexpr std::string_view kLeapfrogCurve = "leapfrog start";
+
 /// One run of a subject at certain settings.
 struct Point {
     std::string subject;

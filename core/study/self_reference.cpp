@@ -32,6 +32,7 @@ Scene refined(const Scene& scene, std::uint32_t substeps) {
     Settings& s = fine.settings;
     const std::uint32_t detections = std::min(kDetections, substeps);
     s.precision = Precision::double_;
+    s.leapfrog_start = true;
     s.dt /= detections;
     s.substeps = substeps / detections;
     s.velocity_iterations = std::max(2u, s.velocity_iterations);

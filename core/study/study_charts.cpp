@@ -9,7 +9,9 @@
 namespace plumb::study {
 namespace {
 
-bool refines(const CurveRows& c) { return c.curve == "pbd" || c.curve == "paper"; }
+bool refines(const CurveRows& c) {
+    return c.curve == "pbd" || c.curve == "paper" || c.curve == kLeapfrogCurve;
+}
 
 /// What a line of a chart is called where the others differ from it in these alone.
 std::string refinement(const CurveRows& c) {

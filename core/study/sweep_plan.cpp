@@ -37,6 +37,7 @@ constexpr std::array kVariants{
     Variant{"without exact islands", "exact_islands=0", Effect::exact_islands},
     Variant{"explicit gyroscopic term", "gyroscopic=explicit", Effect::gyroscopic},
     Variant{"implicit gyroscopic term", "gyroscopic=implicit", Effect::gyroscopic},
+    Variant{kLeapfrogCurve.data(), "leapfrog_start=true", {}},
     Variant{"joints by iterations", "joints=iterate", Effect::joint_trees},
 };
 

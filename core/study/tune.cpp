@@ -83,6 +83,7 @@ private:
                 .settings = {}};
         if (c.step_share != 1)
             p.settings.push_back("dt=" + number_text(c.step_share * subject_.scene.settings.dt));
+        p.settings.push_back("leapfrog_start=true");  // costs nothing, and never is of lower order
         p.settings.push_back("precision=" + p.precision);
         p.settings.push_back("substeps=" + std::to_string(c.substeps));
         for (const char* pass : {"velocity_iterations=", "position_iterations="})

@@ -101,10 +101,11 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
     [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
                                   position_iterations, method, precision, threads, lanes, contacts,
                                   margin, reuse_distance, stiffness, recovery_speed,
-                                  collision_depth, anchor_stiffness, gyroscopic, joints,
-                                  exact_islands, joint_tolerance, warm_start, alternate_sweeps,
-                                  shared_push, shared_cone, require, forbid] = settings;
-    constexpr std::size_t kMembers = 27, kPreset = 1;
+                                  collision_depth, anchor_stiffness, gyroscopic, leapfrog_start,
+                                  joints, exact_islands, joint_tolerance, warm_start,
+                                  alternate_sweeps, shared_push, shared_cone, require, forbid] =
+        settings;
+    constexpr std::size_t kMembers = 28, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "dt",
@@ -123,6 +124,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "collision_depth",
                              "anchor_stiffness",
                              "gyroscopic",
+                             "leapfrog_start",
                              "joints",
                              "exact_islands",
                              "joint_tolerance",

@@ -28,7 +28,7 @@ TEST(Settings, FillsEveryMember) {
         "velocity_iterations": 0, "position_iterations": 7, "method": "pbd", "precision": "double", "threads": 8,
         "lanes": 16, "margin": 0.1, "stiffness": 0.3, "recovery_speed": 2, "collision_depth": 0.001,
         "anchor_stiffness": 0.5, "gyroscopic": "implicit", "warm_start": false, "alternate_sweeps": false,
-        "shared_cone": false, "shared_push": false, "joints": "tree",
+        "shared_cone": false, "leapfrog_start": true, "shared_push": false, "joints": "tree",
         "exact_islands": 12, "contacts": "raw", "joint_tolerance": 1e-6, "require": ["a", "b"], "forbid": ["c"])");
     EXPECT_EQ(s.gravity, Eigen::Vector3d(1, 2, 3));
     EXPECT_EQ(s.dt, 0.02);
@@ -47,6 +47,7 @@ TEST(Settings, FillsEveryMember) {
     EXPECT_EQ(s.gyroscopic, Gyroscopic::implicit);
     EXPECT_FALSE(s.warm_start);
     EXPECT_FALSE(s.alternate_sweeps);
+    EXPECT_TRUE(s.leapfrog_start);
     EXPECT_FALSE(s.shared_cone);
     EXPECT_FALSE(s.shared_push);
     EXPECT_EQ(s.joints, JointMethod::tree);

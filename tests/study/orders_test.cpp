@@ -22,11 +22,13 @@ double slope_of(const std::vector<std::pair<double, double>>& points) {
 
 /// Order at which the first metric falls; `refine` makes the steps finer by a factor, and says
 /// whether it could.
-double order_of(const study::CaseEntry& entry, bool (*refine)(Settings&, double)) {
+double order_of(const study::CaseEntry& entry, bool (*refine)(Settings&, double),
+                bool leapfrog = false) {
     std::vector<std::pair<double, double>> points;
     for (const double finer : {0.5, 1.0, 2.0, 4.0}) {
         study::Subject subject = entry.make();
         subject.scene.settings.precision = Precision::double_;
+        subject.scene.settings.leapfrog_start = leapfrog;
         if (!refine(subject.scene.settings, finer)) continue;
         const double error = errors_of(subject)[0];
         std::cout << "  " << error;
@@ -76,6 +78,27 @@ INSTANTIATE_TEST_SUITE_P(, Order, testing::ValuesIn(stated_orders()), [](const a
 
 TEST_P(Order, IsAsStated) {
     EXPECT_NEAR(order_of(GetParam().entry, GetParam().refine), GetParam().order, 0.15);
+}
+
+/// Half of the first push makes what swings second order, and constant forces exact.
+class LeapfrogOrder : public testing::TestWithParam<const char*> {};
+INSTANTIATE_TEST_SUITE_P(, LeapfrogOrder,
+                         testing::Values("pendulum", "double_pendulum", "gyroscope"),
+                         [](const auto& which) { return std::string(which.param); });
+
+TEST_P(LeapfrogOrder, IsTwo) {
+    EXPECT_NEAR(order_of(*study::find_case(GetParam()), refine_substeps, true), 2, 0.15);
+}
+
+TEST(LeapfrogStart, IsExactUnderConstantForces) {
+    for (const char* name : {"parabola", "rolling_down"})
+        for (const std::uint32_t substeps : {1u, 3u, 20u}) {
+            study::Subject subject = study::find_case(name)->make();
+            subject.scene.settings.precision = Precision::double_;
+            subject.scene.settings.leapfrog_start = true;
+            subject.scene.settings.substeps = substeps;
+            EXPECT_LT(errors_of(subject)[0], 1e-10) << name << ", " << substeps << " substeps";
+        }
 }
 
 }  // namespace
