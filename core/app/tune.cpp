@@ -43,8 +43,9 @@ void check_reach(const Options& o, const study::Subject& subject) {
 std::string json_line(const std::string& setting) {
     const std::size_t equals = setting.find('=');
     const std::string key = setting.substr(0, equals), value = setting.substr(equals + 1);
-    const bool is_number = value.find_first_not_of("0123456789.e+-") == std::string::npos;
-    const std::string text = is_number ? value : "\"" + value + "\"";
+    const bool is_bare = value == "true" || value == "false" ||
+                         value.find_first_not_of("0123456789.e+-") == std::string::npos;
+    const std::string text = is_bare ? value : "\"" + value + "\"";
     return "  \"" + key + "\": " + text;
 }
 
