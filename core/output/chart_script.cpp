@@ -74,7 +74,8 @@ Sheet sheet_of(const Chart& chart, const ChartStage& stage) {
     for (const ChartSeries& series : chart.series)
         longest = std::max(longest, letters(series.name));
     entries += chart.series.size();
-    const double column = 76 + kLetter * static_cast<double>(longest);
+    // gnuplot takes letters in a legend to be wider than they are
+    const double column = 90 + 1.1 * kLetter * static_cast<double>(longest);
     sheet.columns = std::clamp<std::size_t>(static_cast<std::size_t>((kWidth - 40) / column), 1,
                                             std::max<std::size_t>(entries, 1));
     const int rows = static_cast<int>((entries + sheet.columns - 1) / sheet.columns);

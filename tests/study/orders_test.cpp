@@ -90,6 +90,17 @@ TEST_P(LeapfrogOrder, IsTwo) {
     EXPECT_NEAR(order_of(*study::find_case(GetParam()), refine_substeps, true), 2, 0.15);
 }
 
+/// What README says of the pendulum at 64 substeps.
+TEST(LeapfrogStart, MakesThePendulumExactToMicroradians) {
+    for (const bool leapfrog : {false, true}) {
+        study::Subject subject = study::find_case("pendulum")->make();
+        subject.scene.settings.leapfrog_start = leapfrog;
+        subject.scene.settings.substeps = 64;
+        const double error = errors_of(subject)[0];
+        EXPECT_NEAR(error, leapfrog ? 2.1e-6 : 7.1e-4, 0.1 * error);
+    }
+}
+
 TEST(LeapfrogStart, IsExactUnderConstantForces) {
     for (const char* name : {"parabola", "rolling_down"})
         for (const std::uint32_t substeps : {1u, 3u, 20u}) {
