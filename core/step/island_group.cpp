@@ -57,6 +57,9 @@ double pull_on(const World& world, std::uint32_t body) {
     return (world.settings.gravity + b.force[body] * b.inverse_mass[body]).norm();
 }
 
+/// Length of a substep [s].
+double substep_of(const Settings& settings) { return settings.dt / settings.substeps; }
+
 /// A bound on the greatest eigenvalue: the greatest sum of a row.
 double largest(const Symmetric3<double>& k) {
     const double xy = std::abs(k.xy), xz = std::abs(k.xz), yz = std::abs(k.yz);
@@ -158,8 +161,7 @@ void IslandGroup::mark_what_goes_on(const World& world, const ContactIsland& isl
     };
     const auto first = found_.pairs().begin();
     if (std::none_of(first + island.first_pair, first + island.last_pair, was_exact)) return;
-    const double bears =
-        weight_of(world, island, pairs) * world.settings.dt / world.settings.substeps;
+    const double bears = weight_of(world, island, pairs) * substep_of(world.settings);
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
         mark(world, pairs[found_.pairs()[i]], bears);
     for (const BodyPair& pair : upset_) mark(world, pair, 0);
@@ -203,7 +205,7 @@ bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
         }
     }
     // what rests has been pulled on for a substep already
-    const double h = world.settings.dt / world.settings.substeps;
+    const double h = substep_of(world.settings);
     return std::sqrt(squares / contacts) <= kCalm * std::sqrt(pull * radius) + 2 * pull * h;
 }
 
@@ -306,7 +308,7 @@ bool IslandGroup::goes_on(const World& world, std::uint32_t contact) const {
         pull = std::max(pull, pull_on(world, body));
     }
     // what rests has been pulled on for a substep already
-    const double h = world.settings.dt / world.settings.substeps;
+    const double h = substep_of(world.settings);
     return relative_velocity(world, contact).norm() <= 1.05 * pull * h;
 }
 

@@ -54,7 +54,7 @@ Trajectory recorded(const Scene& scene, double interval, double duration,
     for (std::uint64_t i = 0; i < steps; ++i) {
         if (options.stop && options.stop())
             throw NoReference(NoReference::stopped, "the references were not finished");
-        if (std::chrono::steady_clock::now() > deadline)
+        if (Clock::now() > deadline)
             throw NoReference(NoReference::out_of_time,
                               "scene \"" + scene.name +
                                   "\" takes longer than the budget leaves for its references; "

@@ -77,11 +77,10 @@ private:
             for (const std::string& name : choice_.colliders) {
                 const ColliderInfo& collider = library.find(name);
                 library.check_abilities(collider, subject_.scene);
-                for (const std::string& other : colliders_)
-                    if (conflicting(*library.find(other).table, *collider.table))
-                        throw ColliderError("collider \"" + name +
-                                            "\" must not share a process with \"" + other +
-                                            "\": sweep them one by one");
+                if (const std::string* other = conflict_of(library, collider))
+                    throw ColliderError("collider \"" + name +
+                                        "\" must not share a process with \"" + *other +
+                                        "\": sweep them one by one");
                 colliders_.push_back(name);
             }
         } else {
@@ -93,10 +92,17 @@ private:
         if (!plan_.runs(Effect::contacts)) colliders_.resize(1);
     }
 
+    /// The one of those chosen already that must not share a process with a collider, or null.
+    const std::string* conflict_of(const ColliderLibrary& library,
+                                   const ColliderInfo& collider) const {
+        for (const std::string& name : colliders_)
+            if (conflicting(*library.find(name).table, *collider.table)) return &name;
+        return nullptr;
+    }
+
     /// Whether a collider can do the scene, and may share a process with those chosen already.
     bool may_join(const ColliderLibrary& library, const ColliderInfo& collider) const {
-        for (const std::string& name : colliders_)
-            if (conflicting(*library.find(name).table, *collider.table)) return false;
+        if (conflict_of(library, collider)) return false;
         try {
             library.check_abilities(collider, subject_.scene);
             return true;

@@ -7,6 +7,7 @@
 /// How a heap falls hangs on its last digit: where single falls differ by much, the median of
 /// several counts, each begun up to 0.05 mm aside.
 #include "reader/reader.h"
+#include "support/random.h"
 #include "support/scenes.h"
 
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
-#include <random>
 #include <sstream>
 
 namespace plumb::test {
@@ -67,11 +67,10 @@ void measure_end(const World& world, Rest& rest) {
 
 /// Moves what can fall by up to 0.05 mm along each axis.
 void shake(Scene& scene, unsigned seed) {
-    std::mt19937 random(seed);
+    Random random(seed);
     for (BodySpec& body : scene.bodies)
         if (body.motion == Motion::dynamic)
-            for (double& x : body.placement.position)
-                x += 1e-4 * (static_cast<double>(random()) / 0x1p32 - 0.5);
+            for (double& x : body.placement.position) x += random.number(-0.05e-3, 0.05e-3);
 }
 
 /// One fall of the scene; of `start` 0 as it stands in the file.
