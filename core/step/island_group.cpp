@@ -60,6 +60,11 @@ double pull_on(const World& world, std::uint32_t body) {
 /// Length of a substep [s].
 double substep_of(const Settings& settings) { return settings.dt / settings.substeps; }
 
+/// kCalm of a body, with what a pull [m/s²] makes of rest in a substep or two [m/s].
+double calm_speed(const World& world, double radius, double pull) {
+    return kCalm * std::sqrt(pull * radius) + 2 * pull * substep_of(world.settings);
+}
+
 /// A bound on the greatest eigenvalue: the greatest sum of a row.
 double largest(const Symmetric3<double>& k) {
     const double xy = std::abs(k.xy), xz = std::abs(k.xz), yz = std::abs(k.yz);
@@ -117,7 +122,9 @@ void IslandGroup::mark_jointed(const World& world) {
 bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
                            const std::vector<BodyPair>& pairs) {
     const std::uint32_t n = island.last_body - island.first_body;
-    if (n < 2) return false;
+    if (n == 1 &&
+        !is_slow(world, world.contacts.found[pairs[found_.pairs()[island.first_pair]].first]))
+        return false;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
         if (jointed_[found_.bodies()[i]]) return false;
     upset_.clear();
@@ -127,6 +134,13 @@ bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
     }
     mark_what_goes_on(world, island, pairs);
     return false;
+}
+
+bool IslandGroup::is_slow(const World& world, const Contact& contact) const {
+    const Bodies& b = world.bodies;
+    const std::uint32_t body = b.motion[contact.a] == Motion::dynamic ? contact.a : contact.b;
+    const double speed = b.velocity[body].norm() + b.reach[body] * b.angular_velocity[body].norm();
+    return speed <= calm_speed(world, b.reach[body], pull_on(world, body));
 }
 
 void IslandGroup::find_upset(const World& world, const ContactIsland& island,
@@ -204,9 +218,7 @@ bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
             pull = std::max(pull, pull_on(world, body));
         }
     }
-    // what rests has been pulled on for a substep already
-    const double h = substep_of(world.settings);
-    return std::sqrt(squares / contacts) <= kCalm * std::sqrt(pull * radius) + 2 * pull * h;
+    return std::sqrt(squares / contacts) <= calm_speed(world, radius, pull);
 }
 
 void IslandGroup::take(const World& world, const ContactIsland& island,

@@ -2,9 +2,10 @@
 /// The islands that are solved exactly: from the world's tables to the solver's, and back.
 ///
 /// Their contacts are taken out of the sweeps. An island is solved exactly where no joint holds its
-/// bodies, it has two of them to Settings::exact_islands, and, unless it is very small, it is calm:
-/// what flies and tumbles needs no exact forces, and they would cost most there. Sweeps are enough
-/// for a body that touches nothing but what is immovable.
+/// bodies, it has at most Settings::exact_islands of them, and, unless it is very small, it is
+/// calm: what flies and tumbles needs no exact forces, and they would cost most there. Sweeps are
+/// enough for a body that rolls or slides on what is immovable; one that hardly moves shall not
+/// creep.
 #pragma once
 
 #include "effects/plan.h"
@@ -58,6 +59,7 @@ private:
                     const std::vector<BodyPair>& pairs);
     void mark_what_goes_on(const World& world, const ContactIsland& island,
                            const std::vector<BodyPair>& pairs);
+    bool is_slow(const World& world, const Contact& contact) const;
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
     void mark_jointed(const World& world);
