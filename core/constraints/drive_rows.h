@@ -6,6 +6,7 @@
 ///   k  stiffness [N/m], [N m/rad]    d     damping [N s/m], [N m s/rad]
 #pragma once
 
+#include "constraints/spring.h"
 #include "scene/joint.h"
 
 #include <algorithm>
@@ -19,13 +20,24 @@ struct DriveRow {
     double lowest = 0, highest = 0;  ///< [N s], [N m s]
 };
 
-/// A spring that is at ease at `rest`, which itself moves at `speed`, taken at the end of the
-/// substep: λ = −h [k (q + h rate − rest) + d (rate − speed)].
-inline DriveRow spring_row(double q, double rest, double speed, double k, double d, double h) {
+/// An axis at the start of a substep.
+struct AxisMotion {
+    double q, rate;  ///< now [m], [rad]; before forces act [m/s], [rad/s]
+    double mass;     ///< that the row feels [kg], [kg m²]; 0 where nothing can move
+};
+
+/// A spring that at the end of the substep is at ease at `rest`, which itself moves at `speed`.
+inline DriveRow spring_row(const AxisMotion& axis, double rest, double speed, double k, double d,
+                           const SubstepTime& time) {
     constexpr double any = std::numeric_limits<double>::infinity();
-    const double stiff = d + h * k;
-    if (!(stiff > 0)) return {};
-    return {(k * (q - rest) - d * speed) / stiff, 1 / (h * stiff), -any, any};
+    const double h = time.h, part = time.part;
+    const auto per_mass = [&](double x) { return axis.mass > 0 ? x / axis.mass : any; };
+    const SpringShares share = spring_shares(per_mass(h * h * k), per_mass(h * d), part);
+    const double slope = share.ahead * h * k + (1 - share.damper_back) * d;
+    if (!(slope > 0)) return {};
+    const double x = axis.q - (rest - h * speed), before = axis.rate - speed;
+    const double offset = k * (x - share.back * h * before) + share.damper_back * d * before;
+    return {offset / slope - speed, 1 / (part * h * slope), -any, any};
 }
 
 /// The nearer of two limits: it may be reached in this substep and no more; what is beyond it goes
@@ -48,14 +60,14 @@ inline DriveRow velocity_motor_row(double speed, double greatest, double h) {
 }
 
 /// Goes to a place as a damped oscillator of the given frequency would: k = m ω², d = 2 ζ m ω, with
-/// m the mass that the row feels [kg], [kg m²].
-inline DriveRow position_motor_row(double q, double place, double speed, const JointMotor& motor,
-                                   double mass, double h) {
+/// m the mass that the row feels.
+inline DriveRow position_motor_row(const AxisMotion& axis, double place, double speed,
+                                   const JointMotor& motor, const SubstepTime& time) {
     constexpr double kTurn = 6.283185307179586;
     const double omega = kTurn * motor.frequency;
-    DriveRow row = spring_row(q, place, speed, mass * omega * omega,
-                              2 * motor.damping_ratio * mass * omega, h);
-    row.lowest = -motor.greatest * h, row.highest = motor.greatest * h;
+    DriveRow row = spring_row(axis, place, speed, axis.mass * omega * omega,
+                              2 * motor.damping_ratio * axis.mass * omega, time);
+    row.lowest = -motor.greatest * time.h, row.highest = motor.greatest * time.h;
     return row;
 }
 

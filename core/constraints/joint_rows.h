@@ -9,8 +9,8 @@
 /// for d(e · (p_a − p_b)) also turns e: ω_b × e · (p_a − p_b), which moves b's arm out to p_a. So
 /// both bodies feel opposite impulses at one point. Rotation is not linear: C is taken anew at each
 /// iteration, from the turn of the whole substep. Where the impulses act is said in joint_lever.h.
-/// A row with compliance α has C + α λ/h = 0 for the impulse λ of the whole substep, which puts
-/// α/h² on the diagonal.
+/// A row with compliance α is a spring of stiffness 1/α, which by spring.h has C − lag + s h λ = 0
+/// for the impulse λ of the whole substep, with the softness s = α/(θ h²) on the diagonal.
 #pragma once
 
 #include "constraints/joint_lever.h"
@@ -26,7 +26,8 @@ struct JointGeometry {
     Vector3<T> apart;     ///< p_a − p_b [m]
     Vector3<T> e[3], u[3], w[3];
     T lock[6];      ///< 1 where the row is taken away, else 0
-    T softness[6];  ///< α/h² [1/kg], [1/(kg m²)]
+    T softness[6];  ///< s [1/kg], [1/(kg m²)]
+    T lag[6];       ///< 0 where a row is rigid [m], [rad]
     JointLever<T> lever_a, lever_b;
     T length;             ///< of a distance joint, whose row 0 is along the line between the
                           ///< points; else 0 [m]
@@ -41,7 +42,8 @@ struct JointRows {
     Vector3<T> g_a[6], g_b[6];  ///< and what each row's does to ω
 };
 
-/// Errors at the preview poses (x₀ + h v, turned by h ω), and the rows by which impulses act.
+/// Errors at the preview poses (x₀ + h v, turned by h ω) less their lag, and the rows by which
+/// impulses act.
 template <class T>
 inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>& a,
                                const Velocity<T>& b, const T& h) {
@@ -73,6 +75,7 @@ inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>&
             cross(Vector3<T>(joint.u[k] + lever_a.change(joint.u[k])),
                   Vector3<T>(joint.w[k] + lever_b.change(joint.w[k])));
     }
+    for (int k = 0; k < 6; ++k) rows.c[k] = rows.c[k] - joint.lag[k];
     return rows;
 }
 

@@ -91,8 +91,10 @@ inline JointGeometry<T> load_geometry(const JointBlock<Real, W>& block) {
         g.u[k] = load_vector(block.u[k]);
         g.w[k] = load_vector(block.w[k]);
     }
-    for (int k = 0; k < 6; ++k)
-        g.lock[k] = load(block.lock[k]), g.softness[k] = load(block.softness[k]);
+    for (int k = 0; k < 6; ++k) {
+        g.lock[k] = load(block.lock[k]);
+        g.softness[k] = load(block.softness[k]), g.lag[k] = load(block.lag[k]);
+    }
     g.lever_a = {load(block.share_a), load_vector(block.lag_a)};
     g.lever_b = {load(block.share_b), load_vector(block.lag_b)};
     g.line_share = load(block.line_share), g.line_lag = load_vector(block.line_lag);

@@ -40,7 +40,7 @@ struct JointBlock : JointBodies<Real, W> {
     Real e[3][3][W], u[3][3][W], w[3][3][W];                // [row][component]
     Real share_a[W], share_b[W], lag_a[3][W], lag_b[3][W];  // JointLever [rad]
     Real line_share[W], line_lag[3][W];                     // of a distance joint's line [m]
-    Real lock[6][W], softness[6][W], length[W];
+    Real lock[6][W], softness[6][W], lag[6][W], length[W];
     Real lambda[6][W];  // summed over the substep [N s], [N m s]
 };
 

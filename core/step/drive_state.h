@@ -5,13 +5,9 @@
 #include "constraints/drive_rows.h"
 #include "constraints/felt_mass.h"
 #include "step/joint_geometry.h"
+#include "step/substep_time.h"
 
 namespace plumb {
-
-inline InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t body) {
-    if (body == kNoIndex) return {0, {0, 0, 0, 0, 0, 0}};
-    return {b.inverse_mass[body], b.world_inverse_inertia[body]};
-}
 
 /// What a drive at q moves while its joint holds [kg], [kg m²]; 0 where nothing can move.
 inline double driven_mass(const World& world, const Joint& joint, const JointCoordinate& q,
@@ -20,11 +16,21 @@ inline double driven_mass(const World& world, const Joint& joint, const JointCoo
                      inverse_mass(world.bodies, joint.b));
 }
 
-/// `mass`: driven_mass of a motor that goes to a place; others do without. h: substep [s].
+/// Whether a drive has to know what it moves.
+inline bool asks_for_mass(const JointDrive& drive) {
+    return drive.kind == DriveKind::spring ||
+           (drive.kind == DriveKind::motor && drive.spec.motor.mode == MotorMode::position);
+}
+
+/// `mass`: driven_mass, of those that ask for it. h: substep [s].
 inline DriveRow drive_row(const World& world, const JointDrive& drive, const JointCoordinate& q,
                           double mass, double h) {
     const JointAxisSpec& spec = drive.spec;
+    const Joint& joint = world.joints.joints[drive.joint];
     const MotorTarget target = motor_target(spec.motor, world.time + h);
+    const SubstepTime time = substep_time(world, h);
+    const Bodies& b = world.bodies;
+    const AxisMotion axis{q.value, joint_rate_before(b, joint, q), mass};
     switch (drive.kind) {
         case DriveKind::limit:
             return limit_row(q.value, spec.lower, spec.upper, world.settings.stiffness,
@@ -32,20 +38,15 @@ inline DriveRow drive_row(const World& world, const JointDrive& drive, const Joi
         case DriveKind::motor:
             if (spec.motor.mode == MotorMode::velocity)
                 return velocity_motor_row(target.value, spec.motor.greatest, h);
-            return position_motor_row(q.value, target.value, target.speed, spec.motor, mass, h);
+            return position_motor_row(axis, target.value, target.speed, spec.motor, time);
         case DriveKind::spring:
-            return spring_row(q.value, spec.rest, 0, spec.stiffness, spec.damping, h);
+            return spring_row(axis, spec.rest, 0, spec.stiffness, spec.damping, time);
         case DriveKind::friction:
             return friction_row(spec.friction, h);
         case DriveKind::speed:
-            return speed_row(joint_rate(world.bodies, world.joints.joints[drive.joint], q),
-                             spec.greatest_speed);
+            return speed_row(joint_rate(b, joint, q), spec.greatest_speed);
     }
     return {};
-}
-
-inline bool goes_to_a_place(const JointDrive& drive) {
-    return drive.kind == DriveKind::motor && drive.spec.motor.mode == MotorMode::position;
 }
 
 }  // namespace plumb

@@ -8,6 +8,7 @@
 #include "kernels/contact_kernels.h"
 #include "step/body_columns.h"
 #include "step/stages.h"
+#include "step/substep_time.h"
 
 #include <Eigen/LU>
 
@@ -58,8 +59,7 @@ void integrate_velocities(World& world, const Plan& plan, const MotionLists& lis
     const BodyColumns columns = columns_of(world.bodies);
     const Vector3d& g = world.settings.gravity;
     const double gravity[3] = {g.x(), g.y(), g.z()};
-    const bool starts = world.settings.leapfrog_start && world.time == 0;
-    const double push = starts ? 0.5 * h : h;
+    const double push = h * substep_time(world, h).part;
     kernels.integrate(columns, list_of(lists.plain), gravity, h, push);
     kernels.integrate_turning(columns, list_of(lists.turning), gravity, h, push);
     if (plan.runs(Effect::gyroscopic) && world.settings.gyroscopic != Gyroscopic::conserving)

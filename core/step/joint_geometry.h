@@ -5,8 +5,37 @@
 #include "constraints/joint_rows.h"
 #include "step/joint_state.h"
 #include "step/lever_of.h"
+#include "step/substep_time.h"
 
 namespace plumb {
+
+inline InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t body) {
+    if (body == kNoIndex) return {0, {0, 0, 0, 0, 0, 0}};
+    return {b.inverse_mass[body], b.world_inverse_inertia[body]};
+}
+
+/// Makes springs of the rows that have compliance; h: substep [s].
+inline void soften(JointGeometry<double>& g, const World& world, const Joint& joint, double h) {
+    const Bodies& b = world.bodies;
+    const auto before = [&](std::uint32_t body) -> Velocity<double> {
+        if (body == kNoIndex) return {Vector3d::Zero(), Vector3d::Zero()};
+        return {b.velocity_now[body], b.angular_velocity_now[body]};
+    };
+    const Velocity<double> rest = before(kNoIndex);
+    const JointRows<double> now = joint_rows<double>(g, rest, rest, h),
+                            next = joint_rows<double>(g, before(joint.a), before(joint.b), h);
+    double response[6][6];
+    joint_response<double>(response, now, g, inverse_mass(b, joint.a), inverse_mass(b, joint.b));
+    const double part = substep_time(world, h).part;
+    for (std::uint32_t k = 0; k < kJointAxes; ++k) {
+        const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
+        if (!(g.lock[k] > 0) || !(alpha > 0)) continue;
+        const SpringShares share = spring_shares(h * h * response[k][k] / alpha, 0, part);
+        g.softness[k] = alpha / (part * share.ahead * h * h);
+        g.lag[k] =
+            now.c[k] * (1 - 1 / share.ahead) + share.back / share.ahead * (next.c[k] - now.c[k]);
+    }
+}
 
 /// With arms that stay where they are; h: substep [s].
 inline JointGeometry<double> joint_geometry(const World& world, const Joint& joint, double h) {
@@ -24,13 +53,13 @@ inline JointGeometry<double> joint_geometry(const World& world, const Joint& joi
         if (joint.b != kNoIndex) g.w[k] = b.orientation[joint.b] * g.w[k];
     }
     for (std::uint32_t k = 0; k < kJointAxes; ++k) {
-        const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
         g.lock[k] = joint.locked[k] && !joint.broken;
-        g.softness[k] = alpha / (h * h);
+        g.softness[k] = g.lag[k] = 0;
     }
     g.lever_a = g.lever_b = {0, Vector3d::Zero()};
     g.length = joint.locked[kAlongX] ? joint.length : 0;
     g.line_share = 0, g.line_lag = Vector3d::Zero();
+    if (joint.compliance > 0 || joint.angular_compliance > 0) soften(g, world, joint, h);
     return g;
 }
 

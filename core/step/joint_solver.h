@@ -143,6 +143,7 @@ private:
         for (std::uint32_t k = 0; k < kJointAxes; ++k) {
             block.lock[k][lane] = static_cast<Real>(g.lock[k]);
             block.softness[k][lane] = static_cast<Real>(g.softness[k]);
+            block.lag[k][lane] = static_cast<Real>(g.lag[k]);
             block.lambda[k][lane] = 0;
         }
         block.share_a[lane] = static_cast<Real>(g.lever_a.share);
@@ -158,7 +159,7 @@ private:
         const JointCoordinate q = joint_coordinate(world, drive.joint, drive.axis);
         const double k = row_response(q, inverse_mass(world.bodies, joint.a),
                                       inverse_mass(world.bodies, joint.b));
-        const double mass = goes_to_a_place(drive) ? driven_mass(world, joint, q, h) : 0;
+        const double mass = asks_for_mass(drive) ? driven_mass(world, joint, q, h) : 0;
         const DriveRow row = drive_row(world, drive, q, mass, h);
         DriveBlock<Real, W>& block = drives_.block(item);
         const std::uint32_t lane = drives_.lane(item);

@@ -49,12 +49,23 @@ JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::u
     return q;
 }
 
-double joint_rate(const Bodies& b, const Joint& joint, const JointCoordinate& q) {
+namespace {
+
+double rate_of(const std::vector<Vector3d>& v, const std::vector<Vector3d>& w, const Joint& joint,
+               const JointCoordinate& q) {
     const auto part = [&](std::uint32_t body, const Vector3d& turn) {
-        if (body == kNoIndex) return 0.0;
-        return q.along.dot(b.velocity[body]) + turn.dot(b.angular_velocity[body]);
+        return body == kNoIndex ? 0.0 : q.along.dot(v[body]) + turn.dot(w[body]);
     };
     return part(joint.a, q.turn_a) - part(joint.b, q.turn_b);
+}
+
+}  // namespace
+
+double joint_rate(const Bodies& b, const Joint& joint, const JointCoordinate& q) {
+    return rate_of(b.velocity, b.angular_velocity, joint, q);
+}
+double joint_rate_before(const Bodies& b, const Joint& joint, const JointCoordinate& q) {
+    return rate_of(b.velocity_now, b.angular_velocity_now, joint, q);
 }
 
 JointLoad joint_load(const World& world, std::uint32_t index) {

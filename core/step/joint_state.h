@@ -20,6 +20,8 @@ JointCoordinate joint_coordinate(const World& world, std::uint32_t joint, std::u
 
 /// How fast a coordinate of a joint changes [m/s], [rad/s].
 double joint_rate(const Bodies& bodies, const Joint& joint, const JointCoordinate& q);
+/// And how fast it did before forces acted in this substep.
+double joint_rate_before(const Bodies& bodies, const Joint& joint, const JointCoordinate& q);
 
 /// Force at the joint's point of a and torque on a, from b; world frame [N], [N m]. Motors,
 /// springs, limits and friction of the joint are part of it. The mean of the last two substeps:

@@ -58,6 +58,8 @@ public:
         for (const Variant& v : kVariants)
             if (!v.called_by || plan_.runs(*v.called_by))
                 climb(v.name, "single", Ladder::substeps, colliders_.front(), v.setting);
+        climb(std::string(kLeapfrogCurve), "single", Ladder::step, colliders_.front(),
+              "leapfrog_start=true", {"substeps=1"});
         if (plan_.runs(Effect::joints) && !plan_.runs(Effect::joint_trees))
             climb("joints as trees", "single", Ladder::substeps, colliders_.front(), "joints=tree");
         for (const std::string& collider : colliders_) {
@@ -111,9 +113,10 @@ private:
         }
     }
 
-    /// A point for each rung of a ladder.
+    /// A point for each rung of a ladder; `more`: settings beside the one that makes the curve.
     void climb(const std::string& curve, const std::string& precision, Ladder ladder,
-               const std::string& collider, const std::string& setting) {
+               const std::string& collider, const std::string& setting,
+               const std::vector<std::string>& more = {}) {
         const auto& wanted = choice_.curves;
         if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), curve) == wanted.end())
             return;
@@ -127,6 +130,7 @@ private:
                 .settings = {}};
         if (!setting.empty()) p.settings.push_back(setting);
         p.settings.push_back("precision=" + precision);
+        p.settings.insert(p.settings.end(), more.begin(), more.end());
         const auto add = [&](double value, std::vector<std::string> rung) {
             Point& made = points_.emplace_back(p);
             made.value = value;

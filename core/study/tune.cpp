@@ -35,31 +35,29 @@ public:
 
     TuneResult run() {
         colliders_.check_abilities(colliders_.find(collider_), subject_.scene);
-        Choice best = refine({});
+        Choice best = refine({}, &Choice::substeps);
         Choice finer;
         finer.substeps = 4;
         for (finer.step_share = 0.25;
              !reaches(best) && options_.error > 0 && may_run() && finer.step_share > kFinestStep;
              finer.step_share /= 4)
-            best = better_of(best, refine(finer));
+            best = better_of(best, refine(finer, &Choice::substeps));
         if (!reaches(best) && options_.error > 0) {
             Choice exact = best;
             exact.is_double = true;
             best = better_of(best, exact);
         }
         for (const bool coarser : {true, false}) best = walk(best, coarser);
+        if (has_joints_) best = better_of(best, joints_otherwise(best));
+        best = better_of(best, many_iterations(best));
         best = better_of(best, with_iterations(best));
-        if (has_joints_) {
-            Choice other = best;
-            other.joints = solves_trees_ ? "iterate" : "tree";
-            best = better_of(best, other);
-        }
         verify(best);
         return std::move(result_);
     }
 
 private:
-    static constexpr std::uint32_t kMostSubsteps = 2048;
+    using Knob = std::uint32_t Choice::*;  ///< what is refined
+    static constexpr std::uint32_t kMost = 2048;
 
     /// Runs that may be made before the one that verifies.
     bool may_run() {
@@ -129,40 +127,40 @@ private:
         return error_of(b) < error_of(a) ? b : a;
     }
 
-    /// How many substeps will do, by the two trials that came last: the error as a power of them,
-    /// or the cost in proportion.
-    std::uint32_t foretold(const Choice& before, const Choice& last) {
+    /// How many will do of what is refined, by the two trials that came last: the error as a power
+    /// of it, or the cost in proportion.
+    std::uint32_t foretold(const Choice& before, const Choice& last, Knob knob) {
         double factor = 2;
         if (options_.error > 0) {
             const double falls = std::log(error_of(before) / error_of(last));
-            const double finer = std::log(double(last.substeps) / before.substeps);
+            const double finer = std::log(double(last.*knob) / before.*knob);
             const double order = std::clamp(falls / finer, 0.5, 4.0);
             if (std::isfinite(falls))
                 factor = std::pow(error_of(last) / (kAim * options_.error), 1 / order);
         } else {
             factor = kAim * options_.time / cost_of(last);
         }
-        const double wanted = std::clamp(factor, 1.0 / 16, 8.0) * last.substeps;
-        return static_cast<std::uint32_t>(
-            std::clamp(std::ceil(wanted), 1.0, double(kMostSubsteps)));
+        const double wanted = std::clamp(factor, 1.0 / 16, 8.0) * last.*knob;
+        return static_cast<std::uint32_t>(std::clamp(std::ceil(wanted), 1.0, double(kMost)));
     }
 
-    /// Whether more substeps no longer help: the error is that of the steps between detections.
-    bool has_stalled(const Choice& before, const Choice& last) {
-        return options_.error > 0 && !reaches(last) && last.substeps > before.substeps &&
+    /// Whether more no longer help: the error is that of the steps between detections, or, of
+    /// iterations, that of the substeps.
+    bool has_stalled(const Choice& before, const Choice& last, Knob knob) {
+        return options_.error > 0 && !reaches(last) && last.*knob > before.*knob &&
                error_of(last) > kStalls * error_of(before);
     }
 
-    /// Substeps that just reach what is wanted, all else as in `start`.
-    Choice refine(const Choice& start) {
+    /// As many substeps or iterations as just reach what is wanted, all else as in `start`.
+    Choice refine(const Choice& start, Knob knob) {
         Choice before = start, last = start;
-        last.substeps = 2 * start.substeps;
+        last.*knob = 2 * start.*knob;
         error_of(before);
         Choice best = better_of(before, last);
-        for (int i = 0; i < kRefinements && may_run() && !has_stalled(before, last); ++i) {
+        for (int i = 0; i < kRefinements && may_run() && !has_stalled(before, last, knob); ++i) {
             Choice next = last;
-            next.substeps = foretold(before, last);
-            if (next.substeps == last.substeps || next.substeps == before.substeps) break;
+            next.*knob = foretold(before, last, knob);
+            if (next.*knob == last.*knob || next.*knob == before.*knob) break;
             error_of(next);
             best = better_of(best, next);
             before = last, last = next;
@@ -171,18 +169,33 @@ private:
         return best;
     }
 
-    /// The same substeps with detections half as often, or twice, as long as that helps.
+    /// The same substeps with detections half as often, or twice, as long as that helps; a single
+    /// substep is made longer itself.
     Choice walk(Choice best, bool coarser) {
         for (int i = 0; i < 2; ++i) {
             Choice next = best;
             next.step_share *= coarser ? 2 : 0.5;
-            next.substeps = coarser ? 2 * best.substeps : best.substeps / 2;
+            if (!coarser) next.substeps = best.substeps / 2;
+            if (coarser && best.substeps > 1) next.substeps = 2 * best.substeps;
             if (next.substeps == 0 || next.step_share > 4 || !may_run()) break;
             const Choice better = better_of(best, next);
             if (better == best) break;
             best = better;
         }
         return best;
+    }
+
+    /// A single substep with as many iterations as just reach what is wanted.
+    Choice many_iterations(const Choice& best) {
+        Choice single = best;
+        single.substeps = 1;
+        single.iterations = std::clamp(best.substeps * best.iterations, kFewest, 8 * kFewest);
+        return refine(single, &Choice::iterations);
+    }
+
+    Choice joints_otherwise(Choice c) const {
+        c.joints = solves_trees_ ? "iterate" : "tree";
+        return c;
     }
 
     static Choice with_iterations(Choice c) {
@@ -203,6 +216,7 @@ private:
     static constexpr double kNearEnough = 0.7;
     static constexpr double kStalls = 0.85, kFinestStep = 1.0 / 100;
     static constexpr int kRefinements = 4;
+    static constexpr std::uint32_t kFewest = 8;  ///< iterations of a single substep, tried first
 
     const Subject& subject_;
     const ColliderLibrary& colliders_;

@@ -2,9 +2,9 @@
 /// The cheapest settings that reach an error, found with few runs.
 ///
 /// The error of a run falls as a power of the substeps. Two runs give the power, the next go where
-/// it foretells the wanted error; then neighbours that do the same work in another way are tried:
-/// fewer detections, more iterations, the other way of solving joints, double precision where
-/// single stops. The best is run once more to verify it.
+/// it foretells the wanted error; then what does the same work in another way is tried: double
+/// precision where single stops, fewer detections or more, the other way of solving joints, a
+/// single substep with many iterations. The best is run once more to verify it.
 #pragma once
 
 #include "host/collider_library.h"

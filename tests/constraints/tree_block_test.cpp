@@ -21,7 +21,7 @@ struct Node {
     bool is_ball = false;
     double sign = 1;
     Vector3d arm, parent_arm, gap;
-    JointGeometry<double> geometry;
+    JointGeometry<double> geometry{};
     JointRows<double> rows;
     BodyBlock<double> body, block;  ///< as it is, and with all that hangs on it
     BallElimination<double> ball;

@@ -90,6 +90,11 @@ TEST_P(LeapfrogOrder, IsTwo) {
     EXPECT_NEAR(order_of(*study::find_case(GetParam()), refine_substeps, true), 2, 0.15);
 }
 
+/// Springs are taken to fourth order (constraints/spring.h).
+TEST(LeapfrogStart, TakesSpringsToFourthOrder) {
+    EXPECT_NEAR(order_of(*study::find_case("springs"), refine_substeps, true), 4, 0.15);
+}
+
 /// What README says of the pendulum at 64 substeps.
 TEST(LeapfrogStart, MakesThePendulumExactToMicroradians) {
     for (const bool leapfrog : {false, true}) {

@@ -76,7 +76,7 @@ Subject springs() {
                          [column](const World& w) { return too_far(column, w); }),
                  {"elongation", "", "error of the mean elongation",
                   [] { return std::make_unique<MeanJudge>(); }}};
-    s.tolerance = 0.15;
+    s.tolerance = 6e-3;
     s.orders = {.substeps = 1, .step = 1};
     return s;
 }
