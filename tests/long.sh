@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bash tests/long.sh: heaps of 300 bodies over ten simulated minutes, on every collider that may share a process. It takes
-# about an hour, and stands beside what continuous integration runs.
+# bash tests/long.sh: heaps of 300 bodies over ten simulated minutes, and structures over one at settings drawn at random,
+# on every collider that may share a process. It takes about an hour and a half, and stands beside what continuous
+# integration runs.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/setup.sh
@@ -15,4 +16,6 @@ heaps() {
 failed=0
 heaps cubes,capsules reference,ode,bullet,fcl || failed=1
 heaps hulls,tori ode,bullet,fcl || failed=1  # reference does not do them
+PLUMB_STRUCTURE_SECONDS=60 PLUMB_STRUCTURE_DRAWS=8 build/ci/bin/plumb_hard_tests \
+  --gtest_filter='*Structures.LargeOnes*:*Structures.RestAtDrawn*' || failed=1
 exit $failed

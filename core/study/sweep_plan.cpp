@@ -14,6 +14,9 @@
 namespace plumb::study {
 namespace {
 
+/// Steps that are not divided, up to four times as long as the subject's.
+constexpr const char* kOneSubstep = "one substep";
+
 constexpr std::array kSubsteps{1, 2, 4, 8, 16, 32, 64, 128, 256, 400};
 constexpr std::array kIterations{1, 2, 5, 10, 20, 50, 100, 200, 400};
 constexpr std::array kSteps{4.0,     2.0,      1.0,      1.0 / 2, 1.0 / 4,
@@ -58,20 +61,29 @@ public:
         for (const Variant& v : kVariants)
             if (!v.called_by || plan_.runs(*v.called_by))
                 climb(v.name, "single", Ladder::substeps, colliders_.front(), v.setting);
-        climb(std::string(kLeapfrogCurve), "single", Ladder::step, colliders_.front(),
-              "leapfrog_start=true", {"substeps=1"});
-        if (plan_.runs(Effect::joints) && !plan_.runs(Effect::joint_trees))
-            climb("joints as trees", "single", Ladder::substeps, colliders_.front(), "joints=tree");
+        const std::string& collider = colliders_.front();
+        climb(kOneSubstep, "single", Ladder::step, collider, "substeps=1");
+        climb(std::string(kLeapfrogCurve), "single", Ladder::step, collider, "leapfrog_start=true",
+              {"substeps=1"});
+        if (plan_.runs(Effect::joints) && !plan_.runs(Effect::joint_trees)) {
+            climb("joints as trees", "single", Ladder::substeps, collider, "joints=tree");
+            climb("joints as trees", "single", Ladder::step, collider, "joints=tree",
+                  {"substeps=1"});
+        }
+        climb_on_each_collider();
+        return std::move(points_);
+    }
+
+private:
+    void climb_on_each_collider() {
         for (const std::string& collider : colliders_) {
             if (collider != colliders_.front())
                 climb("pbd", "single", Ladder::substeps, collider, "");
             if (plan_.runs(Effect::contacts))
                 climb("raw contacts", "single", Ladder::substeps, collider, "contacts=raw");
         }
-        return std::move(points_);
     }
 
-private:
     /// The one that most curves run on, then those that can do the scene, too; where nothing
     /// touches, one is as good as any.
     void choose_colliders(const ColliderLibrary& library) {
@@ -161,7 +173,7 @@ private:
 }  // namespace
 
 std::vector<std::string> curve_names() {
-    std::vector<std::string> names{"pbd", "paper", "joints as trees", "raw contacts"};
+    std::vector<std::string> names{"pbd", "paper", kOneSubstep, "joints as trees", "raw contacts"};
     for (const Variant& v : kVariants) names.emplace_back(v.name);
     return names;
 }

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// Structures of loose boxes come to rest within 3 s and stay: no body moves at more than 0.1 mm/s
-/// or by 0.1 mm, and the contacts carry what statics says, to 1 %.
+/// or by 0.1 mm, and the contacts carry what statics says, to 1 %. PLUMB_STRUCTURE_SECONDS says how
+/// long large ones and those of drawn settings stand (12), and PLUMB_STRUCTURE_DRAWS how often
+/// settings are drawn for each (1); tests/long.sh: 60 and 8.
 #include "support/structures.h"
 #include "support/growth.h"
 #include "support/scenes.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <sstream>
 
@@ -13,6 +16,13 @@ namespace plumb::test {
 namespace {
 
 constexpr double kGravity = 9.81;
+
+int number_from(const char* variable, int otherwise) {
+    const char* value = std::getenv(variable);
+    return value ? std::atoi(value) : otherwise;
+}
+const double kSeconds = number_from("PLUMB_STRUCTURE_SECONDS", 12);
+const int kDraws = number_from("PLUMB_STRUCTURE_DRAWS", 1);
 
 /// Fastest motion of any point of a body [m/s].
 double fastest(const World& world) {
@@ -160,8 +170,9 @@ TEST_P(Structures, RestAtDefaultSettings) {
 
 TEST_P(Structures, LargeOnesRestAtDefaultSettings) {
     for (const auto& [name, structure] : large_structures()) {
-        expect_rests(scene(), collider(), structure, 12, name);
-        expect_rests(scene(), collider(), unevenly(structure, 1e-3, 4), 12, name + ", 1 mm off");
+        expect_rests(scene(), collider(), structure, kSeconds, name);
+        expect_rests(scene(), collider(), unevenly(structure, 1e-3, 4), kSeconds,
+                     name + ", 1 mm off");
     }
 }
 
@@ -172,23 +183,24 @@ TEST_P(Structures, CratesThatFallRest) {
 /// Steps, substeps, iterations, friction and unevenness drawn at random.
 TEST_P(Structures, RestAtDrawnSettings) {
     unsigned seed = 0;
-    for (const auto& [name, structure] : small_structures()) {
-        Random random(++seed * 7 + 1);
-        Scene s = scene();
-        s.settings.dt = random.number(0.002, 0.02);
-        s.settings.substeps = 1 + random.below(6);
-        s.settings.velocity_iterations = 3 + random.below(20);
-        s.settings.position_iterations = 3 + random.below(20);
-        s.materials[0].friction = random.number(0.3, 1);
-        s.materials[0].restitution = random.below(2) ? random.number(0, 0.8) : 0;
-        std::ostringstream drawn;
-        drawn << name << ", " << s.settings.dt << " s, " << s.settings.substeps << " x ("
-              << s.settings.velocity_iterations << " + " << s.settings.position_iterations
-              << "), friction " << s.materials[0].friction << ", restitution "
-              << s.materials[0].restitution;
-        expect_rests(s, collider(), unevenly(structure, random.number(0, 2e-3), seed), 12,
-                     drawn.str());
-    }
+    for (int draw = 0; draw < kDraws; ++draw)
+        for (const auto& [name, structure] : small_structures()) {
+            Random random(++seed * 7 + 1);
+            Scene s = scene();
+            s.settings.dt = random.number(0.002, 0.02);
+            s.settings.substeps = 1 + random.below(6);
+            s.settings.velocity_iterations = 3 + random.below(20);
+            s.settings.position_iterations = 3 + random.below(20);
+            s.materials[0].friction = random.number(0.3, 1);
+            s.materials[0].restitution = random.below(2) ? random.number(0, 0.8) : 0;
+            std::ostringstream drawn;
+            drawn << name << ", " << s.settings.dt << " s, " << s.settings.substeps << " x ("
+                  << s.settings.velocity_iterations << " + " << s.settings.position_iterations
+                  << "), friction " << s.materials[0].friction << ", restitution "
+                  << s.materials[0].restitution;
+            expect_rests(s, collider(), unevenly(structure, random.number(0, 2e-3), seed), kSeconds,
+                         drawn.str());
+        }
 }
 
 /// Twenty cubes, the topmost a thousand times heavier, at default settings and without shock
