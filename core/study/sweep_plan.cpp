@@ -62,7 +62,8 @@ public:
             if (!v.called_by || plan_.runs(*v.called_by))
                 climb(v.name, "single", Ladder::substeps, colliders_.front(), v.setting);
         const std::string& collider = colliders_.front();
-        climb(kOneSubstep, "single", Ladder::step, collider, "substeps=1");
+        for (const char* precision : {"single", "double"})
+            climb(kOneSubstep, precision, Ladder::step, collider, "substeps=1");
         climb(std::string(kLeapfrogCurve), "single", Ladder::step, collider, "leapfrog_start=true",
               {"substeps=1"});
         if (plan_.runs(Effect::joints) && !plan_.runs(Effect::joint_trees)) {
