@@ -5,8 +5,8 @@
 ///
 /// Joints make trees in generalized coordinates; what closes a loop, and a gear, is a constraint.
 /// Springs are bushings without stiffness against turns. The stepper has its own defaults (direct
-/// solver, Poisson's restitution). A library with assertions, as Debian's is, prints what its
-/// stepper does: of such a one it is left out.
+/// solver, Poisson's restitution), but repairs overlaps only, with which stacks stand. A library
+/// with assertions, as Debian's is, prints what its stepper does: of such a one it is left out.
 #include "accuracy/peer.h"
 #include "accuracy/simbody_contacts.h"
 #include "accuracy/tree.h"
@@ -97,7 +97,7 @@ private:
         if (method == Method::rigid) {
             stepper_ = std::make_unique<st::SemiExplicitEulerTimeStepper>(system_);
             stepper_->setConstraintTolerance(kTolerance);
-            stepper_->setDefaultImpactMinCORVelocity(0);
+            stepper_->setPositionProjectionMethod(st::SemiExplicitEulerTimeStepper::Unilateral);
             return stepper_->initialize(state);
         }
         if (method == Method::merson)
