@@ -2,11 +2,11 @@
 /// DART 6.12: contacts by Dantzig's direct solver, its default ("dart"), and by Gauss and Seidel's
 /// iterations ("dart quick").
 ///
-/// As Debian builds it, with its assertions. Its own defaults for ERP (0.01), the greatest speed of
-/// a push out (1 mm/s), CFM (1e-5 of the diagonal) and friction (a pyramid). Its own collision
-/// detector, which has boxes and spheres in closed form; a plane is a large box. The iterations end
-/// by their number only. Joints make trees in generalized coordinates; what closes a loop is a
-/// constraint. Springs are forces, for those of DART's joints are damped by implicit Euler.
+/// Its own defaults for ERP (0.01), the greatest speed of a push out (1 mm/s), CFM (1e-5 of the
+/// diagonal) and friction (a pyramid). Its own collision detector, which has boxes and spheres in
+/// closed form; a plane is a large box. The iterations end by their number only. Joints make trees
+/// in generalized coordinates; what closes a loop is a constraint. Springs are forces, for those of
+/// DART's joints are damped by implicit Euler.
 #include "accuracy/dart_solver.h"
 #include "accuracy/peer.h"
 #include "accuracy/tree.h"
