@@ -14,7 +14,8 @@ import sys
 ROUNDING = 1e-12  # errors below count as this
 USELESS = 0.1  # of a length in m, of an angle in rad, of a ratio: nobody would want a larger error
 SAMPLES = 50
-COLOURS = ["#cc3311", "#0077bb", "#33bbee", "#117733", "#88bb55", "#aa4499", "#ddaa33", "#777777"]
+COLOURS = ["#cc3311", "#0077bb", "#33bbee", "#882255", "#cc6677", "#117733", "#88bb55", "#aa4499", "#ddaa33", "#777777",
+           "#332288", "#44aa99", "#999933"]
 
 
 def rows(path):
