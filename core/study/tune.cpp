@@ -28,6 +28,7 @@ public:
         : subject_(subject), colliders_(colliders), options_(options) {
         const Plan plan = make_plan(build_world(subject.scene));
         has_joints_ = plan.runs(Effect::joints);
+        sweeps_ = plan.runs(Effect::contacts) || (has_joints_ && !plan.runs(Effect::joint_trees));
         solves_trees_ = plan.runs(Effect::joint_trees);
         collider_ = options.collider == "auto" ? colliders.choose(subject.scene).collider->name
                                                : options.collider;
@@ -47,9 +48,9 @@ public:
             exact.is_double = true;
             best = better_of(best, exact);
         }
+        if (sweeps_) best = better_of(best, many_iterations(best));
         for (const bool coarser : {true, false}) best = walk(best, coarser);
         if (has_joints_) best = better_of(best, joints_otherwise(best));
-        best = better_of(best, many_iterations(best));
         best = better_of(best, with_iterations(best));
         verify(best);
         return std::move(result_);
@@ -185,11 +186,11 @@ private:
         return best;
     }
 
-    /// A single substep with as many iterations as just reach what is wanted.
+    /// The scene's steps undivided, with as many iterations as just reach what is wanted.
     Choice many_iterations(const Choice& best) {
         Choice single = best;
-        single.substeps = 1;
-        single.iterations = std::clamp(best.substeps * best.iterations, kFewest, 8 * kFewest);
+        single.step_share = 1, single.substeps = 1;
+        single.iterations = kManyIterations;
         return refine(single, &Choice::iterations);
     }
 
@@ -216,12 +217,13 @@ private:
     static constexpr double kNearEnough = 0.7;
     static constexpr double kStalls = 0.85, kFinestStep = 1.0 / 100;
     static constexpr int kRefinements = 4;
-    static constexpr std::uint32_t kFewest = 8;  ///< iterations of a single substep, tried first
+    static constexpr std::uint32_t kManyIterations = 10;  ///< of an undivided step, tried first
 
     const Subject& subject_;
     const ColliderLibrary& colliders_;
     const TuneOptions& options_;
     bool has_joints_ = false, solves_trees_ = false;
+    bool sweeps_ = false;  ///< whether iterations change anything
     std::string collider_;
     std::vector<Choice> choices_;  ///< [trial]
     TuneResult result_;
