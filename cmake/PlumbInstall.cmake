@@ -10,7 +10,11 @@ install(TARGETS plumb_interfaces plumb_scene plumb_core plumb_host EXPORT plumbT
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/interfaces/plumb" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/core/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/plumb/core"
   FILES_MATCHING PATTERN "*.h"
-  PATTERN "app" EXCLUDE PATTERN "output" EXCLUDE PATTERN "reader" EXCLUDE PATTERN "study" EXCLUDE PATTERN "kernels" EXCLUDE)
+  PATTERN "app" EXCLUDE PATTERN "kernels" EXCLUDE)
+# What needs packages beyond those of the solver: find_package(plumb COMPONENTS reader output study).
+install(TARGETS plumb_reader plumb_output plumb_study EXPORT plumbStudyTargets
+  ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
+install(EXPORT plumbStudyTargets NAMESPACE plumb:: DESTINATION "${PLUMB_CMAKE_DIR}")
 install(TARGETS plumb_app RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
 if(TARGET plumb_check_collider)
   install(TARGETS plumb_check_collider RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
