@@ -17,6 +17,7 @@ namespace {
 struct Options {
     std::string subject, collider = "auto", metric, budget = "4m", plugin_path;
     double error = 0, time = 0;
+    std::uint32_t reference = 0;
     bool quiet = false;
 };
 
@@ -109,7 +110,7 @@ int tune(const Options& o) {
     const ColliderLibrary colliders(o.plugin_path);
     catch_interrupts();
     study::Subject subject =
-        subject_named(o.subject, colliders, o.collider, kForReferences * seconds);
+        subject_named(o.subject, colliders, o.collider, kForReferences * seconds, o.reference);
     if (!o.metric.empty()) choose_metric(subject, o.metric);
     check_reach(o, subject);
 
@@ -163,6 +164,12 @@ Verb add_tune(CLI::App& command) {
         .add_option("--collider", o->collider,
                     "collision plugin; auto = the cheapest that can do the scene")
         ->type_name("NAME");
+    command
+        .add_option("--reference", o->reference,
+                    "substeps of a scene's reference to one of its steps; as many as a quarter of "
+                    "the budget allows unless told")
+        ->check(CLI::Range(8u, 1u << 20))
+        ->type_name("N");
     command
         .add_option("--budget", o->budget,
                     "time for all runs, of which the references of a scene may take a quarter; "

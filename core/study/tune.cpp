@@ -141,7 +141,7 @@ private:
         } else {
             factor = kAim * options_.time / cost_of(last);
         }
-        const double wanted = std::clamp(factor, 1.0 / 16, 8.0) * last.*knob;
+        const double wanted = std::clamp(factor, 1.0 / 16, kFarthest) * last.*knob;
         return static_cast<std::uint32_t>(std::clamp(std::ceil(wanted), 1.0, double(kMost)));
     }
 
@@ -166,18 +166,22 @@ private:
             best = better_of(best, next);
             before = last, last = next;
             if (reaches(last) && error_of(last) > kNearEnough * options_.error) break;
+            const double apart =
+                double(std::max(last.*knob, before.*knob)) / std::min(last.*knob, before.*knob);
+            if (reaches(last) != reaches(before) && apart < kCloseEnough) break;
         }
         return best;
     }
 
-    /// The same substeps with detections half as often, or twice, as long as that helps; a single
-    /// substep is made longer itself.
+    /// The same substeps with detections half as often, or twice, as long as that helps. A step
+    /// that is not divided is made longer itself, with more iterations, but fewer in all.
     Choice walk(Choice best, bool coarser) {
         for (int i = 0; i < 2; ++i) {
             Choice next = best;
             next.step_share *= coarser ? 2 : 0.5;
             if (!coarser) next.substeps = best.substeps / 2;
             if (coarser && best.substeps > 1) next.substeps = 2 * best.substeps;
+            if (coarser && best.substeps == 1 && sweeps_) next.iterations += best.iterations / 2;
             if (next.substeps == 0 || next.step_share > 4 || !may_run()) break;
             const Choice better = better_of(best, next);
             if (better == best) break;
@@ -215,6 +219,7 @@ private:
 
     static constexpr double kAim = 0.9;  ///< share of what is allowed that is aimed at
     static constexpr double kNearEnough = 0.7;
+    static constexpr double kFarthest = 4, kCloseEnough = 1.4;  ///< of what is refined, as a factor
     static constexpr double kStalls = 0.85, kFinestStep = 1.0 / 100;
     static constexpr int kRefinements = 4;
     static constexpr std::uint32_t kManyIterations = 10;  ///< of an undivided step, tried first
