@@ -22,8 +22,9 @@ struct DriveRow {
 
 /// An axis at the start of a substep.
 struct AxisMotion {
-    double q, rate;  ///< now [m], [rad]; before forces act [m/s], [rad/s]
-    double mass;     ///< that the row feels [kg], [kg m²]; 0 where nothing can move
+    double q, rate;           ///< now [m], [rad]; before forces act [m/s], [rad/s]
+    double mass;              ///< that the row feels [kg], [kg m²]; 0 where nothing can move
+    std::uint32_t crowd = 1;  ///< springs on one of its bodies, at the most
 };
 
 /// A spring that at the end of the substep is at ease at `rest`, which itself moves at `speed`.
@@ -32,7 +33,8 @@ inline DriveRow spring_row(const AxisMotion& axis, double rest, double speed, do
     constexpr double any = std::numeric_limits<double>::infinity();
     const double h = time.h, part = time.part;
     const auto per_mass = [&](double x) { return axis.mass > 0 ? x / axis.mass : any; };
-    const SpringShares share = spring_shares(per_mass(h * h * k), per_mass(h * d), part);
+    const SpringShares share =
+        spring_shares(per_mass(h * h * k), per_mass(h * d), part, axis.crowd);
     const double slope = share.ahead * h * k + (1 - share.damper_back) * d;
     if (!(slope > 0)) return {};
     const double x = axis.q - (rest - h * speed), before = axis.rate - speed;
@@ -55,8 +57,9 @@ inline DriveRow limit_row(double q, double lower, double upper, double s, double
 }
 
 /// Holds a speed with at most the motor's force.
-inline DriveRow velocity_motor_row(double speed, double greatest, double h) {
-    return {-speed, 0, -greatest * h, greatest * h};
+inline DriveRow velocity_motor_row(double speed, double greatest, const SubstepTime& time) {
+    const double most = greatest * time.push();
+    return {-speed, 0, -most, most};
 }
 
 /// Goes to a place as a damped oscillator of the given frequency would: k = m ω², d = 2 ζ m ω, with
@@ -67,13 +70,14 @@ inline DriveRow position_motor_row(const AxisMotion& axis, double place, double 
     const double omega = kTurn * motor.frequency;
     DriveRow row = spring_row(axis, place, speed, axis.mass * omega * omega,
                               2 * motor.damping_ratio * axis.mass * omega, time);
-    row.lowest = -motor.greatest * time.h, row.highest = motor.greatest * time.h;
+    row.highest = motor.greatest * time.push(), row.lowest = -row.highest;
     return row;
 }
 
 /// Stands still with at most the given force.
-inline DriveRow friction_row(double greatest, double h) {
-    return {0, 0, -greatest * h, greatest * h};
+inline DriveRow friction_row(double greatest, const SubstepTime& time) {
+    const double most = greatest * time.push();
+    return {0, 0, -most, most};
 }
 
 /// Keeps a speed, now `rate`, within `greatest` to the side to which it goes.

@@ -16,6 +16,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstdint>
 
 namespace plumb {
 
@@ -23,22 +24,25 @@ namespace plumb {
 /// of a leapfrog start.
 struct SubstepTime {
     double h, part = 1;
+
+    double push() const { return part * h; }  ///< for how long forces push [s]
 };
 
-/// θ, β and σ.
+/// θ and β, divided by the part, and σ.
 struct SpringShares {
     double ahead = 1, back = 0, damper_back = 0;
 };
 
 /// Of a spring with z, and of a damper with y, both at least 0; infinite where nothing can move.
-/// In the first substep of a leapfrog start rates change by half as much as from one substep to the
-/// next, and half a push of the force that is met at h/3 makes the first way as exact as the
-/// others.
-inline SpringShares spring_shares(double z, double y, double part) {
+/// `crowd`: springs that act on one of its bodies, at the most; together they swing by the sum of
+/// their z. In the first substep of a leapfrog start rates change by half as much as from one
+/// substep to the next; and half a push of the force that is met at h/3 gives the first
+/// displacement to third order, x₀ + h v + h²/2 f(x₀ + h v/3).
+inline SpringShares spring_shares(double z, double y, double part, std::uint32_t crowd) {
     const auto follows = [](double x) { return std::clamp((4 - x) / 3, 0.0, 1.0); };
-    const double kept = 1.0 / 12 + std::min(z * z, 1.0) / 6, share = follows(z);
+    const double kept = 1.0 / 12 + std::min(z * z, 1.0) / 6, share = follows(crowd * z);
     const double ahead = 1 - share * (1 - kept), back = share * kept;
-    return {ahead / part, back / part - share * (1 - part) * 2 / 3, 0.5 * follows(y)};
+    return {ahead / part, back / part - share * (1 - part) * 2 / 3, 0.5 * follows(crowd * y)};
 }
 
 }  // namespace plumb

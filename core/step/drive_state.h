@@ -10,19 +10,13 @@
 namespace plumb {
 
 /// What a drive at q moves while its joint holds [kg], [kg m²]; 0 where nothing can move.
-inline double driven_mass(const World& world, const Joint& joint, const JointCoordinate& q,
-                          double h) {
-    return felt_mass(joint_geometry(world, joint, h), q, inverse_mass(world.bodies, joint.a),
+inline double driven_mass(const World& world, const Joint& joint, const JointGeometry<double>& g,
+                          const JointCoordinate& q) {
+    return felt_mass(g, q, inverse_mass(world.bodies, joint.a),
                      inverse_mass(world.bodies, joint.b));
 }
 
-/// Whether a drive has to know what it moves.
-inline bool asks_for_mass(const JointDrive& drive) {
-    return drive.kind == DriveKind::spring ||
-           (drive.kind == DriveKind::motor && drive.spec.motor.mode == MotorMode::position);
-}
-
-/// `mass`: driven_mass, of those that ask for it. h: substep [s].
+/// `mass`: driven_mass, of springs. h: substep [s].
 inline DriveRow drive_row(const World& world, const JointDrive& drive, const JointCoordinate& q,
                           double mass, double h) {
     const JointAxisSpec& spec = drive.spec;
@@ -30,19 +24,19 @@ inline DriveRow drive_row(const World& world, const JointDrive& drive, const Joi
     const MotorTarget target = motor_target(spec.motor, world.time + h);
     const SubstepTime time = substep_time(world, h);
     const Bodies& b = world.bodies;
-    const AxisMotion axis{q.value, joint_rate_before(b, joint, q), mass};
+    const AxisMotion axis{q.value, joint_rate_before(b, joint, q), mass, joint.crowd};
     switch (drive.kind) {
         case DriveKind::limit:
             return limit_row(q.value, spec.lower, spec.upper, world.settings.stiffness,
                              world.settings.recovery_speed, h);
         case DriveKind::motor:
             if (spec.motor.mode == MotorMode::velocity)
-                return velocity_motor_row(target.value, spec.motor.greatest, h);
+                return velocity_motor_row(target.value, spec.motor.greatest, time);
             return position_motor_row(axis, target.value, target.speed, spec.motor, time);
         case DriveKind::spring:
             return spring_row(axis, spec.rest, 0, spec.stiffness, spec.damping, time);
         case DriveKind::friction:
-            return friction_row(spec.friction, h);
+            return friction_row(spec.friction, time);
         case DriveKind::speed:
             return speed_row(joint_rate(b, joint, q), spec.greatest_speed);
     }

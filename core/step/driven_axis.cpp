@@ -30,7 +30,8 @@ DrivenAxis::DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint3
 void DrivenAxis::begin(const World& world, double h) {
     const JointDrive& leader = world.joints.drives[first_];
     q_ = joint_coordinate(world, leader.joint, leader.axis);
-    const double mass = driven_mass(world, world.joints.joints[leader.joint], q_, h);
+    const Joint& joint = world.joints.joints[leader.joint];
+    const double mass = driven_mass(world, joint, joint_geometry(world, joint, h), q_);
     response_ = bare_ = mass > 0 ? 1 / mass : 0;
     drive_ = {};
     for (std::uint32_t i = first_; i < last_; ++i)

@@ -59,7 +59,7 @@ void integrate_velocities(World& world, const Plan& plan, const MotionLists& lis
     const BodyColumns columns = columns_of(world.bodies);
     const Vector3d& g = world.settings.gravity;
     const double gravity[3] = {g.x(), g.y(), g.z()};
-    const double push = h * substep_time(world, h).part;
+    const double push = substep_time(world, h).push();
     kernels.integrate(columns, list_of(lists.plain), gravity, h, push);
     kernels.integrate_turning(columns, list_of(lists.turning), gravity, h, push);
     if (plan.runs(Effect::gyroscopic) && world.settings.gyroscopic != Gyroscopic::conserving)

@@ -14,6 +14,25 @@ inline InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t body) {
     return {b.inverse_mass[body], b.world_inverse_inertia[body]};
 }
 
+/// What row k of a joint's response leaves while its rigid rows hold [1/kg], [1/(kg m²)].
+template <class IsRigid>
+inline double response_beside(const double (&response)[6][6], std::uint32_t k,
+                              const IsRigid& is_rigid) {
+    const auto at = [&](std::uint32_t i, std::uint32_t j) {
+        return response[std::max(i, j)][std::min(i, j)];
+    };
+    double rigid[6][6], crossed[6], solved[6];
+    for (std::uint32_t i = 0; i < 6; ++i) {
+        for (std::uint32_t j = 0; j < 6; ++j)
+            rigid[i][j] = is_rigid(i) && is_rigid(j) ? at(i, j) : i == j;
+        crossed[i] = solved[i] = is_rigid(i) ? at(i, k) : 0;
+    }
+    solve_ldlt<double, 6>(rigid, solved);
+    double left = at(k, k);
+    for (int i = 0; i < 6; ++i) left -= crossed[i] * solved[i];
+    return std::max(left, 0.0);
+}
+
 /// Makes springs of the rows that have compliance; h: substep [s].
 inline void soften(JointGeometry<double>& g, const World& world, const Joint& joint, double h) {
     const Bodies& b = world.bodies;
@@ -26,11 +45,15 @@ inline void soften(JointGeometry<double>& g, const World& world, const Joint& jo
                             next = joint_rows<double>(g, before(joint.a), before(joint.b), h);
     double response[6][6];
     joint_response<double>(response, now, g, inverse_mass(b, joint.a), inverse_mass(b, joint.b));
+    const auto is_rigid = [&](std::uint32_t k) {
+        return g.lock[k] > 0 && !(joint.compliance_of(k) > 0);
+    };
     const double part = substep_time(world, h).part;
     for (std::uint32_t k = 0; k < kJointAxes; ++k) {
-        const double alpha = k < kTurnX ? joint.compliance : joint.angular_compliance;
+        const double alpha = joint.compliance_of(k);
         if (!(g.lock[k] > 0) || !(alpha > 0)) continue;
-        const SpringShares share = spring_shares(h * h * response[k][k] / alpha, 0, part);
+        const double z = h * h * response_beside(response, k, is_rigid) / alpha;
+        const SpringShares share = spring_shares(z, 0, part, joint.crowd);
         g.softness[k] = alpha / (part * share.ahead * h * h);
         g.lag[k] =
             now.c[k] * (1 - 1 / share.ahead) + share.back / share.ahead * (next.c[k] - now.c[k]);

@@ -34,8 +34,7 @@ public:
                              frames_.size());
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
             fill_block(world, joints[block_joints_[i]], i, h);
-        for (std::size_t i = 0; i < driven_.size(); ++i)
-            fill_drive(world, world.joints.drives[driven_[i]], i, h);
+        fill_drives(world, h);
         couplings_.begin(world, h);
     }
 
@@ -154,12 +153,28 @@ private:
         block.length[lane] = static_cast<Real>(g.length);
     }
 
-    void fill_drive(const World& world, const JointDrive& drive, std::size_t item, double h) {
+    /// Drives stand by joint, so that its geometry is made once.
+    void fill_drives(const World& world, double h) {
+        std::uint32_t joint = kNoIndex;
+        JointGeometry<double> geometry;
+        for (std::size_t i = 0; i < driven_.size(); ++i) {
+            const JointDrive& drive = world.joints.drives[driven_[i]];
+            if (drive.is_spring() && drive.joint != joint) {
+                joint = drive.joint;
+                geometry = joint_geometry(world, world.joints.joints[joint], h);
+            }
+            fill_drive(world, drive, geometry, i, h);
+        }
+    }
+
+    /// `geometry`: of the joint, where the drive is a spring.
+    void fill_drive(const World& world, const JointDrive& drive,
+                    const JointGeometry<double>& geometry, std::size_t item, double h) {
         const Joint& joint = world.joints.joints[drive.joint];
         const JointCoordinate q = joint_coordinate(world, drive.joint, drive.axis);
         const double k = row_response(q, inverse_mass(world.bodies, joint.a),
                                       inverse_mass(world.bodies, joint.b));
-        const double mass = asks_for_mass(drive) ? driven_mass(world, joint, q, h) : 0;
+        const double mass = drive.is_spring() ? driven_mass(world, joint, geometry, q) : 0;
         const DriveRow row = drive_row(world, drive, q, mass, h);
         DriveBlock<Real, W>& block = drives_.block(item);
         const std::uint32_t lane = drives_.lane(item);

@@ -218,6 +218,34 @@ void append_coupling(World& world, JointCoupling coupling) {
     world.joints.couplings.push_back(coupling);
 }
 
+void count_springs(World& world) {
+    JointTable& table = world.joints;
+    std::vector<std::uint32_t> of_joint(table.size(), 0), of_body(world.bodies.size(), 0);
+    const auto spring = [](const Joint& joint, std::uint32_t k) {
+        return joint.locked[k] && joint.compliance_of(k) > 0;
+    };
+    // along its axes, which are at right angles, a joint is one spring, and about them another
+    std::vector<std::array<bool, 2>> springs(table.size());
+    for (std::uint32_t i = 0; i < table.size(); ++i)
+        for (std::uint32_t k = 0; k < kJointAxes; ++k)
+            if (spring(table.joints[i], k)) springs[i][k >= kTurnX] = true;
+    for (const JointDrive& drive : table.drives)
+        if (drive.is_spring()) springs[drive.joint][drive.axis >= kTurnX] = true;
+    for (std::uint32_t i = 0; i < table.size(); ++i)
+        of_joint[i] = std::uint32_t(springs[i][0]) + springs[i][1];
+    const auto counts = [&](std::uint32_t body) {
+        return body != kNoIndex && world.bodies.motion[body] == Motion::dynamic;
+    };
+    for (std::uint32_t i = 0; i < table.size(); ++i)
+        for (const std::uint32_t body : {table.joints[i].a, table.joints[i].b})
+            if (counts(body)) of_body[body] += of_joint[i];
+    for (Joint& joint : table.joints) {
+        joint.crowd = 0;
+        for (const std::uint32_t body : {joint.a, joint.b})
+            if (counts(body)) joint.crowd = std::max(joint.crowd, of_body[body]);
+    }
+}
+
 void build_joints(World& world, const Scene& scene) {
     for (std::size_t i = 0; i < scene.joints.size(); ++i)
         append_joint(world, make_joint(world, scene.joints[i], "/joints/" + std::to_string(i)));
@@ -225,6 +253,7 @@ void build_joints(World& world, const Scene& scene) {
         append_coupling(
             world, make_coupling(world, scene.couplings[i], "/couplings/" + std::to_string(i)));
     std::sort(world.excluded.begin(), world.excluded.end());
+    count_springs(world);
 }
 
 }  // namespace plumb

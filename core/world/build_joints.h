@@ -24,6 +24,9 @@ struct JointDraft {
 /// `pointer` as the joint's place.
 JointDraft make_joint(const World& world, const JointSpec& spec, const std::string& pointer);
 
+/// Joint::crowd of all joints; to be called when joints have come or gone.
+void count_springs(World& world);
+
 /// Leaves World::excluded to be sorted.
 void append_joint(World& world, JointDraft draft);
 

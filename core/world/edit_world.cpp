@@ -50,6 +50,7 @@ void forget_contacts(World& world, std::uint32_t place) {
 
 std::uint32_t insert_joint(World& world, JointDraft draft) {
     append_joint(world, std::move(draft));
+    count_springs(world);
     const Joint& joint = world.joints.joints.back();
     if (joint.keeps_apart)
         std::inplace_merge(world.excluded.begin(), world.excluded.end() - 1, world.excluded.end());
@@ -75,6 +76,7 @@ void erase_joint(World& world, std::uint32_t index) {
     for (JointDrive& d : table.drives) d.joint -= d.joint > index;
     for (JointCoupling& c : table.couplings)
         c.joint_a -= c.joint_a > index, c.joint_b -= c.joint_b > index;
+    count_springs(world);
 }
 
 void erase_coupling(World& world, std::uint32_t index) {

@@ -34,9 +34,15 @@ struct Joint {
     double breaking_force = 0, breaking_torque = 0;  ///< [N], [N m]
     bool broken = false;                             ///< a broken joint acts no more
     bool keeps_apart = false;                        ///< its bodies do not collide with each other
+    std::uint32_t crowd = 0;  ///< springs on one of its bodies, its own among them, at the most
     std::array<double, kJointAxes> rows{};  ///< impulses of the last substep [N s], [N m s]; of a
                                             ///< plain ball along the world's axes
     std::array<double, kJointAxes> rows_before{};  ///< and of the one before it
+
+    /// Of a row that is taken away [m/N], [rad/(N m)].
+    double compliance_of(std::uint32_t axis) const {
+        return axis < kTurnX ? compliance : angular_compliance;
+    }
 
     /// Solved by the kernel for one common point, which is quicker.
     bool is_plain_ball() const {
@@ -54,6 +60,12 @@ struct JointDrive {
     JointAxisSpec spec;
     double impulse = 0;         ///< of the last substep [N s], [N m s]
     double impulse_before = 0;  ///< and of the one before it
+
+    /// Whether it pulls as a spring does.
+    bool is_spring() const {
+        return kind == DriveKind::spring ||
+               (kind == DriveKind::motor && spec.motor.mode == MotorMode::position);
+    }
 };
 
 /// q_b = ratio q_a + offset.

@@ -96,7 +96,7 @@ TEST(AxisDrive, ALimitOutbidsAGreatestSpeed) {
 
 TEST(AxisDrive, StandsStillUpToItsFrictionAndNoFurther) {
     AxisDrive axis;
-    axis.add(friction_row(2, 1));
+    axis.add(friction_row(2, {1}));
     EXPECT_TRUE(answer_of(axis, 1.9, 0, 1).is_step);
     const AxisAnswer slips = answer_of(axis, 2.5, 0, 1);
     EXPECT_FALSE(slips.is_row());

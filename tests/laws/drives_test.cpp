@@ -62,6 +62,28 @@ TEST_P(Drives, AVelocityMotorSpeedsUpByItsGreatestTorqueAndHolds) {
     EXPECT_NEAR(position(simulation, 0, kTurnX), 4.5 + 3 * 11, 0.05) << "counted through turns";
 }
 
+/// Forces that are at their bounds are exact with a leapfrog start, as all constant forces are.
+TEST_P(Drives, BoundsHoldForHalfAPush) {
+    for (const MotorMode mode : {MotorMode::velocity, MotorMode::position}) {
+        Scene s = scene(JointKind::slider);
+        s.settings.leapfrog_start = true;
+        s.settings.substeps = 1;
+        JointMotor& motor = s.joints[0].axes[kAlongX].motor;
+        motor.mode = mode, motor.target = 1000, motor.greatest = 1000;  // 1 m/s²
+        Simulation simulation(s, colliders(), "reference");
+        run_for(simulation, 1);
+        EXPECT_NEAR(position(simulation, 0, kAlongX), 0.5, 1e-5);
+    }
+    Scene s = scene(JointKind::slider);
+    s.settings.leapfrog_start = true;
+    s.settings.substeps = 1;
+    s.bodies[0].velocity = {2, 0, 0};
+    s.joints[0].axes[kAlongX].friction = 1000;
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 1);
+    EXPECT_NEAR(position(simulation, 0, kAlongX), 1.5, 1e-5);
+}
+
 TEST_P(Drives, APositionMotorReachesItsTargetAndKeepsWithinItsTorque) {
     for (const double damping : {1.0, 0.5}) {
         Scene s = scene(JointKind::hinge);

@@ -153,6 +153,26 @@ TEST_P(Springs, AreDampedByTheFormula) {
     }
 }
 
+/// Many springs on one body are as stable as one, however many and whatever their stiffness.
+TEST_P(Springs, AreStableTogether) {
+    Random random(5);
+    for (const std::uint32_t count : {2u, 16u, 40u, 100u})
+        for (const double angle : {0.2, 0.55, 0.77, 0.95}) {  // of each alone
+            Scene s = scene(angle / 0.01, 0);
+            s.settings.leapfrog_start = false;
+            s.settings.dt = 0.01, s.settings.substeps = 1;
+            const JointSpec one = s.joints[0];
+            for (std::uint32_t i = 1; i < count; ++i) s.joints.push_back(one);
+            Simulation simulation(s, colliders(), "reference");
+            double farthest = 0;
+            for (int i = 0; i < 1000; ++i) {
+                simulation.step();
+                farthest = std::max(farthest, std::abs(place(simulation.world())));
+            }
+            EXPECT_LT(farthest, 2 * kSpeed * 0.01 / angle) << count << " of " << angle;
+        }
+}
+
 /// What no substep can follow dies away, as in the rigid joint that it stands for.
 TEST_P(Springs, ComeToRestWhereTheyAreTooStiffToFollow) {
     for (const double angle : {2.5, 10.0, 1e3}) {
@@ -162,6 +182,31 @@ TEST_P(Springs, ComeToRestWhereTheyAreTooStiffToFollow) {
         run_for(simulation, 1);
         EXPECT_LT(std::abs(place(simulation.world())), 1e-9 * kSpeed) << angle;
     }
+}
+
+/// Compliant ropes to all sides of a ball, of 55 rad/s each.
+TEST(CompliantRopes, HoldABallFromAllSides) {
+    Random random(3);
+    for (const JointMethod method : {JointMethod::tree, JointMethod::iterate})
+        for (const std::uint32_t count : {20u, 100u}) {
+            Scene s;
+            s.settings.gravity.setZero();
+            s.settings.joints = method;
+            BodySpec& ball = add_body(s, sphere(0.1), Vector::Zero());
+            ball.mass = kMass, ball.velocity = Vector(kSpeed, 0, 0);
+            for (std::uint32_t i = 0; i < count; ++i) {
+                JointSpec& rope = add_joint(s, JointKind::distance, 0, kNoIndex, Vector::Zero());
+                rope.anchor_b = Vector(random.direction());
+                rope.compliance = 1.0 / 3000 / kMass;
+            }
+            Simulation simulation(s, colliders(), "reference");
+            double fastest = 0;
+            for (int i = 0; i < 500; ++i) {
+                ASSERT_TRUE(simulation.step().finite);
+                fastest = std::max(fastest, simulation.world().bodies.velocity[0].norm());
+            }
+            EXPECT_LT(fastest, 2 * kSpeed) << count;
+        }
 }
 
 }  // namespace
