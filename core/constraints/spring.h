@@ -11,8 +11,8 @@
 /// z where θ ≥ 1/4 (Newmark's average acceleration) and has the period to fourth order at θ = 1/12
 /// (Störmer and Cowell; Hairer, Lubich, Wanner, Geometric Numerical Integration, I.1.4). σ = 1/2 is
 /// the trapezoidal rule. What swings faster than substeps can follow shall die away, as a rigid
-/// joint does that stiff springs stand for; so all three go over to implicit Euler from z or y = 1
-/// to 4.
+/// joint does that stiff springs stand for; so θ and β go over to implicit Euler where the z of all
+/// springs at a body come to 1 to 4, and σ where their y do.
 #pragma once
 
 #include <algorithm>

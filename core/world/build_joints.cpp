@@ -220,7 +220,7 @@ void append_coupling(World& world, JointCoupling coupling) {
 
 void count_springs(World& world) {
     JointTable& table = world.joints;
-    std::vector<std::uint32_t> of_joint(table.size(), 0), of_body(world.bodies.size(), 0);
+    std::vector<std::uint32_t> of_body(world.bodies.size(), 0);
     const auto spring = [](const Joint& joint, std::uint32_t k) {
         return joint.locked[k] && joint.compliance_of(k) > 0;
     };
@@ -231,14 +231,12 @@ void count_springs(World& world) {
             if (spring(table.joints[i], k)) springs[i][k >= kTurnX] = true;
     for (const JointDrive& drive : table.drives)
         if (drive.is_spring()) springs[drive.joint][drive.axis >= kTurnX] = true;
-    for (std::uint32_t i = 0; i < table.size(); ++i)
-        of_joint[i] = std::uint32_t(springs[i][0]) + springs[i][1];
     const auto counts = [&](std::uint32_t body) {
         return body != kNoIndex && world.bodies.motion[body] == Motion::dynamic;
     };
     for (std::uint32_t i = 0; i < table.size(); ++i)
         for (const std::uint32_t body : {table.joints[i].a, table.joints[i].b})
-            if (counts(body)) of_body[body] += of_joint[i];
+            if (counts(body)) of_body[body] += std::uint32_t(springs[i][0]) + springs[i][1];
     for (Joint& joint : table.joints) {
         joint.crowd = 0;
         for (const std::uint32_t body : {joint.a, joint.b})

@@ -155,7 +155,6 @@ TEST_P(Springs, AreDampedByTheFormula) {
 
 /// Many springs on one body are as stable as one, however many and whatever their stiffness.
 TEST_P(Springs, AreStableTogether) {
-    Random random(5);
     for (const std::uint32_t count : {2u, 16u, 40u, 100u})
         for (const double angle : {0.2, 0.55, 0.77, 0.95}) {  // of each alone
             Scene s = scene(angle / 0.01, 0);
