@@ -1,7 +1,7 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp
-  world/body_row.cpp world/build_joints.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
+  world/body_row.cpp world/build_joints.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
   world/mass_properties.cpp world/shape_store.cpp
   schedule/colouring.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp

@@ -24,6 +24,8 @@ struct Frame {
     std::vector<BodyState> bodies;   ///< [body], in the order of Scene::bodies
     std::vector<std::uint32_t> ids;  ///< [body] World::bodies.id, or none where all live since the
                                      ///< start: a body's identifier, kNoIndex of a vacant place
+    std::vector<Eigen::Vector3d> particles;  ///< places of the points of Scene::deformables, one
+                                             ///< deformable after another [m]
     std::uint32_t contacts = 0;      ///< contact points
     double kinetic_energy = 0;       ///< [J]
     double potential_energy = 0;     ///< of gravity, against the origin [J]

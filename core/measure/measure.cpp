@@ -117,6 +117,7 @@ void capture(const World& world, Frame& frame) {
         frame.bodies[i] = {geometry_placement(world.bodies, i), world.bodies.velocity[i],
                            world.bodies.angular_velocity[i]};
     frame.ids = world.bodies.id;
+    frame.particles.assign(world.particles.position.begin(), world.particles.position.end());
     frame.contacts = static_cast<std::uint32_t>(last_contacts(world).size());
     frame.kinetic_energy = kinetic_energy(world);
     frame.potential_energy = potential_energy(world);

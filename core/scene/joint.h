@@ -19,8 +19,6 @@
 
 namespace plumb {
 
-inline constexpr std::uint32_t kNoIndex = std::numeric_limits<std::uint32_t>::max();
-
 /// What a joint takes away, by rows: translations along x y z, rotations about x y z.
 enum class JointKind : std::uint32_t {
     ball,            ///< 3 + 0: one common point

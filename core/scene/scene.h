@@ -5,6 +5,7 @@
 /// `build_world` checks.
 #pragma once
 
+#include "scene/deformable.h"
 #include "scene/geometry.h"
 #include "scene/joint.h"
 #include "scene/settings.h"
@@ -89,6 +90,9 @@ struct Scene {
     std::vector<BodySpec> bodies;
     std::vector<JointSpec> joints;
     std::vector<CouplingSpec> couplings;
+    std::vector<DeformableSpec> deformables;
+    std::vector<LinkSpec> links;
+    std::vector<AttachmentSpec> attachments;
     std::vector<std::array<std::uint32_t, 2>> apart;  ///< bodies that never collide with each other
     std::vector<std::string> remarks;  ///< what a reader left out or changed, in sentences
     std::optional<View> view;

@@ -3,6 +3,7 @@
 #include "scene/error.h"
 #include "world/body_row.h"
 #include "world/build_joints.h"
+#include "world/build_particles.h"
 #include "world/derived.h"
 #include "world/world.h"
 
@@ -42,6 +43,7 @@ World build_world(const Scene& scene) {
         throw SceneError("", "/settings/substeps", "at least one substep is needed");
     for (const Geometry& g : scene.geometries) world.shapes.add(g);
     make_bodies(world, scene);
+    build_particles(world, scene);
     assign_rows(world);
     combine_surfaces(world, scene);
     keep_apart(world, scene);

@@ -6,6 +6,7 @@
 #include "world/bodies.h"
 #include "world/contacts.h"
 #include "world/joints.h"
+#include "world/particles.h"
 #include "world/places.h"
 #include "world/shape_store.h"
 
@@ -29,6 +30,8 @@ struct World {
     Bodies bodies;
     Places places;  ///< of the bodies in their table, by Bodies::id
     JointTable joints;
+    Particles particles;
+    std::vector<Deformable> deformables;
     std::vector<SurfacePair> surface_pairs;  ///< [material_a × material_count + material_b]
     std::uint32_t material_count = 1;
     std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that never collide, sorted; as
