@@ -2,7 +2,7 @@
 /// Tells a run whose energy runs away from one that is healthy.
 #pragma once
 
-#include "step/report.h"
+#include "effects/report.h"
 #include "world/world.h"
 
 namespace plumb::app {

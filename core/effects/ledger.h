@@ -11,30 +11,34 @@
 namespace plumb {
 
 enum class Stage : std::uint32_t {
-    detect,        ///< inside the collider's calls
-    reuse,         ///< kept contacts brought to the poses now
-    match,         ///< contacts checked and matched with those of the step before
-    schedule,      ///< colouring, lanes, effective masses
-    kinematics,    ///< scripts of moved bodies
-    restitution,   ///< which contacts bounce
-    impacts,       ///< collisions, before forces
-    integrate,     ///< forces and gyroscopic term
-    begin,         ///< gaps, drifts and velocities at the start of the substep
-    velocities,    ///< velocity pass
-    positions,     ///< position pass over contacts
-    joints,        ///< joints that are iterated, and their drives, turns and breaking
-    trees,         ///< joints that form trees, solved exactly
-    islands,       ///< islands solved exactly
-    shock,         ///< shock propagation
-    move,          ///< new poses
-    still_ground,  ///< energy that the ground gave, taken back
-    remember,      ///< impulses kept for the next step
+    detect,             ///< inside the collider's calls
+    reuse,              ///< kept contacts brought to the poses now
+    match,              ///< contacts checked and matched with those of the step before
+    schedule,           ///< colouring, lanes, effective masses
+    kinematics,         ///< scripts of moved bodies
+    restitution,        ///< which contacts bounce
+    impacts,            ///< collisions, before forces
+    integrate,          ///< forces and gyroscopic term
+    begin,              ///< gaps, drifts and velocities at the start of the substep
+    velocities,         ///< velocity pass
+    positions,          ///< position pass over contacts
+    joints,             ///< joints that are iterated, and their drives, turns and breaking
+    trees,              ///< joints that form trees, solved exactly
+    particles,          ///< constraints among particles
+    links,              ///< links between points
+    particle_contacts,  ///< contacts of particles with bodies
+    islands,            ///< islands solved exactly
+    shock,              ///< shock propagation
+    move,               ///< new poses
+    still_ground,       ///< energy that the ground gave, taken back
+    remember,           ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 18;
+inline constexpr std::size_t kStageCount = 21;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect",  "reuse",     "match", "schedule",   "kinematics",   "restitution",
-    "impacts", "integrate", "begin", "velocities", "positions",    "joints",
-    "trees",   "islands",   "shock", "move",       "still_ground", "remember"};
+    "detect",  "reuse",        "match",   "schedule",          "kinematics", "restitution",
+    "impacts", "integrate",    "begin",   "velocities",        "positions",  "joints",
+    "trees",   "particles",    "links",   "particle_contacts", "islands",    "shock",
+    "move",    "still_ground", "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

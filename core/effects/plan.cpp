@@ -32,8 +32,15 @@ Wish counted(std::size_t n, const std::string& some, const std::string& none) {
     return n > 0 ? Wish{true, std::to_string(n) + " " + some} : Wish{false, none};
 }
 
+std::size_t shaped_bodies(const World& w) {
+    return count_bodies(w, [&](std::size_t i) { return w.bodies.geometry[i] != kNoIndex; });
+}
+
 Wish contacts(const World& w) {
-    if (w.dynamic_count == 0) return {false, "nothing moves by itself"};
+    if (w.moving_count() == 0) return {false, "nothing moves by itself"};
+    if (w.particles.size() > 0 && shaped_bodies(w) > 0)
+        return {true,
+                std::to_string(shaped_bodies(w)) + " bodies have shapes that particles may meet"};
     return counted(bodies_that_meet(w), "bodies have shapes that may meet others",
                    "no two bodies have shapes that may meet");
 }
@@ -125,6 +132,18 @@ Wish joint_trees(const World& w) {
             (iterated > 0 ? ", " + std::to_string(iterated) + " are iterated: " + left_out : ""),
         w.settings.joints == JointMethod::auto_ ? left_out : "no joint takes away a row");
 }
+Wish deformables(const World& w) {
+    return counted(w.particles.size(), "particles", "no deformables");
+}
+Wish links(const World& w) {
+    return counted(w.links.size(), "links and attachments", "no links or attachments");
+}
+Wish particle_contacts(const World& w) {
+    if (w.particles.size() == 0) return {false, "no deformables"};
+    return counted(contacts(w).wanted ? shaped_bodies(w) : 0,
+                   "bodies have shapes that particles may meet",
+                   "no body has a shape that particles may meet");
+}
 Wish kinematics(const World& w) {
     return counted(static_cast<std::size_t>(w.kinematic_count),
                    "bodies are moved by a script or a given velocity", "no kinematic bodies");
@@ -153,6 +172,9 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"exact_islands", exact_islands},
     {"joints", joints},
     {"joint_trees", joint_trees},
+    {"deformables", deformables},
+    {"links", links},
+    {"particle_contacts", particle_contacts},
     {"kinematics", kinematics},
     {"shock_propagation", shock_propagation},
 }};

@@ -31,10 +31,13 @@ enum class Effect : std::uint32_t {
     exact_islands,
     joints,
     joint_trees,
+    deformables,
+    links,
+    particle_contacts,
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 15;
+inline constexpr std::size_t kEffectCount = 18;
 
 struct Decision {
     std::string_view name;

@@ -18,7 +18,7 @@
 #include "measure/frame.h"
 #include "scene/scene.h"
 #include "step/joint_state.h"
-#include "step/report.h"
+#include "effects/report.h"
 #include "world/world.h"
 
 #include <limits>

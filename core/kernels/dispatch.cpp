@@ -4,6 +4,7 @@
 #include "kernels/contact_kernels.h"
 #include "kernels/joint_kernels.h"
 #include "kernels/kernel_tables.h"
+#include "kernels/point_kernels.h"
 #include "kernels/tree_kernels.h"
 
 #include <stdexcept>
@@ -47,6 +48,11 @@ const JointKernels<Real, W>& joint_kernels() {
     return *checked_table<JointKernels<Real, W>, W>();
 }
 
+template <class Real, int W>
+const PointKernels<Real, W>& point_kernels() {
+    return *checked_table<PointKernels<Real, W>, W>();
+}
+
 template <int W>
 const TreeKernels<W>& tree_kernels() {
     return *checked_table<TreeKernels<W>, W>();
@@ -71,7 +77,8 @@ const BodyKernels& body_kernels(int lanes) {
 
 #define PLUMB_INSTANTIATE(Real, W)                                                    \
     template const ContactKernels<Real, W>& contact_kernels<Real, W>(ContactVariant); \
-    template const JointKernels<Real, W>& joint_kernels<Real, W>();
+    template const JointKernels<Real, W>& joint_kernels<Real, W>();                   \
+    template const PointKernels<Real, W>& point_kernels<Real, W>();
 PLUMB_INSTANTIATE(float, 1)
 PLUMB_INSTANTIATE(float, 4)
 PLUMB_INSTANTIATE(float, 8)

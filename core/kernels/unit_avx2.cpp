@@ -4,6 +4,7 @@
 #include "kernels/contact_passes.h"
 #include "kernels/joint_passes.h"
 #include "kernels/kernel_tables.h"
+#include "kernels/point_passes.h"
 #include "kernels/tree_passes.h"
 
 namespace plumb::kernels {
@@ -18,6 +19,11 @@ const JointKernels<float, 8>* kernel_table() {
     static constexpr auto table = all_joint_kernels<float, 8>();
     return &table;
 }
+template <>
+const PointKernels<float, 8>* kernel_table() {
+    static constexpr auto table = all_point_kernels<float, 8>(Formulas());
+    return &table;
+}
 
 template <>
 const ContactKernels<double, 8>* kernel_table() {
@@ -27,6 +33,11 @@ const ContactKernels<double, 8>* kernel_table() {
 template <>
 const JointKernels<double, 8>* kernel_table() {
     static constexpr auto table = all_joint_kernels<double, 8>();
+    return &table;
+}
+template <>
+const PointKernels<double, 8>* kernel_table() {
+    static constexpr auto table = all_point_kernels<double, 8>(Formulas());
     return &table;
 }
 

@@ -4,6 +4,7 @@
 #include "kernels/contact_passes.h"
 #include "kernels/joint_passes.h"
 #include "kernels/kernel_tables.h"
+#include "kernels/point_passes.h"
 #include "kernels/tree_passes.h"
 
 namespace plumb::kernels {
@@ -18,6 +19,11 @@ const JointKernels<float, 1>* kernel_table() {
     static constexpr auto table = all_joint_kernels<float, 1>();
     return &table;
 }
+template <>
+const PointKernels<float, 1>* kernel_table() {
+    static constexpr auto table = all_point_kernels<float, 1>(Formulas());
+    return &table;
+}
 
 template <>
 const ContactKernels<double, 1>* kernel_table() {
@@ -27,6 +33,11 @@ const ContactKernels<double, 1>* kernel_table() {
 template <>
 const JointKernels<double, 1>* kernel_table() {
     static constexpr auto table = all_joint_kernels<double, 1>();
+    return &table;
+}
+template <>
+const PointKernels<double, 1>* kernel_table() {
+    static constexpr auto table = all_point_kernels<double, 1>(Formulas());
     return &table;
 }
 
@@ -40,6 +51,11 @@ const JointKernels<float, 4>* kernel_table() {
     static constexpr auto table = all_joint_kernels<float, 4>();
     return &table;
 }
+template <>
+const PointKernels<float, 4>* kernel_table() {
+    static constexpr auto table = all_point_kernels<float, 4>(Formulas());
+    return &table;
+}
 
 template <>
 const ContactKernels<double, 4>* kernel_table() {
@@ -49,6 +65,11 @@ const ContactKernels<double, 4>* kernel_table() {
 template <>
 const JointKernels<double, 4>* kernel_table() {
     static constexpr auto table = all_joint_kernels<double, 4>();
+    return &table;
+}
+template <>
+const PointKernels<double, 4>* kernel_table() {
+    static constexpr auto table = all_point_kernels<double, 4>(Formulas());
     return &table;
 }
 

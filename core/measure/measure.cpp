@@ -20,6 +20,8 @@ const std::vector<Contact>& last_contacts(const World& world) {
 double kinetic_energy(const World& world) {
     double sum = 0;
     for (std::size_t i = 0; i < world.bodies.size(); ++i) sum += kinetic_energy(world.bodies, i);
+    const Particles& p = world.particles;
+    for (std::size_t i = 0; i < p.size(); ++i) sum += 0.5 * p.mass[i] * p.velocity[i].squaredNorm();
     return sum;
 }
 
@@ -29,6 +31,9 @@ double potential_energy(const World& world) {
     for (std::size_t i = 0; i < b.size(); ++i)
         if (b.motion[i] == Motion::dynamic)
             sum -= (b.mass[i] * world.settings.gravity + b.force[i]).dot(b.position[i]);
+    const Particles& p = world.particles;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        sum -= p.mass[i] * world.settings.gravity.dot(p.position[i]);
     return sum;
 }
 
@@ -36,6 +41,8 @@ Vector3d linear_momentum(const World& world) {
     Vector3d sum = Vector3d::Zero();
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
         sum += world.bodies.mass[i] * world.bodies.velocity[i];
+    const Particles& p = world.particles;
+    for (std::size_t i = 0; i < p.size(); ++i) sum += p.mass[i] * p.velocity[i];
     return sum;
 }
 
@@ -45,6 +52,9 @@ Vector3d angular_momentum(const World& world) {
     for (std::size_t i = 0; i < b.size(); ++i)
         sum += b.position[i].cross(b.mass[i] * b.velocity[i]) +
                spin_momentum(b, i, b.angular_velocity[i]);
+    const Particles& p = world.particles;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        sum += p.position[i].cross(p.mass[i] * p.velocity[i]);
     return sum;
 }
 
@@ -105,6 +115,10 @@ std::uint64_t state_hash(const World& world) {
         add(b.orientation[i].coeffs().data(), 4);
         add(b.velocity[i].data(), 3);
         add(b.angular_velocity[i].data(), 3);
+    }
+    for (std::size_t i = 0; i < world.particles.size(); ++i) {
+        add(world.particles.position[i].data(), 3);
+        add(world.particles.velocity[i].data(), 3);
     }
     return hash.value();
 }

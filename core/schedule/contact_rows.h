@@ -80,25 +80,29 @@ struct ContactArrays {
 /// One body in the velocity table: v, 0, ω, 0.
 inline constexpr int kBodyRowSize = 8;
 
-/// Velocities by body row: the dynamic bodies first, then kinematic ones, then one row of zeros for
-/// all that is fixed.
+/// Velocities by row: dynamic bodies first, then particles, then kinematic bodies, then one row of
+/// zeros for all that is fixed.
 template <class Real>
 struct BodyRows {
-    Real* change;       // since the start of the substep; only dynamic bodies ever change
+    Real* change;       // since the start of the substep; only the first dynamic_count rows do
     const Real* start;  // at the start of the substep, forces included
-    std::int32_t dynamic_count;
+    std::int32_t dynamic_count;     // of bodies and particles
+    const Real* preview = nullptr;  // particles: where `start` takes them, against one point of the
+                                    // world [m]; elements 4 to 6 are what rounding takes off 0 to 2
 };
 
 /// What a pass needs to know besides the rows.
 template <class Real>
 struct PassSettings {
-    Real h, inverse_h;  // substep [s] and its inverse [1/s]
-    Real stiffness;     // s of this substep
-    Real recovery;      // overlap beyond which no more is pushed out in a substep [m]
-    bool warm_start;    // begin with the impulses of the substep before
-    bool shared_cone;   // one friction bound for both passes
-    bool shared_push;   // the push of both passes together stays repulsive, not of each alone
-    bool forwards;      // direction of this sweep
+    Real h, inverse_h;   // substep [s] and its inverse [1/s]
+    Real stiffness;      // s of this substep
+    Real recovery;       // overlap beyond which no more is pushed out in a substep [m]
+    bool warm_start;     // begin with the impulses of the substep before
+    bool shared_cone;    // one friction bound for both passes
+    bool shared_push;    // the push of both passes together stays repulsive, not of each alone
+    bool forwards;       // direction of this sweep
+    bool first = false;  // of the pass's iterations
+    bool alone = false;  // nothing but one group changes velocities in this pass
 };
 
 }  // namespace plumb

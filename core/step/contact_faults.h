@@ -3,7 +3,7 @@
 /// counted; none reaches the solver.
 #pragma once
 
-#include "step/report.h"
+#include "effects/report.h"
 #include "world/world.h"
 
 #include <vector>

@@ -7,11 +7,13 @@
 #include "kernels/contact_kernels.h"
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
+#include "solve/constraint_group.h"
+#include "solve/contact_sweep.h"
+#include "solve/fill_mass.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
 #include "step/contact_measures.h"
 #include "step/contact_pairs.h"
-#include "step/fill_mass.h"
 #include "step/impacts.h"
 #include "step/island_group.h"
 #include "step/velocity_table.h"
@@ -28,7 +30,7 @@ inline ContactVariant contact_variant(const Plan& plan) {
 }
 
 template <class Real, int W>
-class ContactSolver {
+class ContactSolver final : public ConstraintGroup<Real> {
 public:
     ContactSolver(const Plan& plan, Workers& workers)
         : variant_(contact_variant(plan)),
@@ -36,7 +38,8 @@ public:
           kernels_(contact_kernels<Real, W>(variant_)),
           workers_(workers) {}
 
-    bool empty() const { return pairs_.empty(); }
+    Stage stage() const override { return Stage::positions; }
+    bool empty() const override { return pairs_.empty(); }
     const std::vector<BodyPair>& pairs() const { return pairs_; }
 
     /// Rows for the pairs; `levels` (may be null) makes the lower body of a pair immovable.
@@ -45,7 +48,7 @@ public:
         levels_ = levels;
         find_pairs(world, levels, pairs_);
         if (exact) exact->load(world, pairs_);
-        colouring_.colour(pairs_, world.dynamic_count);
+        colouring_.colour(pairs_, world.moving_count());
         batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             fill_surface(world, contact, k, lane);
@@ -77,38 +80,41 @@ public:
             rows.normals[k].lambda_velocity[lane] = static_cast<Real>(memory.normal_impulse);
             if (!rows.frictions) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
-            const auto [x, y] = tangents(rows.normals[k], across, lane);
+            const auto [x, y] = tangents_of(rows.normals[k], across, lane);
             across.held_x[lane] = static_cast<Real>(x.dot(memory.friction_impulse));
             across.held_y[lane] = static_cast<Real>(y.dot(memory.friction_impulse));
         });
     }
 
+    /// Overlaps deeper than the substep may push out.
+    std::uint32_t clamped() const { return clamped_; }
+
     /// Arms, masses, gaps, rebounds and drifts of the substep; sums of the pass before become the
-    /// start of this one. Returns how many overlaps are deeper than the substep may push out.
-    std::uint32_t begin(const World& world, const BodyRows<Real>& bodies,
-                        const PassSettings<Real>& pass) {
+    /// start of this one.
+    void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+               double) override {
+        clamped_ = 0;
+        if (pairs_.empty()) return;
         if (!is_fresh_) fill_geometry(world);
         is_fresh_ = false;
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
-        std::uint32_t clamped = 0;
         const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             NormalRow<Real, W>& row = rows.normals[k];
             row.gap[lane] = static_cast<Real>(gap_in_substep(c, contact));
             row.rebound[lane] = static_cast<Real>(asked_rebound(c, contact));
-            clamped += -static_cast<Real>(c.gap[contact]) > pass.recovery;
+            clamped_ += -static_cast<Real>(c.gap[contact]) > pass.recovery;
             if (-c.gap[contact] > trusted_[contact])
                 doubt(rows, k, lane, -c.gap[contact] / trusted_[contact]);
             if (!rows.frictions || c.drift.empty()) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
-            const auto [x, y] = tangents(row, across, lane);
+            const auto [x, y] = tangents_of(row, across, lane);
             across.drift_x[lane] = static_cast<Real>(pull * x.dot(c.drift[contact]));
             across.drift_y[lane] = static_cast<Real>(pull * y.dot(c.drift[contact]));
         });
         run(kernels_.begin, bodies, pass);
         bend(c);
-        return clamped;
     }
 
     /// Memory for impacts, so that the first of them allocates none.
@@ -127,15 +133,15 @@ public:
     }
     void end_impacts(World& world) { impacts_.end(world, batches_); }
 
-    void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) {
+    void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) override {
         run(kernels_.warm_start, bodies, pass);
     }
-    void velocity_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-                            std::uint32_t worker) {
+    void iterate_velocities(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                            std::uint32_t worker) override {
         sweep(kernels_.solve_velocities, bodies, pass, worker);
     }
-    void position_iteration(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-                            std::uint32_t worker) {
+    void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                           std::uint32_t worker) override {
         sweep(kernels_.solve_positions, bodies, pass, worker);
     }
 
@@ -146,7 +152,7 @@ public:
         for (const BlockRange& range : batches_.ranges())
             for (std::uint32_t r = 0; r < rounds; ++r) {
                 pass.forwards = !pass.forwards;
-                solve_range(kernels_.solve_positions, rows, bodies, pass, range, worker);
+                solve_batch(kernels_.solve_positions, rows, bodies, pass, range, workers_, worker);
             }
     }
 
@@ -170,7 +176,8 @@ public:
         }
     }
 
-    void store_impulses(ContactTable& contacts) {
+    void end_step(World& world) override {
+        ContactTable& contacts = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             ContactMemory& memory = contacts.memory[contact];
@@ -181,7 +188,7 @@ public:
             memory.sticks = memory.exact = false;
             if (!rows.frictions) return;
             const FrictionRow<Real, W>& across = rows.frictions[k];
-            const auto [x, y] = tangents(row, across, lane);
+            const auto [x, y] = tangents_of(row, across, lane);
             const double fx = double(across.held_x[lane]) + double(across.rubbed_x[lane]);
             const double fy = double(across.held_y[lane]) + double(across.rubbed_y[lane]);
             memory.friction_impulse = fx * x + fy * y;
@@ -198,16 +205,6 @@ private:
     static constexpr double kTrusted = 0.2, kTrustedWhereMoved = 0.02;
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
-
-    struct TangentPair {
-        Vector3d x, y;
-    };
-    static TangentPair tangents(const NormalRow<Real, W>& row, const FrictionRow<Real, W>& across,
-                                std::uint32_t lane) {
-        const Vector3d n(row.normal[0][lane], row.normal[1][lane], row.normal[2][lane]);
-        const Vector3d x(across.tangent[0][lane], across.tangent[1][lane], across.tangent[2][lane]);
-        return {x, n.cross(x)};
-    }
 
     std::uint32_t row_of(std::uint32_t block, std::uint32_t point) {
         return batches_.arrays().blocks[block].first_row + point;
@@ -231,7 +228,7 @@ private:
                 static_cast<Real>(to_eigen(c.found[contact].normal).dot(c.bend[contact]));
             if (!rows.frictions) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
-            const auto [x, y] = tangents(row, across, lane);
+            const auto [x, y] = tangents_of(row, across, lane);
             across.velocity_x[lane] += static_cast<Real>(x.dot(c.bend[contact]));
             across.velocity_y[lane] += static_cast<Real>(y.dot(c.bend[contact]));
         });
@@ -310,38 +307,9 @@ private:
         workers_.run([&](std::uint32_t worker) { sweep(kernel, bodies, pass, worker); });
     }
 
-    /// One pass over the batches in order (or backwards); inside of a batch every worker takes its
-    /// share of blocks.
     void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
                const PassSettings<Real>& pass, std::uint32_t worker) {
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        const std::vector<BlockRange>& ranges = batches_.ranges();
-        for (std::size_t i = 0; i < ranges.size(); ++i) {
-            const BlockRange& range = ranges[pass.forwards ? i : ranges.size() - 1 - i];
-            solve_range(kernel, rows, bodies, pass, range, worker);
-        }
-    }
-
-    /// One batch: every worker takes its share of blocks that are independent, and waits for the
-    /// others.
-    void solve_range(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,
-                     const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-                     const BlockRange& range, std::uint32_t worker) {
-        if (range.independent) {
-            const Range share = workers_.share(range.last - range.first, worker);
-            kernel(rows, bodies, pass, range.first + share.first, range.first + share.last);
-        } else if (worker == 0) {
-            sweep_in_order(kernel, rows, bodies, pass, range);
-        }
-        workers_.barrier();
-    }
-
-    static void sweep_in_order(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,
-                               const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-                               const BlockRange& range) {
-        if (pass.forwards) return kernel(rows, bodies, pass, range.first, range.last);
-        for (std::uint32_t b = range.last; b > range.first; --b)
-            kernel(rows, bodies, pass, b - 1, b);
+        sweep_batches(kernel, batches_, bodies, pass, workers_, worker);
     }
 
     ContactVariant variant_;
@@ -354,6 +322,7 @@ private:
     ContactImpacts<Real, W> impacts_;
     std::vector<double> trusted_;  // [contact] overlap [m]
     const std::vector<std::uint32_t>* levels_ = nullptr;
+    std::uint32_t clamped_ = 0;
     bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins
 };
 

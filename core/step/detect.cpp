@@ -81,15 +81,14 @@ std::uint32_t detect_flags(const Settings& settings) {
     return settings.contacts == ContactOrigin::raw ? kDetectRaw : 0u;
 }
 
-/// The solver's workers, for the collider.
+}  // namespace
+
 TaskRunner runner_on(Workers& workers) {
     return {&workers, workers.count(),
             [](void* ctx, void (*task)(void*, std::uint32_t), void* arg) {
                 static_cast<Workers*>(ctx)->run([=](std::uint32_t worker) { task(arg, worker); });
             }};
 }
-
-}  // namespace
 
 void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximity,
             DetectBuffers& buffers, double dt, StepReport& report, Ledger& ledger) {

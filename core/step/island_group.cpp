@@ -117,6 +117,7 @@ void IslandGroup::mark_jointed(const World& world) {
             jointed_[world.bodies.row[body]] = 1;
     };
     for (const Joint& joint : world.joints.joints) mark(joint.a), mark(joint.b);
+    world.each_body_among_particles(mark);
 }
 
 bool IslandGroup::is_exact(const World& world, const ContactIsland& island,

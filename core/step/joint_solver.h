@@ -3,10 +3,11 @@
 #pragma once
 
 #include "schedule/joint_forest.h"
+#include "solve/constraint_group.h"
+#include "solve/lane_blocks.h"
 #include "step/body_columns.h"
 #include "step/coupling_solver.h"
 #include "step/drive_state.h"
-#include "step/lane_blocks.h"
 #include "step/velocity_table.h"
 
 #include <vector>
@@ -14,7 +15,7 @@
 namespace plumb {
 
 template <class Real, int W>
-class JointSolver {
+class JointSolver final : public ConstraintGroup<Real> {
 public:
     /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another.
     JointSolver(const World& world, const std::vector<std::uint8_t>& elsewhere, Workers& workers)
@@ -22,13 +23,15 @@ public:
         lay_out(world, elsewhere);
     }
 
-    bool empty() const {
+    Stage stage() const override { return Stage::joints; }
+    bool empty() const override {
         return balls_.empty() && blocks_.empty() && drives_.empty() && couplings_.empty();
     }
 
     /// Arms, errors and masses at the start of a substep. Impulses start from nothing: those of the
     /// substep before point where the bodies were, and chains that swing gain energy from them.
-    void begin(const World& world, double h) {
+    void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
+               double h) override {
         const auto& joints = world.joints.joints;
         kernels_.begin_balls(balls_.data(), frames_.data(), states_of(world.bodies), h,
                              frames_.size());
@@ -40,7 +43,9 @@ public:
 
     /// One sweep from the roots of the trees outwards. What holds the bodies together has the last
     /// word over what drives them.
-    void position_iteration(const BodyRows<Real>& bodies, Real h, std::uint32_t worker) {
+    void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                           std::uint32_t worker) override {
+        const Real h = pass.h;
         if (!couplings_.empty()) {
             if (worker == 0) couplings_.solve(bodies);
             workers_.barrier();
@@ -50,8 +55,9 @@ public:
         blocks_.sweep(kernels_.joints, bodies, h, workers_, worker);
     }
 
-    void store_impulses(World& world) {
+    void end_substep(World& world) override {
         JointTable& table = world.joints;
+        for (JointDrive& drive : table.drives) drive.impulse_before = drive.impulse;
         for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
             Joint& joint = table.joints[ball_joints_[i]];
             auto& rows = joint.rows;

@@ -4,15 +4,20 @@
 #include "math/root.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
+#include "solve/deformable_group.h"
+#include "solve/link_group.h"
+#include "solve/particle_contact_group.h"
 #include "step/contact_solver.h"
 #include "step/impacts.h"
 #include "step/joint_solver.h"
-#include "step/tree_solver.h"
+#include "step/joint_tree_group.h"
 
 #include <algorithm>
-#include <deque>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace plumb {
 namespace {
@@ -50,25 +55,25 @@ public:
           shocks_(plan.runs(Effect::shock_propagation)),
           has_impacts_(plan.runs(Effect::impacts)),
           warm_start_(settings_.warm_start && !shocks_),
-          contacts_(plan, workers),
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
-        if (plan.runs(Effect::joints)) take_joints(world, plan.runs(Effect::joint_trees));
+        make_groups(world, plan);
         if (shocks_) shock_.emplace(plan, workers);
         if (plan.runs(Effect::exact_islands)) islands_.emplace(plan, workers);
     }
 
-    void load_contacts(const World& world) override {
+    void load(const World& world) override {
         IslandGroup* exact = islands_ ? &*islands_ : nullptr;
-        contacts_.load(world, nullptr, exact);
-        if (warm_start_) contacts_.load_impulses(world, exact);
-        if (has_impacts_) impacts_.reserve(world, contacts_.pairs()), contacts_.reserve_impacts();
+        for (const auto& group : groups_) group->load(world);
+        contacts_->load(world, nullptr, exact);
+        if (warm_start_) contacts_->load_impulses(world, exact);
+        if (has_impacts_) impacts_.reserve(world, contacts_->pairs()), contacts_->reserve_impacts();
         if (!shocks_) return;
         find_levels(world, levels_);
         shock_->load(world, &levels_, nullptr);
     }
 
     std::uint32_t begin_substep(const World& world, double h, Ledger& ledger) override {
-        table_.begin(world);
+        table_.begin(world, h);
         pass_.h = static_cast<Real>(h);
         pass_.inverse_h = static_cast<Real>(1 / h);
         const Recovery r = recovery(settings_);
@@ -80,80 +85,85 @@ public:
         pass_.shared_push = settings_.shared_push;
         pass_.forwards = true;
         sweeps_ = substeps_++;
-        std::uint32_t clamped = 0;
-        if (!contacts_.empty()) clamped = contacts_.begin(world, table_.rows(), pass_);
+        for (const auto& group : groups_) {
+            const auto share = share_of(*group, ledger, Stage::begin);
+            group->begin(world, table_.rows(), pass_, h);
+        }
+        std::uint32_t clamped = contacts_->clamped();
         if (islands_) clamped += islands_->begin(world, h, static_cast<double>(pass_.recovery));
-        if (shocks_) shock_->begin(world, table_.rows(), pass_);
-        begin_joints(world, h, ledger);
+        if (shocks_) shock_->begin(world, table_.rows(), pass_, h);
         return clamped;
     }
 
     void solve_impacts(World& world, double h) override {
-        if (contacts_.empty() || !impacts_.find(world, contacts_.pairs(), h)) return;
+        if (contacts_->empty() || !impacts_.find(world, contacts_->pairs(), h)) return;
         const Bodies& b = world.bodies;
         table_.begin(world, b.velocity_now, b.angular_velocity_now);
         PassSettings<Real> pass{};
         pass.h = static_cast<Real>(h), pass.inverse_h = static_cast<Real>(1 / h);
-        contacts_.begin_impacts(world, table_.rows(), pass);
+        contacts_->begin_impacts(world, table_.rows(), pass);
         sweep_impacts(pass);
-        if (contacts_.give_back(world, impacts_, table_.rows())) sweep_impacts(pass);
+        if (contacts_->give_back(world, impacts_, table_.rows())) sweep_impacts(pass);
         impacts_.each_row([&](std::int32_t row) {
             const Velocity<Real> change = velocity_in(table_.rows().change, row);
             impacts_.changes()[row] = {change.v.template cast<double>(),
                                        change.w.template cast<double>()};
         });
-        impacts_.take(world, contacts_.pairs());
-        contacts_.end_impacts(world);
+        impacts_.take(world, contacts_->pairs());
+        contacts_->end_impacts(world);
     }
 
     void solve_velocities() override {
-        if (contacts_.empty()) return;
-        if (warm_start_) contacts_.warm_start(table_.rows(), pass_);
+        if (contacts_->empty() && (!particle_contacts_ || particle_contacts_->empty())) return;
+        for (const auto& group : groups_)
+            if (warm_start_) group->warm_start(table_.rows(), pass_);
         workers_.run([this](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.velocity_iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
-                contacts_.velocity_iteration(table_.rows(), pass, worker);
+                for (const auto& group : groups_)
+                    if (!group->empty()) group->iterate_velocities(table_.rows(), pass, worker);
             }
         });
         sweeps_ += settings_.velocity_iterations;
     }
 
     void solve_positions(StepReport& report, Ledger& ledger) override {
-        if (contacts_.empty() && !joints_) return;
-        const bool alone = contacts_.empty() && joints_->empty();
+        const auto active = std::count_if(groups_.begin(), groups_.end(),
+                                          [](const auto& group) { return !group->empty(); });
+        if (active == 0) return;
+        // trees alone are right after one iteration
+        const bool alone = active == 1 && trees_ && !trees_->empty();
         const std::uint32_t iterations =
             alone ? std::min(settings_.position_iterations, 1u) : settings_.position_iterations;
         workers_.run([this, alone, iterations, &ledger](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
+            pass.alone = alone;
             for (std::uint32_t i = 0; i < iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
-                if (joints_ && !joints_->empty()) {
-                    const auto share = share_of(worker, ledger, Stage::joints);
-                    joints_->position_iteration(table_.rows(), pass.h, worker);
+                pass.first = i == 0;
+                for (const auto& group : groups_) {
+                    if (group->empty()) continue;
+                    // by the clock of the first worker alone
+                    const auto share =
+                        worker == 0 ? share_of(*group, ledger, Stage::positions) : std::nullopt;
+                    group->iterate_positions(table_.rows(), pass, worker);
                 }
-                if (!trees_.empty()) {
-                    const auto share = share_of(worker, ledger, Stage::trees);
-                    if (worker < trees_.size()) trees_[worker].solve(table_.rows(), alone);
-                    workers_.barrier();
-                }
-                if (!contacts_.empty()) contacts_.position_iteration(table_.rows(), pass, worker);
             }
         });
         sweeps_ += settings_.position_iterations;
-        for (const TreeSolver<W>& trees : trees_) {
-            report.unsolved_trees += trees.unsolved().count;
-            report.tree_error = std::max(report.tree_error, trees.unsolved().error);
-        }
+        for (const auto& group : groups_) group->report(report);
     }
 
     std::uint32_t solve_islands() override { return islands_->solve(); }
 
     /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman
     /// et al.).
+    /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman
+    /// et al.).
     void propagate_shock() override {
-        if (contacts_.empty()) return;
-        shock_->copy_impulses(contacts_);
+        if (contacts_->empty()) return;
+        shock_->copy_impulses(*contacts_);
         PassSettings<Real> pass = pass_;
         pass.shared_cone = true;
         pass.shared_push = false;
@@ -163,54 +173,58 @@ public:
         });
     }
 
-    void take_changes(Bodies& bodies) const override {
-        table_.take_changes(bodies);
-        if (islands_) islands_->take_changes(bodies);
+    void take_changes(World& world) const override {
+        table_.take_changes(world.bodies);
+        table_.take_changes(world, world.particles);
+        if (islands_) islands_->take_changes(world.bodies);
     }
 
-    void store_impulses(World& world) override {
-        contacts_.store_impulses(world.contacts);
+    void end_substep(World& world, Ledger& ledger) override {
+        for (const auto& group : groups_) {
+            const auto share = share_of(*group, ledger, Stage::joints);
+            group->end_substep(world);
+        }
+    }
+
+    void end_step(World& world) override {
+        for (const auto& group : groups_) group->end_step(world);
         if (islands_) islands_->store_impulses(world.contacts);
     }
 
-    void store_joint_impulses(World& world, Ledger& ledger) override {
-        for (JointDrive& drive : world.joints.drives) drive.impulse_before = drive.impulse;
-        if (joints_) joints_->store_impulses(world);
-        if (trees_.empty()) return;
-        const ShareTimer share(ledger, Stage::trees, Stage::joints);
-        for (TreeSolver<W>& trees : trees_) trees.store_impulses(world.joints);
-    }
-
 private:
-    /// Joints that form trees are solved exactly where the plan says so, the others by iterations.
-    void take_joints(const World& world, bool trees) {
-        std::vector<std::uint8_t> in_tree(world.joints.size(), 0);
-        if (trees) {
-            const JointForest forest = find_forest(world);
-            for (const JointForest& share : share_out_trees(forest, workers_.count()))
-                trees_.emplace_back(world, share);
-            in_tree = forest.in_tree;
-        }
-        joints_.emplace(world, in_tree, workers_);
+    using Group = ConstraintGroup<Real>;
+
+    template <class Kind, class... Arguments>
+    Kind* add(Arguments&&... arguments) {
+        auto group = std::make_unique<Kind>(std::forward<Arguments>(arguments)...);
+        Kind* kind = group.get();
+        groups_.push_back(std::move(group));
+        return kind;
     }
 
-    void begin_joints(const World& world, double h, Ledger& ledger) {
-        if (joints_) {
-            const ShareTimer share(ledger, Stage::joints, Stage::begin);
-            joints_->begin(world, h);
+    /// The groups in the order in which they are solved. Joints that form trees are solved exactly
+    /// where the plan says so, the others by iterations.
+    void make_groups(const World& world, const Plan& plan) {
+        if (plan.runs(Effect::joints)) {
+            const bool grows = plan.runs(Effect::joint_trees);
+            const JointForest forest = grows ? find_forest(world) : JointForest();
+            add<JointSolver<Real, W>>(
+                world, grows ? forest.in_tree : std::vector<std::uint8_t>(world.joints.size(), 0),
+                workers_);
+            if (grows) trees_ = add<JointTreeGroup<Real, W>>(world, forest, workers_);
         }
-        if (trees_.empty()) return;
-        const ShareTimer share(ledger, Stage::trees, Stage::begin);
-        workers_.run([&](std::uint32_t worker) {
-            if (worker < trees_.size()) trees_[worker].begin(world, h);
-        });
+        if (plan.runs(Effect::deformables)) add<DeformableGroup<Real, W>>(world, workers_);
+        if (plan.runs(Effect::links)) add<LinkGroup<Real>>(world, workers_);
+        contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
+        if (plan.runs(Effect::particle_contacts))
+            particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
     }
 
-    /// Books what a position iteration spends on joints: by the clock of the first worker alone.
-    static std::optional<ShareTimer> share_of(std::uint32_t worker, Ledger& ledger, Stage stage) {
+    /// Books what is done while it lives on a group's stage.
+    static std::optional<ShareTimer> share_of(const Group& group, Ledger& ledger, Stage around) {
         using Share = std::optional<ShareTimer>;
-        return worker == 0 ? Share(std::in_place, ledger, stage, Stage::positions)
-                           : Share(std::nullopt);
+        const bool apart = group.stage() != Stage::positions && group.stage() != around;
+        return apart ? Share(std::in_place, ledger, group.stage(), around) : Share(std::nullopt);
     }
 
     void sweep_impacts(PassSettings<Real> pass) {
@@ -218,7 +232,7 @@ private:
             PassSettings<Real> mine = pass;
             for (std::uint32_t i = 0; i < kImpactSweeps; ++i) {
                 mine.forwards = i % 2 == 0;
-                contacts_.velocity_iteration(table_.rows(), mine, worker);
+                contacts_->iterate_velocities(table_.rows(), mine, worker);
             }
         });
     }
@@ -235,12 +249,14 @@ private:
     bool warm_start_;
     VelocityTable<Real> table_;
     PassSettings<Real> pass_{};
-    ContactSolver<Real, W> contacts_;
+    std::vector<std::unique_ptr<Group>> groups_;  ///< in the order of the sweep
+    // those of the groups that stages of their own ask for
+    ContactSolver<Real, W>* contacts_ = nullptr;
+    Group* particle_contacts_ = nullptr;
+    Group* trees_ = nullptr;
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;
     Impacts impacts_;
-    std::optional<JointSolver<Real, W>> joints_;
-    std::deque<TreeSolver<W>> trees_;  ///< [worker], or fewer
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t sweeps_ = 0;

@@ -7,8 +7,8 @@
 
 #include "effects/ledger.h"
 #include "effects/plan.h"
+#include "effects/report.h"
 #include "schedule/workers.h"
-#include "step/report.h"
 #include "world/world.h"
 
 #include <memory>
@@ -19,32 +19,30 @@ class RowSolver {
 public:
     virtual ~RowSolver() = default;
 
-    /// Once a step: colours the contacts, fills their rows, and takes over the impulses they
-    /// remember.
-    virtual void load_contacts(const World& world) = 0;
+    /// Once a step: takes the contacts, with the impulses that they remember.
+    virtual void load(const World& world) = 0;
 
-    /// Once a substep of length h [s]: velocities, gaps and drifts at its start. Returns how many
-    /// contacts overlap deeper than the substep may push out.
+    /// Once a substep of length h [s]: velocities, gaps and anchor slip at its start. Returns how
+    /// many contacts overlap deeper than the substep may push out.
     virtual std::uint32_t begin_substep(const World& world, double h, Ledger& ledger) = 0;
 
     /// Collisions that begin in this substep, before forces: step/impacts.h.
     virtual void solve_impacts(World& world, double h) = 0;
 
     virtual void solve_velocities() = 0;
-    /// Tells the report of trees that could not be solved.
+    /// Tells the report of what could not be solved.
     virtual void solve_positions(StepReport& report, Ledger& ledger) = 0;
     /// The islands that are solved exactly. Returns how many still miss the law of contact.
     virtual std::uint32_t solve_islands() = 0;
     virtual void propagate_shock() = 0;
 
-    /// Adds what the passes changed to the velocities of dynamic bodies, and keeps the turns'.
-    virtual void take_changes(Bodies& bodies) const = 0;
+    /// Adds what the passes changed to the velocities of dynamic bodies and particles, and keeps
+    /// the turns'.
+    virtual void take_changes(World& world) const = 0;
 
-    /// Once a step: impulses, into ContactTable::memory.
-    virtual void store_impulses(World& world) = 0;
-
-    /// At the end of a substep: impulses of joints and drives, into JointTable.
-    virtual void store_joint_impulses(World& world, Ledger& ledger) = 0;
+    /// Once a substep and once a step, after the move: impulses, into the world's tables.
+    virtual void end_substep(World& world, Ledger& ledger) = 0;
+    virtual void end_step(World& world) = 0;
 };
 
 /// Throws SceneError when this processor cannot run Settings::lanes.

@@ -5,10 +5,10 @@
 
 #include "effects/ledger.h"
 #include "effects/plan.h"
+#include "effects/report.h"
 #include "schedule/motion_lists.h"
 #include "schedule/workers.h"
 #include "step/contact_room.h"
-#include "step/report.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -23,6 +23,7 @@ struct DetectBuffers {
     std::vector<double> sweeps;
     std::vector<ContactRoom> rooms;  ///< [worker], behind the sinks
     std::vector<ContactSink> sinks;  ///< [worker]
+    std::vector<Vec3> places;        ///< of particles
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far
@@ -30,6 +31,14 @@ struct DetectBuffers {
 /// into the report; only the time inside its call counts as detection.
 void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximity,
             DetectBuffers& buffers, double dt, StepReport& report, Ledger& ledger);
+
+/// The solver's workers, for the collider.
+TaskRunner runner_on(Workers& workers);
+
+/// Asks the collider for the contacts of particles at the poses of `detect`, checks and sorts them,
+/// and hands each the memory of the same contact of the step before.
+void detect_particles(World& world, Workers& workers, Proximity& proximity, DetectBuffers& buffers,
+                      double dt, StepReport& report, Ledger& ledger);
 
 /// Checks and sorts what was found, and hands each contact the memory of the same contact of the
 /// step before.
@@ -59,6 +68,10 @@ void integrate_velocities(World& world, const Plan& plan, const MotionLists& lis
 /// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made; where angular
 /// momentum is carried, it decides the velocity that is left.
 void move(World& world, const MotionLists& lists, double h);
+
+/// The same of particles, which do not turn.
+void integrate_particles(World& world, double h);
+void move_particles(World& world, double h);
 
 /// Breaks the joints whose load was more than they bear; bodies that nothing keeps apart any more
 /// may touch from the next step on.

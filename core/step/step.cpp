@@ -13,6 +13,8 @@ bool is_finite(const World& world) {
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
         sum +=
             world.bodies.position[i] + world.bodies.velocity[i] + world.bodies.angular_velocity[i];
+    for (std::size_t i = 0; i < world.particles.size(); ++i)
+        sum += world.particles.position[i] + world.particles.velocity[i];
     return sum.allFinite();
 }
 
@@ -42,6 +44,11 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
     }
+    if (plan.runs(Effect::particle_contacts))
+        timed(Stage::particle_contacts, [&] {
+            detect_particles(world, stepper.workers, proximity, stepper.buffers, dt, report,
+                             ledger);
+        });
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {
         const bool first = i == 0;
         if (plan.runs(Effect::kinematics))
@@ -55,9 +62,12 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
-        timed(Stage::integrate, [&] { integrate_velocities(world, plan, stepper.motion, h); });
+        timed(Stage::integrate, [&] {
+            integrate_velocities(world, plan, stepper.motion, h);
+            integrate_particles(world, h);
+        });
         if (foresees) timed(Stage::begin, [&] { foresee_rims(world, h); });
-        if (first) timed(Stage::schedule, [&] { solver.load_contacts(world); });
+        if (first) timed(Stage::schedule, [&] { solver.load(world); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.solve_impacts(world, h); });
         timed(Stage::begin,
@@ -69,16 +79,16 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::shock_propagation))
             timed(Stage::shock, [&] { solver.propagate_shock(); });
         timed(Stage::move, [&] {
-            solver.take_changes(world.bodies);
+            solver.take_changes(world);
             move(world, stepper.motion, h);
+            move_particles(world, h);
         });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });
-        if (plan.runs(Effect::joints))
-            timed(Stage::joints, [&] { solver.store_joint_impulses(world, ledger); });
+        timed(Stage::joints, [&] { solver.end_substep(world, ledger); });
         world.time += h;
     }
     timed(Stage::remember, [&] {
-        solver.store_impulses(world);
+        solver.end_step(world);
         remember_contacts(world);
         report.finite = is_finite(world);
     });

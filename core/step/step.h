@@ -4,9 +4,9 @@
 
 #include "effects/ledger.h"
 #include "effects/plan.h"
+#include "effects/report.h"
 #include "schedule/workers.h"
 #include "step/joint_state.h"
-#include "step/report.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
 #include "step/still_ground.h"

@@ -47,6 +47,7 @@ void StillGround::note(const World& world, double h) {
     for (const Joint& joint : world.joints.joints)
         for (const std::uint32_t body : {joint.a, joint.b})
             if (body != kNoIndex) touches_[body] = else_too;
+    world.each_body_among_particles([&](std::uint32_t body) { touches_[body] = else_too; });
     for (std::uint32_t i = 0; i < b.size(); ++i) {
         if (touches_[i] != fixed_only || b.motion[i] != Motion::dynamic) continue;
         const double swing = 0.5 * h * force_on(world, i).dot(b.velocity[i]);

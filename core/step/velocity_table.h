@@ -31,8 +31,9 @@ template <class Real>
 class VelocityTable {
 public:
     /// Takes the velocities at the start of a substep, forces included, and clears the changes.
-    void begin(const World& world) {
+    void begin(const World& world, double h) {
         begin(world, world.bodies.velocity, world.bodies.angular_velocity);
+        begin_particles(world, h);
     }
     /// The same with any velocities, [body].
     void begin(const World& world, const std::vector<Vector3d>& velocity,
@@ -40,7 +41,7 @@ public:
         const std::size_t rows = static_cast<std::size_t>(world.zero_row()) + 1;
         start_.assign(rows * kBodyRowSize, Real(0));
         change_.assign(rows * kBodyRowSize, Real(0));
-        dynamic_count_ = world.dynamic_count;
+        dynamic_count_ = world.moving_count();
         for (std::size_t i = 0; i < world.bodies.size(); ++i) {
             if (world.bodies.motion[i] == Motion::fixed) continue;
             Real* row = start_.data() + world.bodies.row[i] * kBodyRowSize;
@@ -51,7 +52,9 @@ public:
         }
     }
 
-    BodyRows<Real> rows() { return {change_.data(), start_.data(), dynamic_count_}; }
+    BodyRows<Real> rows() {
+        return {change_.data(), start_.data(), dynamic_count_, preview_.data()};
+    }
 
     void take_changes(Bodies& bodies) const {
         for (std::size_t i = 0; i < bodies.size(); ++i) {
@@ -65,8 +68,33 @@ public:
         }
     }
 
+    void take_changes(const World& world, Particles& particles) const {
+        for (std::size_t i = 0; i < particles.size(); ++i) {
+            const Real* row = change_.data() + world.particle_row(i) * kBodyRowSize;
+            for (int k = 0; k < 3; ++k) particles.velocity[i][k] += static_cast<double>(row[k]);
+        }
+    }
+
 private:
-    std::vector<Real> start_, change_;
+    /// Places are told against the first particle, and what does not fit into one number goes into
+    /// a second.
+    void begin_particles(const World& world, double h) {
+        const Particles& p = world.particles;
+        if (p.size() == 0) return;
+        preview_.assign(start_.size(), Real(0));
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const auto at = world.particle_row(i) * kBodyRowSize;
+            const Vector3d place = (p.position[i] - p.position[0]) + h * p.velocity[i];
+            for (int k = 0; k < 3; ++k) {
+                const Real high = static_cast<Real>(place[k]);
+                start_[at + k] = static_cast<Real>(p.velocity[i][k]);
+                preview_[at + k] = high;
+                preview_[at + 4 + k] = static_cast<Real>(place[k] - static_cast<double>(high));
+            }
+        }
+    }
+
+    std::vector<Real> start_, change_, preview_;
     std::int32_t dynamic_count_ = 0;
 };
 

@@ -25,8 +25,7 @@ std::vector<double> point_volumes(const DeformableSpec& spec) {
     switch (spec.kind) {
         case DeformableKind::rope:
             share_out(volumes, spec.segments, [&](const auto& e) {
-                constexpr double kQuarterPi = 0.7853981633974483;
-                return (p[e[1]] - p[e[0]]).norm() * kQuarterPi * spec.thickness * spec.thickness;
+                return (p[e[1]] - p[e[0]]).norm() * rope_section(spec);
             });
             break;
         case DeformableKind::cloth:
@@ -69,12 +68,11 @@ void build_particles(World& world, const Scene& scene) {
         const std::string place = "/deformables/" + std::to_string(i);
         if (const auto fault = deformable_fault(scene.deformables[i], scene.materials.size()))
             throw SceneError("", place + fault->place, fault->sentence);
-        world.deformables.push_back({static_cast<std::uint32_t>(world.particles.size()),
-                                     static_cast<std::uint32_t>(scene.deformables[i].points.size()),
-                                     scene.deformables[i].group, scene.deformables[i].mask});
+        const DeformableSpec& spec = scene.deformables[i];
+        world.deformables.push_back({spec, static_cast<std::uint32_t>(world.particles.size()),
+                                     static_cast<std::uint32_t>(spec.points.size())});
         add_particles(world, scene, i);
     }
-    world.particles.velocity_now = world.particles.velocity;
 }
 
 }  // namespace plumb

@@ -3,6 +3,7 @@
 #include "scene/error.h"
 #include "world/body_row.h"
 #include "world/build_joints.h"
+#include "world/build_links.h"
 #include "world/build_particles.h"
 #include "world/derived.h"
 #include "world/world.h"
@@ -48,6 +49,7 @@ World build_world(const Scene& scene) {
     combine_surfaces(world, scene);
     keep_apart(world, scene);
     build_joints(world, scene);
+    build_links(world, scene);
     return world;
 }
 

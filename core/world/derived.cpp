@@ -13,7 +13,7 @@ void assign_rows(World& world) {
         world.dynamic_count += m == Motion::dynamic;
         world.kinematic_count += m == Motion::kinematic;
     }
-    std::int32_t dynamic = 0, kinematic = world.dynamic_count;
+    std::int32_t dynamic = 0, kinematic = world.moving_count();
     for (std::size_t i = 0; i < b.size(); ++i)
         b.row[i] = b.motion[i] == Motion::dynamic     ? dynamic++
                    : b.motion[i] == Motion::kinematic ? kinematic++

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/types.h"
+#include "scene/deformable.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,15 +18,42 @@ struct Particles {
     std::vector<std::uint32_t> material;
     std::vector<std::uint32_t> deformable;  ///< of which it is a point
 
-    std::vector<Vector3d> velocity_now;  ///< at the start of the substep, without its forces [m/s]
-
     std::size_t size() const { return position.size(); }
 };
 
-/// What a deformable has of the particles: [first, first + count), and what they may touch.
+/// What a deformable has of the particles: [first, first + count).
 struct Deformable {
+    DeformableSpec spec;
     std::uint32_t first = 0, count = 0;
-    std::uint32_t group = 1, mask = ~0u;
 };
+
+/// Cross section of a rope [m²].
+inline double rope_section(const DeformableSpec& spec) {
+    constexpr double kQuarterPi = 0.7853981633974483;
+    return kQuarterPi * spec.thickness * spec.thickness;
+}
+/// E I of a rope [N m²].
+inline double rope_bending_stiffness(const DeformableSpec& spec) {
+    return spec.elasticity.bending_stiffness.value_or(
+        spec.elasticity.youngs_modulus * rope_section(spec) * spec.thickness * spec.thickness / 16);
+}
+/// Flexural rigidity of a sheet, E t³ / 12 (1 − ν²) [N m].
+inline double cloth_bending_stiffness(const DeformableSpec& spec) {
+    const double t = spec.thickness, nu = spec.elasticity.poissons_ratio;
+    return spec.elasticity.bending_stiffness.value_or(spec.elasticity.youngs_modulus * t * t * t /
+                                                      (12 * (1 - nu * nu)));
+}
+
+/// Calls visit({a, b, c}) for each point b of a rope at which two segments meet.
+template <class Visit>
+inline void each_corner(const DeformableSpec& spec, Visit visit) {
+    for (std::size_t i = 0; i < spec.segments.size(); ++i)
+        for (std::size_t j = i + 1; j < spec.segments.size(); ++j)
+            for (int k = 0; k < 2; ++k)
+                for (int l = 0; l < 2; ++l)
+                    if (spec.segments[i][k] == spec.segments[j][l])
+                        visit(std::array<std::uint32_t, 3>{
+                            spec.segments[i][1 - k], spec.segments[i][k], spec.segments[j][1 - l]});
+}
 
 }  // namespace plumb

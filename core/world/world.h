@@ -6,6 +6,8 @@
 #include "world/bodies.h"
 #include "world/contacts.h"
 #include "world/joints.h"
+#include "world/links.h"
+#include "world/particle_contacts.h"
 #include "world/particles.h"
 #include "world/places.h"
 #include "world/shape_store.h"
@@ -32,21 +34,40 @@ struct World {
     JointTable joints;
     Particles particles;
     std::vector<Deformable> deformables;
+    std::vector<Link> links;
     std::vector<SurfacePair> surface_pairs;  ///< [material_a × material_count + material_b]
     std::uint32_t material_count = 1;
     std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that never collide, sorted; as
                                           ///< often as there are reasons
     ContactTable contacts;
+    ParticleContactTable particle_contacts;
     ShapeStore shapes;
-    std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table
-    std::int32_t kinematic_count = 0;  ///< then those of kinematic bodies, then one of zeros
+    std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table,
+    std::int32_t kinematic_count = 0;  ///< then particles, kinematic bodies, and one row of zeros
     double time = 0;                   ///< [s]
     std::uint64_t steps = 0;
 
     const SurfacePair& surface_pair(std::uint32_t body_a, std::uint32_t body_b) const {
-        return surface_pairs[bodies.material[body_a] * material_count + bodies.material[body_b]];
+        return surface_of(bodies.material[body_a], bodies.material[body_b]);
     }
-    std::int32_t zero_row() const { return dynamic_count + kinematic_count; }
+    const SurfacePair& surface_of(std::uint32_t material_a, std::uint32_t material_b) const {
+        return surface_pairs[material_a * material_count + material_b];
+    }
+    std::int32_t particle_row(std::size_t particle) const {
+        return dynamic_count + static_cast<std::int32_t>(particle);
+    }
+    /// Rows that change: of dynamic bodies and of particles.
+    std::int32_t moving_count() const { return particle_row(particles.size()); }
+    /// Calls visit(body) for each body that a particle touches or a link ends on, as often as one
+    /// does.
+    template <class Visit>
+    void each_body_among_particles(Visit visit) const {
+        for (const Contact& c : particle_contacts.found) visit(c.b);
+        for (const Link& link : links)
+            for (const WorldPoint* p : {&link.a, &link.b})
+                if (p->body != kNoIndex) visit(p->body);
+    }
+    std::int32_t zero_row() const { return moving_count() + kinematic_count; }
 };
 
 /// Makes the world of a scene. Throws SceneError, with a JSON pointer, for what cannot be

@@ -6,7 +6,7 @@
 #include "kernels/joint_kernels.h"
 #include "schedule/colouring.h"
 #include "schedule/workers.h"
-#include "step/fill_mass.h"
+#include "solve/fill_mass.h"
 #include "world/world.h"
 
 #include <vector>
@@ -20,7 +20,7 @@ public:
     void lay_out(const std::vector<BodyPair>& pairs, const World& world) {
         blocks_.clear(), ranges_.clear();
         places_.resize(pairs.size());
-        colouring_.colour(pairs, world.dynamic_count);
+        colouring_.colour(pairs, world.moving_count());
         for (const Batch& batch : colouring_.batches()) {
             const std::uint32_t width = batch.independent ? W : 1;
             const auto first = static_cast<std::uint32_t>(blocks_.size());

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+/// The constraints that deformables are made of. A new one is a file beside this one and a name in
+/// this list; its loops, lanes, colours and threads follow from it.
+///
+/// A formula says among how many points it is (kPoints), and tells its items of a deformable
+/// (`each`). One that is linear in its points says no more; any other has kRows rows, kNumbers
+/// numbers an item, and `rows`, which makes C and its gradient of the points.
+#pragma once
+
+#include "constraints/bending.h"
+#include "constraints/membrane.h"
+#include "constraints/rope.h"
+#include "constraints/tetrahedron.h"
+
+namespace plumb {
+
+template <class... Formula>
+struct FormulaList {};
+
+using Formulas = FormulaList<Stretch, RopeBend, Membrane, IsometricBend, DihedralBend, Tetrahedron>;
+
+/// Sizes of a formula's blocks.
+template <class F>
+struct FormulaSize {
+    static constexpr bool kIsLinear = true;
+    static constexpr int kNumbers = F::kPoints;  ///< weights
+    static constexpr int kRows = 3;              ///< one a direction
+    static constexpr int kCompliances = 1;
+};
+template <class F>
+requires requires { F::kRows; }
+struct FormulaSize<F> {
+    static constexpr bool kIsLinear = false;
+    static constexpr int kNumbers = F::kNumbers;
+    static constexpr int kRows = F::kRows;
+    static constexpr int kCompliances = F::kRows;
+};
+
+}  // namespace plumb

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+/// The loops behind the kernels of constraints among particles. Included by the units of each
+/// instruction set and by nothing else.
+#pragma once
+
+#include "kernels/gather.h"
+#include "kernels/point_kernels.h"
+
+namespace plumb::kernels {
+
+/// The points of W constraints, against the first of each [m].
+template <int N, class T>
+struct GatheredPoints {
+    Vector3<T> place[N], change[N];
+};
+
+/// `whole`: at the end of the substep as things stand; else at its start.
+template <int N, class Real, int W, class T = Number<Real, W>>
+inline GatheredPoints<N, T> gather_points(const BodyRows<Real>& rows,
+                                          const std::int32_t (&row)[N][W], const T& h, bool whole) {
+    GatheredPoints<N, T> points;
+    Velocity<T> preview[N];
+    for (int i = 0; i < N; ++i) {
+        preview[i] = read_velocities<Real, W>(rows.preview, row[i]);
+        points.change[i] = read_velocities<Real, W>(whole ? rows.change : rows.start, row[i]).v;
+    }
+    const T time = whole ? h : -h;
+    for (int i = 0; i < N; ++i)
+        points.place[i] = (preview[i].v - preview[0].v) + (preview[i].w - preview[0].w) +
+                          (points.change[i] - points.change[0]) * time;
+    return points;
+}
+
+template <class Real, int N, int W>
+inline void load_all(Number<Real, W> (&to)[N], const Real (&from)[N][W]) {
+    for (int k = 0; k < N; ++k) to[k] = load(from[k]);
+}
+
+/// C of a formula's rows at the given points.
+template <class F, class Real, int W, class T = Number<Real, W>>
+inline void evaluate(T (&c)[FormulaSize<F>::kRows], const FormulaBlock<F, Real, W>& block,
+                     const Vector3<T> (&place)[F::kPoints]) {
+    using Size = FormulaSize<F>;
+    T numbers[Size::kNumbers];
+    load_all<Real, Size::kNumbers, W>(numbers, block.numbers);
+    if constexpr (Size::kIsLinear) {
+        Vector3<T> sum = place[0] * numbers[0];
+        for (int i = 1; i < F::kPoints; ++i) sum += place[i] * numbers[i];
+        for (int k = 0; k < 3; ++k) c[k] = sum[k];
+    } else {
+        const auto rows = F::rows(place, numbers);
+        for (int k = 0; k < Size::kRows; ++k) c[k] = rows.c[k];
+    }
+}
+
+template <class F, class Real, int W>
+void begin_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, Real h,
+                  std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    using Size = FormulaSize<F>;
+    for (std::uint32_t b = first; b < last; ++b) {
+        FormulaBlock<F, Real, W>& block = blocks[b];
+        const T damped = load(block.damped);
+        T c[Size::kRows];
+        for (T& row : c) row = T(0);
+        if (any_greater(damped, T(0))) {
+            const auto points = gather_points<F::kPoints, Real, W>(rows, block.row, T(h), false);
+            evaluate<F, Real, W>(c, block, points.place);
+        }
+        for (int k = 0; k < Size::kRows; ++k) {
+            store(block.lag[k], T(damped * c[k]));
+            store(block.impulse[k], T(0));
+        }
+    }
+}
+
+template <class F, class Real, int W>
+void solve_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, Real h,
+                  std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    using Size = FormulaSize<F>;
+    constexpr int n = F::kPoints;
+    for (std::uint32_t b = first; b < last; ++b) {
+        FormulaBlock<F, Real, W>& block = blocks[b];
+        auto points = gather_points<n, Real, W>(rows, block.row, T(h), true);
+        T mass[n], numbers[Size::kNumbers], soft[Size::kCompliances], lag[Size::kRows],
+            impulse[Size::kRows];
+        load_all<Real, n, W>(mass, block.inverse_mass);
+        load_all<Real, Size::kNumbers, W>(numbers, block.numbers);
+        load_all<Real, Size::kCompliances, W>(soft, block.softness);
+        load_all<Real, Size::kRows, W>(lag, block.lag);
+        load_all<Real, Size::kRows, W>(impulse, block.impulse);
+        if constexpr (Size::kIsLinear) {
+            LinearRow<T, n> row;
+            for (int i = 0; i < n; ++i) row.weight[i] = numbers[i];
+            T c[3];
+            evaluate<F, Real, W>(c, block, points.place);
+            Vector3<T> sum(impulse[0], impulse[1], impulse[2]);
+            plumb::solve_points<T, n>(points.change, mass, row, Vector3<T>(c[0], c[1], c[2]),
+                                      Vector3<T>(lag[0], lag[1], lag[2]), soft[0], sum, T(h));
+            for (int k = 0; k < 3; ++k) impulse[k] = sum[k];
+        } else {
+            plumb::solve_points<T, n, Size::kRows>(
+                points.change, mass, F::rows(points.place, numbers), lag, soft, impulse, T(h));
+        }
+        for (int k = 0; k < Size::kRows; ++k) store(block.impulse[k], impulse[k]);
+        const Vector3<T> none(T(0), T(0), T(0));
+        for (int i = 0; i < n; ++i)
+            write_velocities<Real, W>(rows.change, block.row[i], rows.dynamic_count,
+                                      {points.change[i], none});
+    }
+}
+
+template <class F, class Real, int W>
+constexpr FormulaKernels<F, Real, W> kernels_of_formula() {
+    return {begin_points<F, Real, W>, solve_points<F, Real, W>};
+}
+
+template <class Real, int W, class... F>
+constexpr PointKernelsOf<FormulaList<F...>, Real, W> all_point_kernels(FormulaList<F...>) {
+    return {kernels_of_formula<F, Real, W>()...};
+}
+
+}  // namespace plumb::kernels

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/// Memory of the constraints among particles: W of them side by side.
+#pragma once
+
+#include "schedule/contact_rows.h"
+
+namespace plumb {
+
+/// Rows of the formula's points, what it knows of its item, and what it has pushed so far.
+/// `Size`: FormulaSize of the formula.
+template <class Size, int Points, class Real, int W>
+struct alignas(64) PointBlock {
+    std::int32_t row[Points][W];           // in the velocity table; the row of zeros in empty lanes
+    Real inverse_mass[Points][W];          // [1/kg]
+    Real numbers[Size::kNumbers][W];       // of the item at rest
+    Real softness[Size::kCompliances][W];  // point_softness()
+    Real damped[W];                        // point_lag()
+    Real lag[Size::kRows][W];              // the same of C at the start of the substep
+    Real impulse[Size::kRows][W];          // summed over the substep
+};
+
+}  // namespace plumb

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// All that holds deformables together: the constraints of each formula, and volumes.
+#pragma once
+
+#include "solve/momentum_keeper.h"
+#include "solve/point_group.h"
+#include "solve/volume_group.h"
+
+#include <memory>
+#include <vector>
+
+namespace plumb {
+
+template <class Real, int W>
+class DeformableGroup final : public ConstraintGroup<Real> {
+public:
+    DeformableGroup(const World& world, Workers& workers)
+        : keeper_(world, workers), volumes_(world, workers) {
+        add(Formulas(), world, workers);
+    }
+
+    Stage stage() const override { return Stage::particles; }
+    bool empty() const override { return groups_.empty() && volumes_.empty(); }
+
+    void begin(const World& world, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
+               double h) override {
+        h_ = h;
+        keeper_.begin(world);
+        for (const auto& group : groups_) group->begin(world, rows, pass, h);
+    }
+
+    void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
+                           std::uint32_t worker) override {
+        keeper_.note(rows, worker);
+        for (const auto& group : groups_) group->iterate_positions(rows, pass, worker);
+        if (!volumes_.empty()) volumes_.iterate(rows, h_, pass.first, worker);
+        keeper_.restore(rows, worker);
+    }
+
+private:
+    template <class... F>
+    void add(FormulaList<F...>, const World& world, Workers& workers) {
+        (add_formula<F>(world, workers), ...);
+    }
+    template <class F>
+    void add_formula(const World& world, Workers& workers) {
+        auto group = std::make_unique<PointGroup<F, Real, W>>(world, workers);
+        if (!group->empty()) groups_.push_back(std::move(group));
+    }
+
+    MomentumKeeper<Real> keeper_;
+    std::vector<std::unique_ptr<ConstraintGroup<Real>>> groups_;
+    VolumeGroup<Real> volumes_;
+    double h_ = 0;
+};
+
+}  // namespace plumb

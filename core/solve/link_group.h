@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+/// Links between points of bodies, particles and the world, one after another.
+#pragma once
+
+#include "constraints/link.h"
+#include "constraints/points.h"
+#include "math/rotation.h"
+#include "schedule/workers.h"
+#include "solve/constraint_group.h"
+
+#include <cmath>
+#include <vector>
+
+namespace plumb {
+
+template <class Real>
+class LinkGroup final : public ConstraintGroup<Real> {
+public:
+    LinkGroup(const World& world, Workers& workers) : workers_(workers) {
+        for (const Link& link : world.links) {
+            Row row;
+            row.link = link;
+            row.row_a = row_of(world, link.a), row.row_b = row_of(world, link.b);
+            rows_.push_back(row);
+        }
+    }
+
+    Stage stage() const override { return Stage::links; }
+    bool empty() const override { return rows_.empty(); }
+
+    void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
+               double h) override {
+        h_ = h;
+        for (Row& row : rows_) {
+            place(world, row.link.a, row.a);
+            place(world, row.link.b, row.b);
+            const Vector3d apart = row.a.start - row.b.start;
+            const double length = apart.norm();
+            row.length = length;
+            row.line = length > 0 ? Vector3d(apart / length) : Vector3d(Vector3d::UnitY());
+            const double response = line_response(row.a, row.b, row.line);
+            const double pull = row.impulse.norm();  // of the substep before
+            row.share = length > 0 ? line_share(h * pull * response / length) : 0;
+            row.impulse.setZero();
+        }
+    }
+
+    void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>&,
+                           std::uint32_t worker) override {
+        if (worker == 0)
+            for (Row& row : rows_) row.link.joins ? join(rows, row) : keep_length(rows, row);
+        workers_.barrier();
+    }
+
+    void end_substep(World& world) override {
+        for (std::size_t i = 0; i < rows_.size(); ++i) world.links[i].impulse = rows_[i].impulse;
+    }
+
+private:
+    struct Row {
+        Link link;
+        std::int32_t row_a = 0, row_b = 0;
+        LinkedPoint a, b;
+        Vector3d line = Vector3d::Zero();
+        double length = 0, share = 0;  ///< at the start [m]; of the line's turn that is followed
+        Vector3d impulse = Vector3d::Zero();  ///< on a
+    };
+
+    static std::int32_t row_of(const World& world, const WorldPoint& p) {
+        if (p.particle != kNoIndex) return world.particle_row(p.particle);
+        return p.body == kNoIndex ? world.zero_row() : world.bodies.row[p.body];
+    }
+
+    static void place(const World& world, const WorldPoint& p, LinkedPoint& to) {
+        const Symmetric3<double> none{0, 0, 0, 0, 0, 0};
+        to.arm.setZero();
+        to.inverse = {0, none};
+        to.start = p.position;
+        if (p.particle != kNoIndex) {
+            to.start = world.particles.position[p.particle];
+            to.inverse.mass = world.particles.inverse_mass[p.particle];
+        } else if (p.body != kNoIndex) {
+            to.start = in_world(world.bodies, p.body, p.position);
+            to.arm = to.start - world.bodies.position[p.body];
+            to.inverse = {world.bodies.inverse_mass[p.body],
+                          world.bodies.world_inverse_inertia[p.body]};
+        }
+    }
+
+    /// Where a point is at the end of the substep as things stand, against its start [m].
+    Vector3d moved(const BodyRows<Real>& rows, std::int32_t row, const LinkedPoint& p) const {
+        const auto at = static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+        const auto part = [&](int first) {
+            return Vector3d(
+                double(rows.start[at + first]) + double(rows.change[at + first]),
+                double(rows.start[at + first + 1]) + double(rows.change[at + first + 1]),
+                double(rows.start[at + first + 2]) + double(rows.change[at + first + 2]));
+        };
+        return h_ * part(0) + Turn<double>(Vector3d(h_ * part(4))).change(p.arm);
+    }
+
+    void push(const BodyRows<Real>& rows, Row& row, const Vector3d& impulse) const {
+        row.impulse += impulse;
+        push(rows, row.row_a, row.a, impulse);
+        push(rows, row.row_b, row.b, -impulse);
+    }
+    static void push(const BodyRows<Real>& rows, std::int32_t row, const LinkedPoint& p,
+                     const Vector3d& impulse) {
+        if (row >= rows.dynamic_count) return;
+        Velocity<double> change{Vector3d::Zero(), Vector3d::Zero()};
+        apply_impulse<double>(change, p.inverse, p.arm, impulse);
+        Real* x = rows.change + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+        for (int k = 0; k < 3; ++k) {
+            x[k] = static_cast<Real>(double(x[k]) + change.v[k]);
+            x[4 + k] = static_cast<Real>(double(x[4 + k]) + change.w[k]);
+        }
+    }
+
+    void keep_length(const BodyRows<Real>& rows, Row& row) const {
+        const Vector3d apart = row.a.start - row.b.start + moved(rows, row.row_a, row.a) -
+                               moved(rows, row.row_b, row.b);
+        const double length = apart.norm();
+        if (!(length > 0)) return;
+        const Vector3d end = apart / length;
+        Vector3d line = (1 - row.share) * row.line + row.share * end;
+        // what turns by more than a third of a turn has left its line behind
+        line = line.dot(end) > 0.5 ? line.normalized() : end;
+        const double slope = line.dot(end) * line_response(row.a, row.b, line);
+        if (!(slope > 0)) return;
+        const double time = row.link.compliance * row.link.damping;
+        const double soft = point_softness(row.link.compliance, time, h_);
+        const double lag = point_lag(time, h_);
+        const double sum = row.impulse.dot(line);  // pulls a towards b where negative
+        const auto summed = [&](double rest) {
+            const double c = (length - rest) - lag * (row.length - rest);
+            return sum - (c / h_ + soft * sum) / (slope + soft);
+        };
+        double after = summed(row.link.longest);
+        if (row.link.shortest < row.link.longest)
+            after = std::min(0.0, after) + std::max(0.0, summed(row.link.shortest));
+        push(rows, row, (after - sum) * line);
+    }
+
+    void join(const BodyRows<Real>& rows, Row& row) const {
+        const Vector3d apart = row.a.start - row.b.start + moved(rows, row.row_a, row.a) -
+                               moved(rows, row.row_b, row.b);
+        const double soft = row.link.compliance / (h_ * h_);
+        // at one common point, that of a: opposite impulses keep angular momentum
+        LinkedPoint b = row.b;
+        b.arm += row.a.start - row.b.start;
+        Symmetric3<double> k =
+            point_response(row.a.inverse, row.a.arm) + point_response(b.inverse, b.arm);
+        k.xx += soft, k.yy += soft, k.zz += soft;
+        if (!(k.xx > 0)) return;
+        const Vector3d wish = -(apart / h_ + soft * row.impulse);
+        const Vector3d impulse = solve_ldlt<double>(k, wish);
+        row.impulse += impulse;
+        push(rows, row.row_a, row.a, impulse);
+        push(rows, row.row_b, b, -impulse);
+    }
+
+    Workers& workers_;
+    std::vector<Row> rows_;
+    double h_ = 0;
+};
+
+}  // namespace plumb

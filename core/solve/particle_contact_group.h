@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+/// Contacts of particles with bodies: the rows and kernels of bodies' contacts, in which a is a
+/// particle, whose connector has neither arm nor inertia (§7).
+#pragma once
+
+#include "effects/plan.h"
+#include "kernels/contact_kernels.h"
+#include "schedule/contact_batches.h"
+#include "schedule/workers.h"
+#include "solve/constraint_group.h"
+#include "solve/contact_sweep.h"
+#include "solve/fill_mass.h"
+
+#include <vector>
+
+namespace plumb {
+
+template <class Real, int W>
+class ParticleContactGroup final : public ConstraintGroup<Real> {
+public:
+    ParticleContactGroup(const Plan& plan, Workers& workers)
+        : variant_(plan.runs(Effect::friction) ? ContactVariant::friction
+                                               : ContactVariant::frictionless),
+          kernels_(contact_kernels<Real, W>(variant_)),
+          workers_(workers) {}
+
+    Stage stage() const override { return Stage::particle_contacts; }
+    bool empty() const override { return pairs_.empty(); }
+
+    void load(const World& world) override {
+        const ParticleContactTable& c = world.particle_contacts;
+        pairs_.clear();
+        for (std::uint32_t i = 0; i < c.found.size(); ++i) {
+            const Contact& contact = c.found[i];
+            if (i > 0 && c.found[i - 1].a == contact.a && c.found[i - 1].b == contact.b)
+                ++pairs_.back().count;
+            else
+                pairs_.push_back(
+                    {world.particle_row(contact.a), world.bodies.row[contact.b], i, 1});
+        }
+        colouring_.colour(pairs_, world.moving_count());
+        batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](const ContactPlace& at) {
+            const Contact& contact = c.found[at.contact];
+            const double n[3] = {contact.normal.x, contact.normal.y, contact.normal.z};
+            for (int k = 0; k < 3; ++k)
+                rows.normals[at.row].normal[k][at.lane] = static_cast<Real>(n[k]);
+            rows.blocks[at.block].inverse_mass_a[at.lane] =
+                static_cast<Real>(world.particles.inverse_mass[contact.a]);
+            if (!rows.frictions) return;
+            const std::uint32_t material = world.particles.material[contact.a];
+            rows.frictions[at.row].friction[at.lane] = static_cast<Real>(
+                world.surface_of(material, world.bodies.material[contact.b]).friction);
+        });
+        is_fresh_ = true;
+    }
+
+    void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+               double) override {
+        const ParticleContactTable& c = world.particle_contacts;
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](const ContactPlace& at) {
+            const Contact& contact = c.found[at.contact];
+            const Vector3d& place = world.particles.position[contact.a];
+            const Vector3d apart = place - in_world(world.bodies, contact.b, c.track[at.contact]);
+            const Vector3d arm = place - world.bodies.position[contact.b];
+            NormalRow<Real, W>& row = rows.normals[at.row];
+            row.gap[at.lane] = static_cast<Real>(to_eigen(contact.normal).dot(apart) -
+                                                 contact.radius_a - contact.radius_b);
+            for (int k = 0; k < 3; ++k) row.arm_b[k][at.lane] = static_cast<Real>(arm[k]);
+            PairBlock<Real, W>& block = rows.blocks[at.block];
+            fill_mass(world.bodies, contact.b, block.inverse_mass_b, block.inverse_inertia_b,
+                      at.lane);
+        });
+        run(kernels_.prepare, bodies, pass);
+        if (is_fresh_ && pass.warm_start) load_impulses(c);
+        is_fresh_ = false;
+        run(kernels_.begin, bodies, pass);
+    }
+
+    void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) override {
+        run(kernels_.warm_start, bodies, pass);
+    }
+    void iterate_velocities(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                            std::uint32_t worker) override {
+        sweep(kernels_.solve_velocities, bodies, pass, worker);
+    }
+    void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                           std::uint32_t worker) override {
+        sweep(kernels_.solve_positions, bodies, pass, worker);
+    }
+
+    void end_step(World& world) override {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](const ContactPlace& at) {
+            ParticleContactMemory& memory = world.particle_contacts.memory[at.contact];
+            const NormalRow<Real, W>& row = rows.normals[at.row];
+            memory.normal_impulse =
+                double(row.lambda_velocity[at.lane]) + double(row.lambda_position[at.lane]);
+            if (!rows.frictions) return;
+            const FrictionRow<Real, W>& across = rows.frictions[at.row];
+            const ContactTangents t = tangents_of(row, across, at.lane);
+            memory.friction_impulse =
+                (double(across.held_x[at.lane]) + double(across.rubbed_x[at.lane])) * t.x +
+                (double(across.held_y[at.lane]) + double(across.rubbed_y[at.lane])) * t.y;
+        });
+    }
+
+private:
+    template <class Visit>
+    void each_contact(Visit visit) const {
+        batches_.each_contact(pairs_, visit);
+    }
+
+    void load_impulses(const ParticleContactTable& c) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](const ContactPlace& at) {
+            const ParticleContactMemory& memory = c.memory[at.contact];
+            NormalRow<Real, W>& row = rows.normals[at.row];
+            row.lambda_velocity[at.lane] = static_cast<Real>(memory.normal_impulse);
+            if (!rows.frictions) return;
+            FrictionRow<Real, W>& across = rows.frictions[at.row];
+            const ContactTangents t = tangents_of(row, across, at.lane);
+            across.held_x[at.lane] = static_cast<Real>(t.x.dot(memory.friction_impulse));
+            across.held_y[at.lane] = static_cast<Real>(t.y.dot(memory.friction_impulse));
+        });
+    }
+
+    void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
+             const PassSettings<Real>& pass) {
+        workers_.run([&](std::uint32_t worker) { sweep(kernel, bodies, pass, worker); });
+    }
+
+    void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
+               const PassSettings<Real>& pass, std::uint32_t worker) {
+        sweep_batches(kernel, batches_, bodies, pass, workers_, worker);
+    }
+
+    ContactVariant variant_;
+    const ContactKernels<Real, W>& kernels_;
+    Workers& workers_;
+    std::vector<BodyPair> pairs_;
+    Colouring colouring_;
+    ContactBatches<Real, W> batches_;
+    bool is_fresh_ = false;  ///< whether the impulses of the step before are still to be taken
+};
+
+}  // namespace plumb

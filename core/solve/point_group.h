@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+/// The constraints of one formula among particles, in coloured blocks of W lanes.
+#pragma once
+
+#include "kernels/point_kernels.h"
+#include "schedule/colouring.h"
+#include "schedule/workers.h"
+#include "solve/constraint_group.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace plumb {
+
+template <class F, class Real, int W>
+class PointGroup final : public ConstraintGroup<Real> {
+public:
+    PointGroup(const World& world, Workers& workers)
+        : kernels_(point_kernels<Real, W>()), workers_(workers) {
+        const double h = world.settings.dt / world.settings.substeps;
+        for (const Deformable& d : world.deformables)
+            F::each(d, [&](const auto& points, const auto& numbers, const auto& compliances) {
+                add(world, d, points, numbers, compliances, h);
+            });
+        colouring_.colour(links_, world.moving_count());
+        lay_out(world);
+    }
+
+    Stage stage() const override { return Stage::particles; }
+    bool empty() const override { return blocks_.empty(); }
+
+    void begin(const World&, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
+               double) override {
+        workers_.run([&](std::uint32_t worker) { sweep(kernels_.begin, rows, pass, worker); });
+    }
+
+    void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
+                           std::uint32_t worker) override {
+        sweep(kernels_.solve, rows, pass, worker);
+    }
+
+private:
+    using Size = FormulaSize<F>;
+    using Block = FormulaBlock<F, Real, W>;
+    using Kernels = FormulaKernels<F, Real, W>;
+
+    /// One constraint, as it goes into a lane.
+    struct Item {
+        std::array<double, F::kPoints> inverse_mass;
+        std::array<double, Size::kNumbers> numbers;
+        std::array<double, Size::kCompliances> softness;
+        double damped;
+    };
+
+    template <class Points, class Compliances>
+    void add(const World& world, const Deformable& d, const Points& points,
+             const double (&numbers)[Size::kNumbers], const Compliances& compliances, double h) {
+        const double damping = d.spec.elasticity.damping;
+        Item item;
+        LinkedRows<F::kPoints> link;
+        for (int i = 0; i < F::kPoints; ++i) {
+            const std::uint32_t particle = d.first + points[i];
+            link.rows[i] = world.particle_row(particle);
+            item.inverse_mass[i] = world.particles.inverse_mass[particle];
+        }
+        std::copy_n(numbers, Size::kNumbers, item.numbers.begin());
+        if constexpr (Size::kIsLinear)
+            item.softness[0] = point_softness(compliances, damping, h);
+        else
+            for (int k = 0; k < Size::kRows; ++k)
+                item.softness[k] = point_softness(compliances[k], damping, h);
+        item.damped = point_lag(damping, h);
+        links_.push_back(link), items_.push_back(item);
+    }
+
+    void lay_out(const World& world) {
+        for (const Batch& batch : colouring_.batches()) {
+            const std::uint32_t width = batch.independent ? W : 1;
+            const auto first = static_cast<std::uint32_t>(blocks_.size());
+            for (std::uint32_t i = batch.first; i < batch.last; i += width)
+                add_block(world.zero_row(), i, std::min(i + width, batch.last));
+            ranges_.push_back(
+                {first, static_cast<std::uint32_t>(blocks_.size()), batch.independent});
+        }
+    }
+
+    void add_block(std::int32_t zero_row, std::uint32_t first, std::uint32_t last) {
+        Block& block = blocks_.emplace_back();
+        for (auto& rows : block.row) std::fill(std::begin(rows), std::end(rows), zero_row);
+        // a lane without an item has a system that can be solved
+        for (auto& softness : block.softness)
+            std::fill(std::begin(softness), std::end(softness), Real(1));
+        for (std::uint32_t i = first; i < last; ++i) {
+            const std::uint32_t at = colouring_.order()[i], lane = i - first;
+            const Item& item = items_[at];
+            const auto put = [&](auto& columns, const auto& numbers) {
+                for (std::size_t k = 0; k < numbers.size(); ++k)
+                    columns[k][lane] = static_cast<Real>(numbers[k]);
+            };
+            for (int k = 0; k < F::kPoints; ++k) block.row[k][lane] = links_[at].rows[k];
+            put(block.inverse_mass, item.inverse_mass);
+            put(block.numbers, item.numbers);
+            put(block.softness, item.softness);
+            block.damped[lane] = static_cast<Real>(item.damped);
+        }
+    }
+
+    /// Every worker takes its share of blocks that are independent, and waits for the others.
+    void sweep(typename Kernels::Pass kernel, const BodyRows<Real>& rows,
+               const PassSettings<Real>& pass, std::uint32_t worker) {
+        for (std::size_t i = 0; i < ranges_.size(); ++i) {
+            const BlockRange& range = ranges_[pass.forwards ? i : ranges_.size() - 1 - i];
+            Range share = workers_.share(range.last - range.first, worker);
+            if (!range.independent)
+                share = worker == 0 ? Range{0, range.last - range.first} : Range{0, 0};
+            kernel(blocks_.data(), rows, pass.h, range.first + share.first,
+                   range.first + share.last);
+            workers_.barrier();
+        }
+    }
+
+    const Kernels& kernels_;
+    Workers& workers_;
+    std::vector<LinkedRows<F::kPoints>> links_;
+    std::vector<Item> items_;
+    Colouring colouring_;
+    std::vector<Block> blocks_;
+    std::vector<BlockRange> ranges_;
+};
+
+}  // namespace plumb

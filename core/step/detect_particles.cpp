@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+/// Contacts of particles with bodies, deformable by deformable, for each has its own filter.
+#include "step/stages.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+namespace plumb {
+namespace {
+
+auto key(const Contact& c) { return std::tuple(c.a, c.b, c.part_b, c.feature); }
+
+bool is_sound(const Contact& c, const World& world) {
+    const Vector3d n = to_eigen(c.normal);
+    return c.a < world.particles.size() && c.b < world.bodies.size() &&
+           world.bodies.id[c.b] != kNoIndex && std::isfinite(c.gap) && n.allFinite() &&
+           std::abs(n.squaredNorm() - 1) < 1e-6 && to_eigen(c.point_b).allFinite();
+}
+
+/// How far the fastest particle of a deformable may come in dt beyond what the margin covers [m].
+double sweep(const World& world, const Deformable& d, double dt) {
+    double fastest = 0;
+    for (std::uint32_t i = d.first; i < d.first + d.count; ++i)
+        fastest = std::max(fastest, world.particles.velocity[i].norm());
+    return std::max(0.0, fastest * dt - world.settings.margin / 2);
+}
+
+}  // namespace
+
+void detect_particles(World& world, Workers& workers, Proximity& proximity, DetectBuffers& buffers,
+                      double dt, StepReport& report, Ledger& ledger) {
+    ParticleContactTable& table = world.particle_contacts;
+    std::swap(table.found, table.found_before);
+    std::swap(table.memory, table.memory_before);
+    table.found.clear();
+    const TaskRunner runner = runner_on(workers);
+    buffers.places.resize(world.particles.size());
+    for (std::size_t i = 0; i < world.particles.size(); ++i)
+        buffers.places[i] = to_plain(world.particles.position[i]);
+    for (const Deformable& d : world.deformables) {
+        ParticleRequest request{};
+        request.positions = buffers.places.data() + d.first;
+        request.radii = world.particles.radius.data() + d.first;
+        request.count = d.count;
+        request.margin = world.settings.margin + sweep(world, d, dt);
+        request.group = d.spec.group, request.mask = d.spec.mask;
+        request.runner = workers.count() > 1 ? &runner : nullptr;
+        for (ContactRoom& room : buffers.rooms) room.clear();
+        Status status;
+        {
+            const StageTimer timer(ledger, Stage::detect);
+            status = proximity.detect_particles(request, buffers.sinks.data(),
+                                                static_cast<std::uint32_t>(buffers.sinks.size()));
+        }
+        if (status.code != Status::ok) {
+            report.collider_failed = true;
+            report.message =
+                status.message ? status.message : "the collider failed without a message";
+        }
+        for (const ContactRoom& room : buffers.rooms)
+            for (Contact c : room) {
+                c.a += d.first;
+                if (is_sound(c, world))
+                    table.found.push_back(c);
+                else
+                    ++report.rejected_contacts;
+            }
+    }
+    const auto before = [](const Contact& x, const Contact& y) { return key(x) < key(y); };
+    if (!std::is_sorted(table.found.begin(), table.found.end(), before))
+        std::stable_sort(table.found.begin(), table.found.end(), before);
+
+    table.memory.assign(table.found.size(), {});
+    table.track.resize(table.found.size());
+    auto old = table.found_before.begin();
+    for (std::size_t i = 0; i < table.found.size(); ++i) {
+        const Contact& c = table.found[i];
+        table.track[i] = in_body(world.bodies, c.b, to_eigen(c.point_b));
+        while (old != table.found_before.end() && before(*old, c)) ++old;
+        if (old != table.found_before.end() && key(*old) == key(c))
+            table.memory[i] = table.memory_before[old - table.found_before.begin()];
+    }
+    report.contacts += static_cast<std::uint32_t>(table.found.size());
+}
+
+}  // namespace plumb
