@@ -101,7 +101,7 @@ struct PassSettings {
     bool shared_cone;    // one friction bound for both passes
     bool shared_push;    // the push of both passes together stays repulsive, not of each alone
     bool forwards;       // direction of this sweep
-    bool first = false;  // of the pass's iterations
+    std::uint32_t iteration = 0;  // of the pass
     bool alone = false;  // nothing but one group changes velocities in this pass
 };
 

@@ -31,9 +31,12 @@ public:
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
+        // each substep sweeps alike, or what the iterations leave would swing from one to the next
+        PassSettings<Real> mine = pass;
+        mine.forwards = pass.iteration % 2 == 0;
         keeper_.note(rows, worker);
-        for (const auto& group : groups_) group->iterate_positions(rows, pass, worker);
-        if (!volumes_.empty()) volumes_.iterate(rows, h_, pass.first, worker);
+        for (const auto& group : groups_) group->iterate_positions(rows, mine, worker);
+        if (!volumes_.empty()) volumes_.iterate(rows, h_, pass.iteration == 0, worker);
         keeper_.restore(rows, worker);
     }
 

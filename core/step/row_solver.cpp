@@ -141,7 +141,7 @@ public:
             pass.alone = alone;
             for (std::uint32_t i = 0; i < iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
-                pass.first = i == 0;
+                pass.iteration = i;
                 for (const auto& group : groups_) {
                     if (group->empty()) continue;
                     // by the clock of the first worker alone
