@@ -32,10 +32,13 @@ add_library(plumb_output STATIC
   output/html_json.cpp
   output/html_page.cpp
   output/motion_code.cpp
+  output/particle_code.cpp
   output/picture.cpp
   output/png.cpp
   output/ray_scene.cpp
+  output/recorded_deformable.cpp
   output/recording.cpp
+  output/smooth_surface.cpp
   output/study_page.cpp
   output/triangles.cpp
   output/view.cpp

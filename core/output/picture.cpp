@@ -26,6 +26,7 @@ constexpr float kBounce = 0.42f;      // share of a body's colour that it throws
 constexpr float kBandShade =
     0.62f;  // darker band of round bodies, so that their turning can be seen
 constexpr float kBandHalfWidth = 0.309f;  // of a sphere's radius
+constexpr double kThinnest = 8e-4;        // radius of a rope, of the view's distance
 
 float linear(std::uint32_t byte) {
     const float s = static_cast<float>(byte & 0xffu) / 255;
@@ -97,13 +98,18 @@ public:
           up_(up_direction(header).cast<float>()),
           distance_((view.eye - view.target).norm()),
           reach_(14 * distance_),
-          scene_(header, frame, view.target, 2 * reach_) {
+          scene_(header, frame, view.target, 2 * reach_, kThinnest * distance_) {
         place_camera(view);
         place_sun();
         const double wanted = distance_ / 14, power = std::pow(10, std::floor(std::log10(wanted)));
         cell_ = static_cast<float>(power * (wanted < 2 * power ? 1 : wanted < 5 * power ? 2 : 5));
         for (std::size_t i = 0; i < header.bodies.size(); ++i) {
-            colors_.push_back(linear_color(body_color(header.bodies[i], i)));
+            body_colors_.push_back(linear_color(body_color(header.bodies[i], i)));
+        }
+        for (std::size_t i = 0; i < header.deformables.size(); ++i) {
+            const RecordedDeformable& deformable = header.deformables[i];
+            deformable_colors_.push_back(linear_color(deformable_color(deformable, i)));
+            gloss_.push_back(gloss_of(deformable.kind));
         }
     }
 
@@ -165,8 +171,33 @@ private:
         return height < 0 ? below : Color(1.02f, 1.08f, 1.16f) * (0.75f + 0.35f * height);
     }
 
+    Color color_of(const Drawn& drawn) const {
+        switch (drawn.kind) {
+            case Drawn::Kind::body:
+                return body_colors_[drawn.index];
+            case Drawn::Kind::deformable:
+                return deformable_colors_[drawn.index];
+            case Drawn::Kind::link:
+                break;
+        }
+        return linear_color(kLinkColor);
+    }
+
+    /// How strongly a kind of deformable shines, of what bodies do.
+    static float gloss_of(DeformableKind kind) {
+        switch (kind) {
+            case DeformableKind::balloon:
+                return 1.8f;
+            case DeformableKind::solid:
+                return 1;
+            default:
+                return 0.25f;
+        }
+    }
+
     Color own_color(const RaySurface& surface) const {
-        const Color color = colors_[surface.body];
+        const Color color = color_of(surface.drawn);
+        if (!surface.geometry) return color;
         const Vector& p = surface.point_local;
         switch (surface.geometry->kind) {
             case ShapeKind::plane:
@@ -195,12 +226,16 @@ private:
         return linear_color(0xb4bac0) * (thick ? 0.74f : thin ? 0.87f : 1.0f);
     }
 
+    static bool is_plane(const RaySurface& surface) {
+        return surface.geometry && surface.geometry->kind == ShapeKind::plane;
+    }
+
     Color seen(const Vector& direction, Sampler& sampler) const {
         const std::optional<RaySurface> surface = scene_.nearest(eye_, direction);
         if (!surface) return sky(direction);
         const Color color =
             own_color(*surface) * light(*surface, sampler) + gleam(*surface, direction);
-        if (surface->geometry->kind != ShapeKind::plane) return color;
+        if (!is_plane(*surface)) return color;
         const auto reach = static_cast<float>(reach_);
         const float far = smoothstep(0.25f * reach, reach, surface->point.norm());
         return color + (sky(Vector::Zero()) - color) * far;
@@ -208,7 +243,7 @@ private:
 
     /// Light that falls onto a surface, the sun's and the sky's.
     Color light(const RaySurface& surface, Sampler& sampler) const {
-        const Vector from = surface.point + 2e-4f * surface.distance * surface.normal;
+        const Vector& from = surface.start;
         Color sum = Color::Zero();
         const Eigen::Array2f in_disc = sampler.next();
         const float slope = surface.normal.dot(sun_);
@@ -217,7 +252,7 @@ private:
         }
         const Vector direction = cosine_direction(surface.normal, sampler.next());
         const std::optional<RaySurface> other = scene_.nearest(from, direction);
-        sum += 0.52f * (other ? Color(kBounce * colors_[other->body]) : sky_light(direction));
+        sum += 0.52f * (other ? Color(kBounce * color_of(other->drawn)) : sky_light(direction));
         return sum;
     }
 
@@ -230,13 +265,15 @@ private:
 
     /// What a smooth coat mirrors of the sky (Schlick) and of the sun.
     Color gleam(const RaySurface& surface, const Vector& direction) const {
-        if (surface.geometry->kind == ShapeKind::plane) return Color::Zero();
+        if (is_plane(surface)) return Color::Zero();
+        const bool deformable = surface.drawn.kind == Drawn::Kind::deformable;
+        const float gloss = deformable ? gloss_[surface.drawn.index] : 1;
         const float facing = std::max(0.0f, -direction.dot(surface.normal));
         const float fresnel = 0.03f + 0.25f * std::pow(1 - facing, 5.0f);
         const Vector mirrored = direction + 2 * facing * surface.normal;
         const float highlight = std::pow(std::max(0.0f, mirrored.dot(sun_)), 40.0f);
         const bool lit = highlight > 1e-3f && surface.normal.dot(sun_) > 0;
-        return fresnel * sky_light(mirrored) * 0.6f + (lit ? 0.22f * highlight : 0.0f);
+        return gloss * (fresnel * sky_light(mirrored) * 0.6f + (lit ? 0.22f * highlight : 0.0f));
     }
 
     PictureSettings settings_;
@@ -246,8 +283,9 @@ private:
     Vector eye_, forward_, right_,
         above_;  // relative to the target; right and above reach to the picture's rim
     Vector sun_;
-    float cell_ = 1;             // of the ground's grid [m]
-    std::vector<Color> colors_;  // [body]
+    float cell_ = 1;  // of the ground's grid [m]
+    std::vector<Color> body_colors_, deformable_colors_;
+    std::vector<float> gloss_;  // [deformable]
 };
 
 }  // namespace
