@@ -26,6 +26,8 @@ constexpr float kBounce = 0.42f;      // share of a body's colour that it throws
 constexpr float kBandShade =
     0.62f;  // darker band of round bodies, so that their turning can be seen
 constexpr float kBandHalfWidth = 0.309f;  // of a sphere's radius
+constexpr float kThrough = 0.22f;         // share of the sun's light that passes through cloth
+constexpr float kThroughCloth = 0.2f;     // share of the sun's light that cloth lets through
 constexpr double kThinnest = 8e-4;        // radius of a rope, of the view's distance
 
 float linear(std::uint32_t byte) {
@@ -108,8 +110,9 @@ public:
         }
         for (std::size_t i = 0; i < header.deformables.size(); ++i) {
             const RecordedDeformable& deformable = header.deformables[i];
-            deformable_colors_.push_back(linear_color(deformable_color(deformable, i)));
-            gloss_.push_back(gloss_of(deformable.kind));
+            const bool cloth = deformable.kind == DeformableKind::cloth;
+            fabrics_.push_back({linear_color(deformable_color(deformable, i)),
+                                gloss_of(deformable.kind), cloth ? kThroughCloth : 0});
         }
     }
 
@@ -124,6 +127,13 @@ public:
     }
 
 private:
+    /// How a deformable looks: its colour, how strongly it shines, of what bodies do, and the share
+    /// of light that passes through.
+    struct Fabric {
+        Color color;
+        float gloss, through;
+    };
+
     void place_camera(const View& view) {
         const Eigen::Vector3d back = (view.eye - view.target).normalized();
         Eigen::Vector3d right = up_.cast<double>().cross(back);
@@ -176,7 +186,7 @@ private:
             case Drawn::Kind::body:
                 return body_colors_[drawn.index];
             case Drawn::Kind::deformable:
-                return deformable_colors_[drawn.index];
+                return fabrics_[drawn.index].color;
             case Drawn::Kind::link:
                 break;
         }
@@ -230,6 +240,15 @@ private:
         return surface.geometry && surface.geometry->kind == ShapeKind::plane;
     }
 
+    static bool is_deformable(const RaySurface& surface) {
+        return surface.drawn.kind == Drawn::Kind::deformable;
+    }
+
+    /// Share of the light on its other side that a surface lets through.
+    float through(const RaySurface& surface) const {
+        return is_deformable(surface) ? fabrics_[surface.drawn.index].through : 0;
+    }
+
     Color seen(const Vector& direction, Sampler& sampler) const {
         const std::optional<RaySurface> surface = scene_.nearest(eye_, direction);
         if (!surface) return sky(direction);
@@ -247,8 +266,10 @@ private:
         Color sum = Color::Zero();
         const Eigen::Array2f in_disc = sampler.next();
         const float slope = surface.normal.dot(sun_);
-        if (slope > 0 && !scene_.blocked(from, sun_direction(in_disc))) {
-            sum += Color(1.10f, 1.02f, 0.90f) * slope;
+        const float share = slope > 0 ? 1 : through(surface);
+        const Vector lit_from = slope > 0 ? from : Vector(2 * surface.point - from);
+        if (share > 0 && !scene_.blocked(lit_from, sun_direction(in_disc))) {
+            sum += Color(1.10f, 1.02f, 0.90f) * std::abs(slope) * share;
         }
         const Vector direction = cosine_direction(surface.normal, sampler.next());
         const std::optional<RaySurface> other = scene_.nearest(from, direction);
@@ -266,8 +287,7 @@ private:
     /// What a smooth coat mirrors of the sky (Schlick) and of the sun.
     Color gleam(const RaySurface& surface, const Vector& direction) const {
         if (is_plane(surface)) return Color::Zero();
-        const bool deformable = surface.drawn.kind == Drawn::Kind::deformable;
-        const float gloss = deformable ? gloss_[surface.drawn.index] : 1;
+        const float gloss = is_deformable(surface) ? fabrics_[surface.drawn.index].gloss : 1;
         const float facing = std::max(0.0f, -direction.dot(surface.normal));
         const float fresnel = 0.03f + 0.25f * std::pow(1 - facing, 5.0f);
         const Vector mirrored = direction + 2 * facing * surface.normal;
@@ -284,8 +304,8 @@ private:
         above_;  // relative to the target; right and above reach to the picture's rim
     Vector sun_;
     float cell_ = 1;  // of the ground's grid [m]
-    std::vector<Color> body_colors_, deformable_colors_;
-    std::vector<float> gloss_;  // [deformable]
+    std::vector<Color> body_colors_;
+    std::vector<Fabric> fabrics_;  // [deformable]
 };
 
 }  // namespace

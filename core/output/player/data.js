@@ -107,6 +107,19 @@ export class ParticleMotion {
         return this.deformables.reduce((sum, { count }) => sum + count, 0);
     }
 
+    /// Integer of a point on an axis; `k`: point and frame.
+    static step(values, k, base) {
+        return base + ((values[k] - base) & 0xffff);
+    }
+
+    place(result, particle, frame) {
+        const i = this.deformables.findLastIndex(({ first }) => first <= particle);
+        const { first, low, quantum, bases } = this.deformables[i];
+        const k = (particle - first) * this.frames + frame;
+        return result.fromArray(this.channels[i].map((values, axis) =>
+            low[axis] + quantum * ParticleMotion.step(values, k, bases ? bases[frame][axis] : 0)));
+    }
+
     /// Fills places, three numbers a point, with those between a frame and the next.
     fill(places, frame, fraction) {
         if (this.frames === 0) return;
@@ -116,8 +129,8 @@ export class ParticleMotion {
                 const values = this.channels[i][axis];
                 const a = bases ? bases[frame][axis] : 0, b = bases ? bases[next][axis] : 0;
                 for (let point = 0, k = 0; point < count; ++point, k += this.frames) {
-                    const here = a + ((values[k + frame] - a) & 0xffff);
-                    const there = b + ((values[k + next] - b) & 0xffff);
+                    const here = ParticleMotion.step(values, k + frame, a);
+                    const there = ParticleMotion.step(values, k + next, b);
                     places[3 * (first + point) + axis] = low[axis] + quantum * (here + fraction * (there - here));
                 }
             }

@@ -6,9 +6,11 @@ import { SmoothSurface } from './smooth_surface.js';
 
 const kThinnest = 8e-4;  // radius of a rope or link at the least, of the view's distance
 const kLinkColor = 0x4a5560;
-const kLooks = {
-    cloth: { roughness: 0.85, envMapIntensity: 0.9 }, balloon: { roughness: 0.22, envMapIntensity: 1.3 },
-    solid: { roughness: 0.42, envMapIntensity: 0.9 }, rope: { roughness: 0.9, envMapIntensity: 0.7 },
+const kLooks = {  // cloth glows a little, for the light that passes through
+    cloth: { roughness: 0.85, envMapIntensity: 0.9, emissiveIntensity: 0.09 },
+    balloon: { roughness: 0.22, envMapIntensity: 1.3 },
+    solid: { roughness: 0.42, envMapIntensity: 0.9 },
+    rope: { roughness: 0.9, envMapIntensity: 0.7 },
 };
 
 /// Rods between pairs of places, with balls at their ends: one draw call each.
@@ -75,7 +77,8 @@ export class Deformables {
         const places = this.places.subarray(3 * first, 3 * (first + count));
         const surface = new SmoothSurface(places, meshArrays(bytes, mesh).corners, crease);
         for (const side of [THREE.FrontSide, THREE.BackSide]) {
-            const material = new THREE.MeshStandardMaterial({ ...kLooks[kind], color, side, shadowSide: THREE.DoubleSide });
+            const material = new THREE.MeshStandardMaterial({ ...kLooks[kind], color, side, shadowSide: THREE.DoubleSide,
+                emissive: kind === 'cloth' ? color : 0 });
             const object = new THREE.Mesh(surface.geometry, material);
             object.castShadow = side === THREE.FrontSide;
             object.receiveShadow = true;
@@ -143,11 +146,7 @@ export class Deformables {
 
     /// How far a particle is between two frames [m].
     way(particle, from, to) {
-        const at = (frame) => {
-            const places = new Float32Array(this.places.length);
-            this.motion.fill(places, frame, 0);
-            return new THREE.Vector3().fromArray(places, 3 * particle);
-        };
-        return at(from).distanceTo(at(to));
+        const a = this.motion.place(new THREE.Vector3(), particle, from);
+        return a.distanceTo(this.motion.place(new THREE.Vector3(), particle, to));
     }
 }
