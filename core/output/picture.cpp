@@ -28,7 +28,7 @@ constexpr float kBandShade =
 constexpr float kBandHalfWidth = 0.309f;  // of a sphere's radius
 constexpr float kThrough = 0.22f;         // share of the sun's light that passes through cloth
 constexpr float kThroughCloth = 0.2f;     // share of the sun's light that cloth lets through
-constexpr double kThinnest = 8e-4;        // radius of a rope, of the view's distance
+constexpr double kThinnest = 0.75;        // radius of a rope in the middle of the picture [pixels]
 
 float linear(std::uint32_t byte) {
     const float s = static_cast<float>(byte & 0xffu) / 255;
@@ -91,6 +91,12 @@ Vector cosine_direction(const Vector& normal, const Eigen::Array2f& u) {
            std::sqrt(std::max(0.0f, 1 - u.y())) * normal;
 }
 
+/// What a pixel in the middle of the picture shows [m].
+double pixel_size(const View& view, const PictureSettings& settings) {
+    const double tangent = std::tan(0.5 * view.field_of_view * std::numbers::pi / 180);
+    return 2 * tangent * (view.eye - view.target).norm() / settings.height;
+}
+
 /// Everything that stays the same for all pixels of a picture.
 class Painter {
 public:
@@ -100,7 +106,7 @@ public:
           up_(up_direction(header).cast<float>()),
           distance_((view.eye - view.target).norm()),
           reach_(14 * distance_),
-          scene_(header, frame, view.target, 2 * reach_, kThinnest * distance_) {
+          scene_(header, frame, view.target, 2 * reach_, kThinnest * pixel_size(view, settings)) {
         place_camera(view);
         place_sun();
         const double wanted = distance_ / 14, power = std::pow(10, std::floor(std::log10(wanted)));
