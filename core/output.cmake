@@ -29,13 +29,18 @@ add_library(plumb_output STATIC
   output/gnuplot.cpp
   output/header_json.cpp
   output/html.cpp
+  output/html_deformables.cpp
   output/html_json.cpp
   output/html_page.cpp
   output/motion_code.cpp
+  output/particle_code.cpp
+  output/particle_motion.cpp
   output/picture.cpp
   output/png.cpp
   output/ray_scene.cpp
+  output/recorded_deformable.cpp
   output/recording.cpp
+  output/smooth_surface.cpp
   output/study_page.cpp
   output/triangles.cpp
   output/view.cpp

@@ -14,7 +14,7 @@ double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nano
 Sample sample_of(const World& world) {
     const Vector3d g = world.settings.gravity;
     const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
-    Sample sample{world.time, penetrations(world), joint_errors(world), {}, {}};
+    Sample sample{world.time, penetrations(world), joint_errors(world), {}, {}, {}};
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         if (world.bodies.motion[i] != Motion::dynamic) continue;
         const double v = world.bodies.velocity[i].norm();
@@ -22,6 +22,9 @@ Sample sample_of(const World& world) {
         sample.speed.push_back(v);
         if ((x - up.dot(x) * up).norm() <= Statistics::kNearRadius) sample.near_speed.push_back(v);
     }
+    for (std::size_t i = 0; i < world.particles.size(); ++i)
+        if (world.particles.inverse_mass[i] > 0)
+            sample.particle_speed.push_back(world.particles.velocity[i].norm());
     return sample;
 }
 

@@ -13,17 +13,18 @@
 
 namespace plumb::app {
 
-/// Speeds of dynamic bodies [m/s].
+/// Speeds of dynamic bodies or of particles [m/s].
 struct Speeds {
     double median = 0, p90 = 0, rms = 0, max = 0;
 };
 Speeds speeds_of(const std::vector<double>& values);
 
-/// What the bodies do at one moment.
+/// What bodies and particles do at one moment.
 struct Sample {
     double time = 0;                               ///< [s]
     std::vector<double> penetration, joint_error;  ///< [pair], [joint], [m]
     std::vector<double> speed, near_speed;         ///< [dynamic body], [m/s]
+    std::vector<double> particle_speed;            ///< of those that can move [m/s]
 };
 
 class Statistics {

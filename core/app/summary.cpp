@@ -190,7 +190,8 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["simulated_time"] = simulation.time();
     j["bodies"] = world.bodies.size();
     j["dynamic_bodies"] = world.dynamic_count;
-    j["particles"] = 0;
+    j["deformables"] = world.deformables.size();
+    j["particles"] = world.particles.size();
     j["joints"] = world.joints.size();
     j["contacts"] = {{"mean", s.contact_sum / steps},
                      {"max", s.contact_max},
@@ -217,6 +218,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["speed_near"] = speeds_json(s.over_last_fifth(&Sample::near_speed));
     j["speed_near"]["radius"] = Statistics::kNearRadius;
     j["speed_near"]["left_out"] = heights.count - heights.near_count;
+    j["particle_speed"] = speeds_json(s.over_last_fifth(&Sample::particle_speed));
     j["final_height"] = {
         {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
     j["fallen_through"] = fallen_through(scene, world);

@@ -11,6 +11,11 @@ bool within_reach(const World& world) {
             !(b.velocity[i].cwiseAbs().maxCoeff() < kFar) ||
             !(b.angular_velocity[i].cwiseAbs().maxCoeff() < kFar))
             return false;
+    const Particles& p = world.particles;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        if (!(p.position[i].cwiseAbs().maxCoeff() < kFar) ||
+            !(p.velocity[i].cwiseAbs().maxCoeff() < kFar))
+            return false;
     return true;
 }
 

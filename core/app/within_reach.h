@@ -6,7 +6,7 @@
 
 namespace plumb::app {
 
-/// Whether all bodies are where a recording, in single precision, can still tell.
+/// Whether all bodies and particles are where a recording, in single precision, can still tell.
 bool within_reach(const World& world);
 
 }  // namespace plumb::app

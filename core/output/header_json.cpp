@@ -100,6 +100,73 @@ RecordedBody body_from_json(const json& j) {
     return {j.at("name"), j.at("geometry"), static_cast<Motion>(motion), j.at("color")};
 }
 
+json deformable_to_json(const RecordedDeformable& d) {
+    return {{"name", d.name},           {"kind", static_cast<std::uint32_t>(d.kind)},
+            {"count", d.count},         {"segments", d.segments},
+            {"triangles", d.triangles}, {"thickness", d.thickness},
+            {"radius", d.radius},       {"size", d.size},
+            {"color", d.color}};
+}
+
+template <std::size_t N>
+void take_elements(const json& j, std::vector<std::array<std::uint32_t, N>>& elements,
+                   std::uint32_t points) {
+    j.get_to(elements);
+    for (const auto& element : elements)
+        for (const std::uint32_t point : element)
+            if (point >= points) throw std::runtime_error("a deformable names a point it lacks");
+}
+
+/// `first`: number of particles of those before it.
+RecordedDeformable deformable_from_json(const json& j, std::uint32_t first) {
+    RecordedDeformable d;
+    d.name = j.at("name");
+    const auto kind = j.at("kind").get<std::uint32_t>();
+    if (kind > static_cast<std::uint32_t>(DeformableKind::solid))
+        throw std::runtime_error("unknown kind of deformable");
+    d.kind = static_cast<DeformableKind>(kind);
+    d.first = first;
+    d.count = j.at("count");
+    take_elements(j.at("segments"), d.segments, d.count);
+    take_elements(j.at("triangles"), d.triangles, d.count);
+    d.thickness = number(j.at("thickness"));
+    d.radius = number(j.at("radius"));
+    d.size = number(j.at("size"));
+    d.color = j.at("color");
+    return d;
+}
+
+json point_to_json(const RecordedPoint& point) {
+    return {{"particle", point.particle}, {"body", point.body}, {"place", to_json(point.place)}};
+}
+
+RecordedPoint point_from_json(const json& j) {
+    return {j.at("particle"), j.at("body"), vector(j.at("place"))};
+}
+
+/// Versions before deformables have no such keys.
+void take_deformables(const json& j, RecordingHeader& header) {
+    if (!j.contains("deformables")) return;
+    std::uint32_t first = 0;
+    for (const json& d : j.at("deformables")) {
+        header.deformables.push_back(deformable_from_json(d, first));
+        const std::uint32_t count = header.deformables.back().count;
+        if (count > kNoIndex - first) throw std::runtime_error("there are too many particles");
+        first += count;
+    }
+    for (const json& link : j.at("links"))
+        header.links.push_back({point_from_json(link.at("a")), point_from_json(link.at("b"))});
+}
+
+void put_deformables(json& j, const RecordingHeader& header) {
+    if (header.deformables.empty() && header.links.empty()) return;
+    j["deformables"] = j["links"] = json::array();
+    for (const RecordedDeformable& d : header.deformables)
+        j["deformables"].push_back(deformable_to_json(d));
+    for (const RecordedLink& link : header.links)
+        j["links"].push_back({{"a", point_to_json(link.a)}, {"b", point_to_json(link.b)}});
+}
+
 json view_to_json(const View& view) {
     return {{"eye", to_json(view.eye)},
             {"target", to_json(view.target)},
@@ -124,6 +191,7 @@ std::string header_to_json(const RecordingHeader& header) {
     for (const Geometry& g : header.geometries) j["geometries"].push_back(geometry_to_json(g));
     j["bodies"] = json::array();
     for (const RecordedBody& body : header.bodies) j["bodies"].push_back(body_to_json(body));
+    put_deformables(j, header);
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -141,6 +209,7 @@ RecordingHeader header_from_json(std::string_view text) {
     if (j.contains("view")) header.view = view_from_json(j.at("view"));
     for (const json& g : j.at("geometries")) header.geometries.push_back(geometry_from_json(g));
     for (const json& body : j.at("bodies")) header.bodies.push_back(body_from_json(body));
+    take_deformables(j, header);
     return header;
 }
 

@@ -5,7 +5,7 @@
 
 #include "output/exporters.h"
 #include "output/file.h"
-#include "output/motion_code.h"
+#include "output/html_json.h"
 #include "output/view.h"
 
 #include <string>
@@ -15,17 +15,16 @@ namespace plumb {
 
 class HtmlExporter : public Exporter {
 public:
-    HtmlExporter(const std::string& path, const RecordingHeader& header)
-        : header_(header), file_(path), motions_(header.bodies.size()) {}
+    HtmlExporter(const std::string& path, const RecordingHeader& header);
     void append(const Frame& frame) override;
     void finish() override;
 
 private:
     RecordingHeader header_;
     WholeFile file_;
-    std::vector<std::vector<PoseSample>> motions_;  ///< [body][frame]
-    std::vector<Frame> notes_;                      ///< [frame], without bodies
-    std::vector<Ball> balls_;  ///< where bodies were at the start and are now, to fit the view to
+    ReplayMotions motions_;
+    std::vector<Frame> notes_;  ///< [frame], without bodies and particles
+    std::vector<Ball> balls_;   ///< where things were at the start and are now, to fit the view to
     Frame last_;
 };
 

@@ -2,6 +2,7 @@
 #include "output/html_json.h"
 
 #include "output/bytes.h"
+#include "output/html_deformables.h"
 #include "output/html_page.h"
 #include "output/palette.h"
 #include "output/triangles.h"
@@ -130,6 +131,17 @@ void put_motion(json& scene, std::string& stream, const RecordingHeader& header,
     stream = encode_motion(moving, grids);
 }
 
+/// The same for deformables, and the links.
+void put_deformables(json& scene, ReplayParts& parts, const RecordingHeader& header,
+                     const std::vector<ParticleMotion>& motions) {
+    std::vector<ParticleGrid> grids;
+    for (std::size_t i = 0; i < motions.size(); ++i)
+        grids.push_back(particle_grid(header.deformables[i], motions[i]));
+    scene["deformables"] = deformables_json(header, grids, parts.meshes);
+    scene["links"] = links_json(header);
+    parts.particles = encode_particles(motions, grids);
+}
+
 json frames_to_json(const std::vector<Frame>& notes) {
     json j{{"step", json::array()},      {"time", json::array()},
            {"contacts", json::array()},  {"kinetic", json::array()},
@@ -159,8 +171,7 @@ std::string safe_text(const json& j) {
 }  // namespace
 
 ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>& notes,
-                         const std::vector<std::vector<PoseSample>>& motions,
-                         const std::vector<Ball>& balls) {
+                         const ReplayMotions& motions, const std::vector<Ball>& balls) {
     ReplayParts parts;
     json scene{{"name", header.name},
                {"description", header.description},
@@ -176,7 +187,8 @@ ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>
     }
     scene["bodies"] = bodies_to_json(header);
     scene["frames"] = frames_to_json(notes);
-    put_motion(scene, parts.motion, header, motions);
+    put_motion(scene, parts.motion, header, motions.bodies);
+    put_deformables(scene, parts, header, motions.deformables);
     parts.scene = safe_text(scene);
     return parts;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "output/motion_code.h"
+#include "output/particle_motion.h"
 #include "output/recording.h"
 #include "output/view.h"
 
@@ -13,16 +14,21 @@
 namespace plumb {
 
 struct ReplayParts {
-    std::string scene;   ///< JSON; no "<" in it, so that no string can end the script element
-    std::string meshes;  ///< for each mesh float32 vertices, then uint32 corners of triangles
-    std::string motion;  ///< encode_motion of the bodies that move
+    std::string scene;      ///< JSON; no "<" in it, so that no string can end the script element
+    std::string meshes;     ///< for each mesh float32 vertices, then uint32 corners of triangles
+    std::string motion;     ///< encode_motion of the bodies that move
+    std::string particles;  ///< encode_particles of the deformables
 };
 
-/// `notes`: the frames without their bodies; `motions`: [body][frame]; `balls`: what the view shall
-/// hold.
+/// How everything moves.
+struct ReplayMotions {
+    std::vector<std::vector<PoseSample>> bodies;  ///< [body][frame]
+    std::vector<ParticleMotion> deformables;
+};
+
+/// `notes`: the frames without their bodies and particles; `balls`: what the view shall hold.
 ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>& notes,
-                         const std::vector<std::vector<PoseSample>>& motions,
-                         const std::vector<Ball>& balls);
+                         const ReplayMotions& motions, const std::vector<Ball>& balls);
 
 struct ShapeTexts {
     std::string shapes;  ///< JSON: an array, null where there was no geometry; no "<" in it

@@ -2,6 +2,7 @@
 #include "output/motion_code.h"
 
 #include "output/deflate.h"
+#include "output/zigzag.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,11 +22,6 @@ std::uint16_t position_integer(const PoseSample& sample, const PositionGrid& gri
 std::uint16_t channel_value(const PoseSample& sample, const PositionGrid& grid, int channel) {
     if (channel < 3) return position_integer(sample, grid, channel);
     return sample.small[static_cast<std::size_t>(channel - 3)];
-}
-
-std::uint16_t zigzag(std::uint16_t difference) {
-    const auto value = static_cast<std::int16_t>(difference);
-    return static_cast<std::uint16_t>((difference << 1) ^ (value >> 15));
 }
 
 /// Adds the differences of one body's channel to the planes of low and high bytes.

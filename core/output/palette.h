@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Colours of bodies that the user gave none: pleasant side by side, and the same in every picture.
+/// Colours of what the user gave none: pleasant side by side, and the same in every picture.
 #pragma once
 
 #include "output/recording.h"
@@ -26,5 +26,16 @@ inline std::uint32_t body_color(const RecordedBody& body, std::size_t index) {
                                                    0x5fb0b7, 0x1b4965, 0xc8553d, 0x7fb069};
     return kColors[scattered(static_cast<std::uint32_t>(index)) % kColors.size()];
 }
+
+/// sRGB colour of a deformable, 0xRRGGBB.
+inline std::uint32_t deformable_color(const RecordedDeformable& deformable, std::size_t index) {
+    if (deformable.color != 0) return deformable.color & 0xffffffu;
+    if (deformable.kind == DeformableKind::rope) return 0xc9ad7f;
+    constexpr std::array<std::uint32_t, 6> kColors{0xc8434f, 0x2e86ab, 0xedae49,
+                                                   0x5f9f6e, 0x8d6a9f, 0x3d5a80};
+    return kColors[index % kColors.size()];
+}
+
+inline constexpr std::uint32_t kLinkColor = 0x4a5560;  ///< sRGB, 0xRRGGBB
 
 }  // namespace plumb

@@ -26,6 +26,9 @@ constexpr float kBounce = 0.42f;      // share of a body's colour that it throws
 constexpr float kBandShade =
     0.62f;  // darker band of round bodies, so that their turning can be seen
 constexpr float kBandHalfWidth = 0.309f;  // of a sphere's radius
+constexpr float kThrough = 0.22f;         // share of the sun's light that passes through cloth
+constexpr float kThroughCloth = 0.2f;     // share of the sun's light that cloth lets through
+constexpr double kThinnest = 0.75;        // radius of a rope in the middle of the picture [pixels]
 
 float linear(std::uint32_t byte) {
     const float s = static_cast<float>(byte & 0xffu) / 255;
@@ -88,6 +91,12 @@ Vector cosine_direction(const Vector& normal, const Eigen::Array2f& u) {
            std::sqrt(std::max(0.0f, 1 - u.y())) * normal;
 }
 
+/// What a pixel in the middle of the picture shows [m].
+double pixel_size(const View& view, const PictureSettings& settings) {
+    const double tangent = std::tan(0.5 * view.field_of_view * std::numbers::pi / 180);
+    return 2 * tangent * (view.eye - view.target).norm() / settings.height;
+}
+
 /// Everything that stays the same for all pixels of a picture.
 class Painter {
 public:
@@ -97,13 +106,19 @@ public:
           up_(up_direction(header).cast<float>()),
           distance_((view.eye - view.target).norm()),
           reach_(14 * distance_),
-          scene_(header, frame, view.target, 2 * reach_) {
+          scene_(header, frame, view.target, 2 * reach_, kThinnest * pixel_size(view, settings)) {
         place_camera(view);
         place_sun();
         const double wanted = distance_ / 14, power = std::pow(10, std::floor(std::log10(wanted)));
         cell_ = static_cast<float>(power * (wanted < 2 * power ? 1 : wanted < 5 * power ? 2 : 5));
         for (std::size_t i = 0; i < header.bodies.size(); ++i) {
-            colors_.push_back(linear_color(body_color(header.bodies[i], i)));
+            body_colors_.push_back(linear_color(body_color(header.bodies[i], i)));
+        }
+        for (std::size_t i = 0; i < header.deformables.size(); ++i) {
+            const RecordedDeformable& deformable = header.deformables[i];
+            const bool cloth = deformable.kind == DeformableKind::cloth;
+            fabrics_.push_back({linear_color(deformable_color(deformable, i)),
+                                gloss_of(deformable.kind), cloth ? kThroughCloth : 0});
         }
     }
 
@@ -118,6 +133,13 @@ public:
     }
 
 private:
+    /// How a deformable looks: its colour, how strongly it shines, of what bodies do, and the share
+    /// of light that passes through.
+    struct Fabric {
+        Color color;
+        float gloss, through;
+    };
+
     void place_camera(const View& view) {
         const Eigen::Vector3d back = (view.eye - view.target).normalized();
         Eigen::Vector3d right = up_.cast<double>().cross(back);
@@ -165,8 +187,33 @@ private:
         return height < 0 ? below : Color(1.02f, 1.08f, 1.16f) * (0.75f + 0.35f * height);
     }
 
+    Color color_of(const Drawn& drawn) const {
+        switch (drawn.kind) {
+            case Drawn::Kind::body:
+                return body_colors_[drawn.index];
+            case Drawn::Kind::deformable:
+                return fabrics_[drawn.index].color;
+            case Drawn::Kind::link:
+                break;
+        }
+        return linear_color(kLinkColor);
+    }
+
+    /// How strongly a kind of deformable shines, of what bodies do.
+    static float gloss_of(DeformableKind kind) {
+        switch (kind) {
+            case DeformableKind::balloon:
+                return 1.8f;
+            case DeformableKind::solid:
+                return 1;
+            default:
+                return 0.25f;
+        }
+    }
+
     Color own_color(const RaySurface& surface) const {
-        const Color color = colors_[surface.body];
+        const Color color = color_of(surface.drawn);
+        if (!surface.geometry) return color;
         const Vector& p = surface.point_local;
         switch (surface.geometry->kind) {
             case ShapeKind::plane:
@@ -195,12 +242,25 @@ private:
         return linear_color(0xb4bac0) * (thick ? 0.74f : thin ? 0.87f : 1.0f);
     }
 
+    static bool is_plane(const RaySurface& surface) {
+        return surface.geometry && surface.geometry->kind == ShapeKind::plane;
+    }
+
+    static bool is_deformable(const RaySurface& surface) {
+        return surface.drawn.kind == Drawn::Kind::deformable;
+    }
+
+    /// Share of the light on its other side that a surface lets through.
+    float through(const RaySurface& surface) const {
+        return is_deformable(surface) ? fabrics_[surface.drawn.index].through : 0;
+    }
+
     Color seen(const Vector& direction, Sampler& sampler) const {
         const std::optional<RaySurface> surface = scene_.nearest(eye_, direction);
         if (!surface) return sky(direction);
         const Color color =
             own_color(*surface) * light(*surface, sampler) + gleam(*surface, direction);
-        if (surface->geometry->kind != ShapeKind::plane) return color;
+        if (!is_plane(*surface)) return color;
         const auto reach = static_cast<float>(reach_);
         const float far = smoothstep(0.25f * reach, reach, surface->point.norm());
         return color + (sky(Vector::Zero()) - color) * far;
@@ -208,16 +268,18 @@ private:
 
     /// Light that falls onto a surface, the sun's and the sky's.
     Color light(const RaySurface& surface, Sampler& sampler) const {
-        const Vector from = surface.point + 2e-4f * surface.distance * surface.normal;
+        const Vector& from = surface.start;
         Color sum = Color::Zero();
         const Eigen::Array2f in_disc = sampler.next();
         const float slope = surface.normal.dot(sun_);
-        if (slope > 0 && !scene_.blocked(from, sun_direction(in_disc))) {
-            sum += Color(1.10f, 1.02f, 0.90f) * slope;
+        const float share = slope > 0 ? 1 : through(surface);
+        const Vector lit_from = slope > 0 ? from : Vector(2 * surface.point - from);
+        if (share > 0 && !scene_.blocked(lit_from, sun_direction(in_disc))) {
+            sum += Color(1.10f, 1.02f, 0.90f) * std::abs(slope) * share;
         }
         const Vector direction = cosine_direction(surface.normal, sampler.next());
         const std::optional<RaySurface> other = scene_.nearest(from, direction);
-        sum += 0.52f * (other ? Color(kBounce * colors_[other->body]) : sky_light(direction));
+        sum += 0.52f * (other ? Color(kBounce * color_of(other->drawn)) : sky_light(direction));
         return sum;
     }
 
@@ -230,13 +292,14 @@ private:
 
     /// What a smooth coat mirrors of the sky (Schlick) and of the sun.
     Color gleam(const RaySurface& surface, const Vector& direction) const {
-        if (surface.geometry->kind == ShapeKind::plane) return Color::Zero();
+        if (is_plane(surface)) return Color::Zero();
+        const float gloss = is_deformable(surface) ? fabrics_[surface.drawn.index].gloss : 1;
         const float facing = std::max(0.0f, -direction.dot(surface.normal));
         const float fresnel = 0.03f + 0.25f * std::pow(1 - facing, 5.0f);
         const Vector mirrored = direction + 2 * facing * surface.normal;
         const float highlight = std::pow(std::max(0.0f, mirrored.dot(sun_)), 40.0f);
         const bool lit = highlight > 1e-3f && surface.normal.dot(sun_) > 0;
-        return fresnel * sky_light(mirrored) * 0.6f + (lit ? 0.22f * highlight : 0.0f);
+        return gloss * (fresnel * sky_light(mirrored) * 0.6f + (lit ? 0.22f * highlight : 0.0f));
     }
 
     PictureSettings settings_;
@@ -246,8 +309,9 @@ private:
     Vector eye_, forward_, right_,
         above_;  // relative to the target; right and above reach to the picture's rim
     Vector sun_;
-    float cell_ = 1;             // of the ground's grid [m]
-    std::vector<Color> colors_;  // [body]
+    float cell_ = 1;  // of the ground's grid [m]
+    std::vector<Color> body_colors_;
+    std::vector<Fabric> fabrics_;  // [deformable]
 };
 
 }  // namespace

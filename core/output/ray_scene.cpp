@@ -117,10 +117,19 @@ RTCRay ray_of(const Eigen::Vector3f& from, const Eigen::Vector3f& direction) {
 }  // namespace
 
 RayScene::RayScene(const RecordingHeader& header, const Frame& frame, const Eigen::Vector3d& middle,
-                   double reach)
+                   double reach, double thinnest)
     : middle_(middle), reach_(reach), device_(rtcNewDevice(nullptr)) {
     if (!device_) throw std::runtime_error("Embree cannot be started");
     scene_.reset(rtcNewScene(device_.get()));
+    add_bodies(header, frame);
+    if (frame.particles.size() == particle_count(header.deformables)) {
+        add_deformables(header, frame, thinnest);
+        add_links(header, frame, thinnest);
+    }
+    rtcCommitScene(scene_.get());
+}
+
+void RayScene::add_bodies(const RecordingHeader& header, const Frame& frame) {
     const std::size_t count = std::min(header.bodies.size(), frame.bodies.size());
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t geometry = header.bodies[i].geometry;
@@ -128,7 +137,31 @@ RayScene::RayScene(const RecordingHeader& header, const Frame& frame, const Eige
         if (geometry >= header.geometries.size() || !placement.position.allFinite()) continue;
         add(header.geometries[geometry], placement, static_cast<std::uint32_t>(i));
     }
-    rtcCommitScene(scene_.get());
+}
+
+void RayScene::add_deformables(const RecordingHeader& header, const Frame& frame, double thinnest) {
+    for (std::uint32_t i = 0; i < header.deformables.size(); ++i) {
+        const RecordedDeformable& deformable = header.deformables[i];
+        Item item{{Drawn::Kind::deformable, i}};
+        if (deformable.kind == DeformableKind::rope) {
+            std::vector<Piece> rope;
+            for (const auto& [a, b] : deformable.segments)
+                rope.push_back({(frame.particles[deformable.first + a] - middle_).cast<float>(),
+                                (frame.particles[deformable.first + b] - middle_).cast<float>()});
+            add(std::move(item), pieces(rope, std::max(rope_radius(deformable), thinnest)));
+        } else if ((item.surface = surface_of(deformable, frame, middle_))) {
+            const RTCGeometry geometry = triangles(device_.get(), item.surface->mesh());
+            add(std::move(item), geometry);
+        }
+    }
+}
+
+void RayScene::add_links(const RecordingHeader& header, const Frame& frame, double thinnest) {
+    std::vector<Piece> links;
+    for (const RecordedLink& link : header.links)
+        links.push_back({(place_of(link.a, frame) - middle_).cast<float>(),
+                         (place_of(link.b, frame) - middle_).cast<float>()});
+    add({{Drawn::Kind::link, 0}}, pieces(links, thinnest));
 }
 
 void RayScene::add(const Geometry& geometry, const Placement& placement, std::uint32_t body) {
@@ -141,7 +174,8 @@ void RayScene::add(const Geometry& geometry, const Placement& placement, std::ui
         }
         return;
     }
-    const Item item{&geometry, body,
+    const Item item{{Drawn::Kind::body, body},
+                    &geometry,
                     placement.rotation.normalized().toRotationMatrix().cast<float>(),
                     (placement.position - middle_).cast<float>()};
     if (!item.rotation.allFinite()) return;
@@ -150,8 +184,32 @@ void RayScene::add(const Geometry& geometry, const Placement& placement, std::ui
     Eigen::Matrix<float, 3, 4> transform;
     transform << item.rotation, item.position;
     rtcSetGeometryTransform(instance, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, transform.data());
-    commit_into(scene_.get(), instance);
-    items_.push_back(item);
+    add(item, instance);
+}
+
+void RayScene::add(Item item, RTCGeometry geometry) {
+    commit_into(scene_.get(), geometry);
+    items_.push_back(std::move(item));
+}
+
+/// Round from end to end, pieces that are not finite left out.
+RTCGeometry RayScene::pieces(const std::vector<Piece>& pieces, double radius) {
+    std::vector<float> ends;
+    for (const auto& [a, b] : pieces) {
+        if (!a.allFinite() || !b.allFinite()) continue;
+        for (const Eigen::Vector3f& end : {a, b})
+            ends.insert(ends.end(), {end.x(), end.y(), end.z(), static_cast<float>(radius)});
+    }
+    RTCGeometry geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE);
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4,
+                                4 * sizeof(float), ends.size() / 4));
+    std::copy(ends.begin(), ends.end(), vertices);
+    auto* firsts = static_cast<std::uint32_t*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT,
+                                sizeof(std::uint32_t), ends.size() / 8));
+    for (std::uint32_t i = 0; i < ends.size() / 8; ++i) firsts[i] = 2 * i;
+    return geometry;
 }
 
 RTCScene RayScene::form(const Geometry& geometry) {
@@ -179,17 +237,30 @@ std::optional<RaySurface> RayScene::nearest(const Eigen::Vector3f& from,
     rtcIntersect1(scene_.get(), &context, &hit);
     if (hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
 
-    const Item& item = items_[hit.hit.instID[0]];
-    RaySurface surface;
-    surface.distance = hit.ray.tfar;
-    surface.point = from + hit.ray.tfar * direction;
-    surface.point_local = item.rotation.transpose() * (surface.point - item.position);
-    surface.geometry = item.geometry;
-    surface.body = item.body;
+    return surface(hit, from, direction);
+}
+
+RaySurface RayScene::surface(const RTCRayHit& hit, const Eigen::Vector3f& from,
+                             const Eigen::Vector3f& direction) const {
+    const bool instance = hit.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
+    const Item& item = items_[instance ? hit.hit.instID[0] : hit.hit.geomID];
+    RaySurface surface{hit.ray.tfar, from + hit.ray.tfar * direction, {}, {}, item.drawn};
     const Eigen::Vector3f flat(hit.hit.Ng_x, hit.hit.Ng_y, hit.hit.Ng_z);
-    surface.normal =
-        (item.rotation * true_normal(*item.geometry, surface.point_local, flat)).normalized();
-    if (surface.normal.dot(direction) > 0) surface.normal = -surface.normal;
+    surface.start = surface.point;
+    if (item.surface) {
+        const SmoothSurface::Look look =
+            item.surface->look({hit.hit.primID, hit.hit.u, hit.hit.v}, direction);
+        surface.normal = look.normal;
+        surface.start = look.rounded;
+    } else {
+        surface.geometry = item.geometry;
+        surface.point_local = item.rotation.transpose() * (surface.point - item.position);
+        const Eigen::Vector3f normal =
+            item.geometry ? true_normal(*item.geometry, surface.point_local, flat) : flat;
+        surface.normal = (item.rotation * normal).normalized();
+        if (surface.normal.dot(direction) > 0) surface.normal = -surface.normal;
+    }
+    surface.start += 2e-4f * surface.distance * surface.normal;
     return surface;
 }
 

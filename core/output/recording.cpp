@@ -4,19 +4,22 @@
 #include "output/bytes.h"
 #include "output/error.h"
 #include "output/header_json.h"
+#include "output/particle_code.h"
 #include "output/rotation_code.h"
 
 #include <zlib.h>
 
 #include <exception>
+#include <span>
 
 namespace plumb {
 namespace {
 
 constexpr std::string_view kMagic = "PLUMBREC";
-constexpr std::uint32_t kVersion = 1;
-constexpr std::size_t kFrameBytes = 48;  // of a payload, without its bodies
+constexpr std::uint32_t kVersion = 2, kVersionWithoutDeformables = 1;
+constexpr std::size_t kFrameBytes = 48;  // of a payload, without its bodies and deformables
 constexpr std::size_t kBodyBytes = 44;
+constexpr std::size_t kParticleBytes = 6;  // at the least
 
 std::uint32_t checksum(std::string_view bytes, std::uint32_t before = 0) {
     return static_cast<std::uint32_t>(
@@ -71,9 +74,9 @@ RotationCode unpacked(std::uint64_t bits) {
     return code;
 }
 
-std::string frame_payload(const Frame& frame, const Eigen::Vector3d& origin) {
+std::string frame_payload(const Frame& frame, const RecordingHeader& header) {
     std::string bytes;
-    bytes.reserve(kFrameBytes + kBodyBytes * frame.bodies.size());
+    bytes.reserve(kFrameBytes + kBodyBytes * frame.bodies.size() + 8 * frame.particles.size());
     put(bytes, frame.step);
     put(bytes, frame.time);
     put(bytes, frame.contacts);
@@ -82,19 +85,24 @@ std::string frame_payload(const Frame& frame, const Eigen::Vector3d& origin) {
     put(bytes, frame.deepest_penetration);
     put(bytes, static_cast<std::uint32_t>(frame.bodies.size()));
     for (const BodyState& body : frame.bodies) {
-        put_vector(bytes, body.placement.position - origin);
+        put_vector(bytes, body.placement.position - header.origin);
         put(bytes, packed(encode_rotation(body.placement.rotation, kRecordedRotationBits)));
         put_vector(bytes, body.velocity);
         put_vector(bytes, body.angular_velocity);
     }
+    const std::span<const Eigen::Vector3d> places(frame.particles);
+    for (const RecordedDeformable& d : header.deformables)
+        put_places(bytes, places.subspan(d.first, d.count), header.origin, d.size);
     return bytes;
 }
 
-/// Nothing where the payload does not hold as many bodies as the header, although its checksum is
-/// right.
+/// Nothing where the payload does not hold as many bodies and particles as the header, although its
+/// checksum is right.
 std::optional<Frame> frame_from_payload(std::string_view payload, const RecordingHeader& header) {
     const std::size_t count = header.bodies.size();
-    if (payload.size() != kFrameBytes + kBodyBytes * count) return std::nullopt;
+    const std::size_t particles = particle_count(header.deformables);
+    if (payload.size() < kFrameBytes + kBodyBytes * count + kParticleBytes * particles)
+        return std::nullopt;
     ByteReader reader(payload);
     Frame frame;
     frame.step = reader.take<std::uint64_t>();
@@ -112,18 +120,28 @@ std::optional<Frame> frame_from_payload(std::string_view payload, const Recordin
         body.velocity = take_vector(reader);
         body.angular_velocity = take_vector(reader);
     }
+    frame.particles.resize(particles);
+    const std::span<Eigen::Vector3d> places(frame.particles);
+    for (const RecordedDeformable& d : header.deformables)
+        if (!take_places(reader, places.subspan(d.first, d.count), header.origin))
+            return std::nullopt;
+    if (reader.left() > 0) return std::nullopt;
     return frame;
 }
 
-/// Middle of the bodies at the start, so that the floats near it are fine.
-Eigen::Vector3d middle(const std::vector<BodySpec>& bodies) {
+/// Middle of the bodies and deformables at the start, so that the floats near it are fine.
+Eigen::Vector3d middle(const Scene& scene) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double count = 0;
-    for (const BodySpec& body : bodies) {
-        if (body.motion == Motion::fixed || !body.placement.position.allFinite()) continue;
-        sum += body.placement.position;
+    const auto add = [&](const Eigen::Vector3d& place) {
+        if (!place.allFinite()) return;
+        sum += place;
         ++count;
-    }
+    };
+    for (const BodySpec& body : scene.bodies)
+        if (body.motion != Motion::fixed) add(body.placement.position);
+    for (const DeformableSpec& deformable : scene.deformables)
+        if (!deformable.points.empty()) add(deformable.points[deformable.points.size() / 2]);
     return count > 0 ? Eigen::Vector3d(sum / count) : sum;
 }
 
@@ -132,9 +150,11 @@ RecordingHeader take_header(ByteReader& reader, const std::string& path) {
         throw OutputError(path, "is not a recording of Plumb");
     }
     if (reader.left() < 4) throw OutputError(path, "ends within its header");
-    if (const auto version = reader.take<std::uint32_t>(); version != kVersion) {
-        throw OutputError(path, "has version " + std::to_string(version) + ", and only version " +
-                                    std::to_string(kVersion) + " can be read");
+    if (const auto version = reader.take<std::uint32_t>();
+        version < kVersionWithoutDeformables || version > kVersion) {
+        throw OutputError(path, "has version " + std::to_string(version) +
+                                    ", and only versions up to " + std::to_string(kVersion) +
+                                    " can be read");
     }
     const std::optional<std::string_view> text = next_framed(reader);
     if (!text) throw OutputError(path, "has a header that is cut off or damaged");
@@ -158,8 +178,10 @@ RecordingHeader recording_header(const Scene& scene, const Metadata& metadata) {
     for (const BodySpec& body : scene.bodies) {
         header.bodies.push_back({body.name, body.geometry, body.motion, body.color});
     }
+    header.deformables = recorded_deformables(scene);
+    header.links = recorded_links(scene);
     header.view = scene.view;
-    header.origin = middle(scene.bodies);
+    header.origin = middle(scene);
     header.metadata = metadata;
     return header;
 }
@@ -171,18 +193,23 @@ void expect_bodies_of(const RecordingHeader& header, const Frame& frame, const s
         throw OutputError(path,
                           "takes the bodies of one scene, and since its start some were added or "
                           "removed");
+    if (frame.particles.size() != particle_count(header.deformables))
+        throw OutputError(path,
+                          "takes the particles of one scene, and a frame has others than its "
+                          "deformables");
 }
 
 RecordingWriter::RecordingWriter(std::string path, RecordingHeader header)
     : header_(std::move(header)), file_(std::move(path)) {
     std::string bytes(kMagic);
-    put(bytes, kVersion);
+    const bool plain = header_.deformables.empty() && header_.links.empty();
+    put(bytes, plain ? kVersionWithoutDeformables : kVersion);
     file_.append(bytes + framed(header_to_json(header_)));
 }
 
 void RecordingWriter::append(const Frame& frame) {
     expect_bodies_of(header_, frame, file_.path());
-    file_.append(framed(frame_payload(frame, header_.origin)));
+    file_.append(framed(frame_payload(frame, header_)));
 }
 
 Recording read_recording(const std::string& path) {

@@ -5,19 +5,25 @@
 /// begins: after a crash, a kill or a full disk, everything up to the last whole frame opens. All
 /// numbers are little-endian:
 ///
-///     "PLUMBREC"  u32 version  u32 length of header  u32 checksum of length and header  header
-///     (JSON) then, for each frame: u32 length of payload  u32 checksum of length and payload
-///     payload payload: u64 step  f64 time  u32 contacts  f64 kinetic, potential, penetration  u32
-///     bodies  bodies body, 44 bytes: 3 × f32 position less origin  u64 rotation  3 × f32 velocity
-///     3 × f32 angular velocity rotation: 2 bits index of the largest component, then three times
-///     20 bits (rotation_code.h)
+///     "PLUMBREC"  u32 version  u32 length of header  u32 checksum of length and header
+///         header (JSON)
+///     then, for each frame: u32 length of payload  u32 checksum of length and payload  payload
+///     payload: u64 step  f64 time  u32 contacts  f64 kinetic, potential, penetration
+///         u32 bodies  bodies  deformables
+///     body, 44 bytes: 3 × f32 position less origin  u64 rotation  3 × f32 velocity
+///         3 × f32 angular velocity
+///     rotation: 2 bits index of the largest component, then three times 20 bits (rotation_code.h)
+///     deformable, 16 bytes and 6 for each of its points: places in the box about them, to 1e-4 of
+///         its size or better (particle_code.h)
 ///
-/// The checksum is the CRC-32 of zlib. The origin, in the header, is a point near the bodies at the
-/// start.
+/// The checksum is the CRC-32 of zlib. The origin, in the header, is a point near the bodies and
+/// deformables at the start. Files with deformables or links are of version 2; those without have
+/// nothing that version 1 had not, and are of version 1.
 #pragma once
 
 #include "measure/frame.h"
 #include "output/file.h"
+#include "output/recorded_deformable.h"
 #include "scene/scene.h"
 
 #include <Eigen/Core>
@@ -54,6 +60,8 @@ struct RecordingHeader {
     Eigen::Vector3d gravity{0, -9.81, 0};  ///< [m/s²]; up is against it
     std::vector<Geometry> geometries;
     std::vector<RecordedBody> bodies;
+    std::vector<RecordedDeformable> deformables;
+    std::vector<RecordedLink> links;
     std::optional<View> view;
     Eigen::Vector3d origin =
         Eigen::Vector3d::Zero();  ///< recorded positions are relative to it [m]
@@ -69,8 +77,8 @@ struct Recording {
 
 RecordingHeader recording_header(const Scene& scene, const Metadata& metadata);
 
-/// Throws OutputError where a frame is not of the bodies of the header: bodies came or went since
-/// the start, which no output has a form for.
+/// Throws OutputError where a frame is not of the bodies and particles of the header: some came or
+/// went since the start, which no output has a form for.
 void expect_bodies_of(const RecordingHeader& header, const Frame& frame, const std::string& path);
 
 /// Writes a `.plumb` file, frame by frame. Throws OutputError when the file cannot be written; the

@@ -73,6 +73,26 @@ double fitting_distance(const std::vector<Ball>& balls, const Eigen::Vector3d& t
     return distance;
 }
 
+/// Adds those of a deformable's particles that are outermost in some direction, without the few
+/// that flew far away.
+void add_outermost(std::vector<Ball>& balls, const RecordedDeformable& deformable,
+                   const Frame& frame) {
+    std::vector<Ball> all;
+    const double radius = std::max(deformable.radius, 1e-6);
+    for (std::size_t i = deformable.first; i < deformable.first + deformable.count; ++i)
+        if (frame.particles[i].allFinite()) all.push_back({frame.particles[i], radius});
+    if (all.empty()) return;
+    drop_outliers(all);
+    for (int i = 0; i < 27; ++i) {
+        const Eigen::Vector3d way(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+        if (way.isZero()) continue;
+        balls.push_back(
+            *std::max_element(all.begin(), all.end(), [&way](const Ball& a, const Ball& b) {
+                return way.dot(a.centre) < way.dot(b.centre);
+            }));
+    }
+}
+
 }  // namespace
 
 double bounding_radius(const Geometry& g) {
@@ -116,6 +136,9 @@ std::vector<Ball> balls_of_interest(const RecordingHeader& header, const Frame& 
         if (!(radius > 0)) continue;
         (body.motion == Motion::fixed ? fixed : movable).push_back({position, radius});
     }
+    if (frame.particles.size() == particle_count(header.deformables))
+        for (const RecordedDeformable& deformable : header.deformables)
+            add_outermost(movable, deformable, frame);
     return movable.empty() ? fixed : movable;
 }
 

@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-/// Ball around a body, about the origin of its geometry's frame.
+/// Ball around a body, about the origin of its geometry's frame, or around a particle.
 struct Ball {
     Eigen::Vector3d centre;
     double radius;
@@ -21,8 +21,8 @@ double bounding_radius(const Geometry& geometry);
 /// Unit vector against gravity; +y where there is none.
 Eigen::Vector3d up_direction(const RecordingHeader& header);
 
-/// Balls of the bodies that a viewer would look for: those that can move and have a shape, or else
-/// the fixed ones.
+/// Balls of what a viewer would look for: bodies that can move and have a shape, and the outermost
+/// particles of each deformable; or else the fixed bodies.
 std::vector<Ball> balls_of_interest(const RecordingHeader& header, const Frame& frame);
 
 /// The view that the scene asks for, or one that is fitted to the balls where it asks for none that

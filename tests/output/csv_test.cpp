@@ -2,6 +2,7 @@
 #include "output/csv.h"
 
 #include "falling.h"
+#include "soft.h"
 #include "temporary_folder.h"
 
 namespace plumb::test {
@@ -68,6 +69,42 @@ TEST_F(CsvTest, EveryBitComesBack) {
             EXPECT_EQ(at(14), body.angular_velocity[k]);
         }
         EXPECT_EQ(std::stod(row[10]), body.placement.rotation.w());
+    }
+}
+
+TEST_F(CsvTest, PointsOfDeformablesFollowTheBodies) {
+    const Scene scene = soft_scene(1);
+    CsvExporter exporter(path("run.csv"), recording_header(scene, {}));
+    std::vector<Frame> frames{soft_frame(scene, 0, 0), soft_frame(scene, 4, 1.0 / 7)};
+    for (const Frame& frame : frames) exporter.append(frame);
+    exporter.finish();
+
+    const std::vector<Row> rows = parsed(read_file(path("run.csv")));
+    const std::size_t a_frame = scene.bodies.size() + frames[0].particles.size();
+    ASSERT_EQ(rows.size(), 1 + 2 * a_frame);
+    EXPECT_EQ(rows[0][4], "x");
+    EXPECT_EQ(rows[0][17], "deformable");
+    EXPECT_EQ(rows[0][18], "point");
+    for (const Row& row : rows) ASSERT_EQ(row.size(), 19u);
+    for (std::size_t f = 0; f < 2; ++f) {
+        std::size_t r = 1 + f * a_frame, particle = 0;
+        EXPECT_EQ(rows[r][2], "0");
+        EXPECT_EQ(rows[r][17] + rows[r][18], "");
+        for (std::size_t i = 0; i < scene.deformables.size(); ++i) {
+            for (std::size_t point = 0; point < scene.deformables[i].points.size(); ++point) {
+                const Row& row = rows[++r];
+                EXPECT_EQ(std::stoull(row[0]), frames[f].step);
+                EXPECT_EQ(std::stod(row[1]), frames[f].time);
+                EXPECT_EQ(row[3], scene.deformables[i].name);
+                EXPECT_EQ(row[17], std::to_string(i));
+                EXPECT_EQ(row[18], std::to_string(point));
+                for (std::size_t k = 0; k < 3; ++k)
+                    EXPECT_EQ(std::stod(row[4 + k]),
+                              frames[f].particles[particle][static_cast<Eigen::Index>(k)]);
+                for (std::size_t k = 7; k < 17; ++k) EXPECT_EQ(row[k] + row[2], "");
+                ++particle;
+            }
+        }
     }
 }
 

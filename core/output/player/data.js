@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Reads what the page carries: the scene as JSON, meshes, and the motion (format: motion_code.h).
+// Reads what the page carries: the scene as JSON, meshes, and the motion (formats: motion_code.h, particle_motion.h).
 import { unzlibSync } from 'fflate';
 import { Quaternion, Vector3 } from 'three';
 
@@ -10,15 +10,17 @@ function bytesOf(id) {
     return unzlibSync(bytes);
 }
 
-/// Undoes one channel: low and high bytes of zigzag differences from a linear prediction.
-function decodeChannel(bytes, offset, bodies, frames) {
+/// Undoes one channel: low and high bytes of zigzag differences from a linear prediction; where neighbours are alike, less
+/// those of the one before.
+function decodeChannel(bytes, offset, bodies, frames, alike = false) {
     const count = bodies * frames;
-    const values = new Uint16Array(count);
+    const values = new Uint16Array(count), neighbour = new Uint16Array(frames);
     for (let body = 0, k = 0; body < bodies; ++body) {
         let previous = 0, before = 0;
         for (let frame = 0; frame < frames; ++frame, ++k) {
             const code = bytes[offset + k] | (bytes[offset + count + k] << 8);
-            const difference = (code >>> 1) ^ -(code & 1);
+            const difference = ((code >>> 1) ^ -(code & 1)) + neighbour[frame];
+            if (alike) neighbour[frame] = difference;
             values[k] = difference + 2 * previous - before;
             before = previous;
             previous = values[k];
@@ -82,6 +84,57 @@ export class Motion {
         if (fraction <= 0 || frame + 1 >= this.frames) return;
         position.lerp(this.position(this.nextPosition, index, frame + 1), fraction);
         rotation.slerp(this.rotation(this.nextRotation, index, frame + 1), fraction);
+    }
+}
+
+/// Places of the deformables' points, one deformable after another, kept as integers.
+export class ParticleMotion {
+    constructor(scene) {
+        this.deformables = scene.deformables;
+        this.frames = scene.frames.time.length;
+        this.channels = [];  // [deformable][axis]
+        if (this.deformables.length === 0) return;
+        const bytes = bytesOf('plumb-particles');
+        let offset = 0;
+        for (const { count } of this.deformables) {
+            this.channels.push([0, 1, 2].map((axis) => decodeChannel(bytes,
+                offset + 2 * axis * count * this.frames, count, this.frames, true)));
+            offset += 6 * count * this.frames;
+        }
+    }
+
+    get count() {
+        return this.deformables.reduce((sum, { count }) => sum + count, 0);
+    }
+
+    /// Integer of a point on an axis; `k`: point and frame.
+    static step(values, k, base) {
+        return base + ((values[k] - base) & 0xffff);
+    }
+
+    place(result, particle, frame) {
+        const i = this.deformables.findLastIndex(({ first }) => first <= particle);
+        const { first, low, quantum, bases } = this.deformables[i];
+        const k = (particle - first) * this.frames + frame;
+        return result.fromArray(this.channels[i].map((values, axis) =>
+            low[axis] + quantum * ParticleMotion.step(values, k, bases ? bases[frame][axis] : 0)));
+    }
+
+    /// Fills places, three numbers a point, with those between a frame and the next.
+    fill(places, frame, fraction) {
+        if (this.frames === 0) return;
+        const next = Math.min(frame + 1, this.frames - 1);
+        this.deformables.forEach(({ first, count, low, quantum, bases }, i) => {
+            for (let axis = 0; axis < 3; ++axis) {
+                const values = this.channels[i][axis];
+                const a = bases ? bases[frame][axis] : 0, b = bases ? bases[next][axis] : 0;
+                for (let point = 0, k = 0; point < count; ++point, k += this.frames) {
+                    const here = ParticleMotion.step(values, k + frame, a);
+                    const there = ParticleMotion.step(values, k + next, b);
+                    places[3 * (first + point) + axis] = low[axis] + quantum * (here + fraction * (there - here));
+                }
+            }
+        });
     }
 }
 

@@ -4,6 +4,7 @@
 import * as THREE from 'three';
 import { ComparisonPage } from './comparison.js';
 import { Motion, readMeshes, readScene } from './data.js';
+import { Deformables } from './deformables.js';
 import { ShapeLibrary } from './shapes.js';
 import { Stage } from './stage.js';
 import { Interface, showFailure, withUnit } from './ui.js';
@@ -16,12 +17,16 @@ class Player {
         this.ui = new Interface(this.scene);
         this.stage = new Stage(this.ui.canvas, this.scene);
         this.matrices = this.scene.bodies.map(() => new THREE.Matrix4());
-        this.addBodies();
+        const bytes = readMeshes();
+        this.addBodies(bytes);
+        this.deformables = new Deformables(this.scene, bytes, this.matrices);
+        this.stage.world.add(...this.deformables.objects);
         this.surround();
         this.time = this.times[0] ?? 0;
         this.playing = this.times.length > 1;
         this.speed = 1;
-        this.picked = -1;
+        this.picked = -1;  // body
+        this.pickedPoint = null;  // of a deformable
         this.dirty = true;
         this.listen();
         this.startAt(new URLSearchParams(location.hash.slice(1)).get('t'));
@@ -36,7 +41,7 @@ class Player {
         this.seek(+text);
     }
 
-    addBodies() {
+    addBodies(bytes) {
         const { scene } = this;
         for (const [i, body] of scene.bodies.entries()) {
             if (!body.pose) continue;
@@ -44,7 +49,7 @@ class Player {
             this.matrices[i].compose(new THREE.Vector3(x, y, z), new THREE.Quaternion(...q),
                 new THREE.Vector3(1, 1, 1));
         }
-        const library = new ShapeLibrary(scene, readMeshes());
+        const library = new ShapeLibrary(scene, bytes);
         const cell = this.gridCell();
         for (const [i, body] of scene.bodies.entries()) {
             const shape = scene.shapes[body.shape];
@@ -94,6 +99,7 @@ class Player {
     ball() {
         const places = this.scene.bodies.flatMap((body, i) => (body.fixed || body.shape < 0
             ? [] : [new THREE.Vector3().setFromMatrixPosition(this.matrices[i])]));
+        places.push(...this.deformables.someOfEach());
         if (places.length === 0) return null;
         const middle = new THREE.Vector3(...['x', 'y', 'z'].map((axis) =>
             places.map((p) => p[axis]).sort((a, b) => a - b)[places.length >> 1]));
@@ -185,19 +191,24 @@ class Player {
             const caster = new THREE.Raycaster();
             caster.setFromCamera(new THREE.Vector2(2 * e.clientX / innerWidth - 1,
                 1 - 2 * e.clientY / innerHeight), this.stage.camera);
-            const [hit] = caster.intersectObjects(this.meshes);
-            this.picked = hit ? hit.object.userData.items[hit.instanceId].body : -1;
+            const [hit] = caster.intersectObjects([...this.meshes, ...this.deformables.objects]);
+            this.picked = hit?.object.userData.items?.[hit.instanceId].body ?? -1;
+            this.pickedPoint = hit ? this.deformables.nearest(hit) : null;
             this.dirty = true;
         });
     }
 
     /// "box 3, 1.20 m/s"
     pickedText(frame) {
+        const a = Math.max(0, Math.min(frame, this.times.length - 2)), b = Math.min(a + 1, this.times.length - 1);
+        if (this.pickedPoint) {
+            const { name, particle } = this.pickedPoint;
+            return `${name}, ${withUnit(this.deformables.way(particle, a, b) / (this.times[b] - this.times[a]), 'm/s')}`;
+        }
         if (this.picked < 0) return '';
         const name = this.scene.bodies[this.picked].name || `body ${this.picked}`;
         const index = this.scene.moving.findIndex(({ body }) => body === this.picked);
         if (index < 0) return `${name}, at rest`;
-        const a = Math.max(0, Math.min(frame, this.times.length - 2)), b = Math.min(a + 1, this.times.length - 1);
         const way = this.motion.position(new THREE.Vector3(), index, a)
             .distanceTo(this.motion.position(new THREE.Vector3(), index, b));
         return `${name}, ${withUnit(way / (this.times[b] - this.times[a]), 'm/s')}`;
@@ -222,6 +233,7 @@ class Player {
         for (const mesh of this.meshes) {
             if (mesh.userData.moves) this.fillInstances(mesh);
         }
+        this.deformables.place(frame, fraction);
         this.ui.showFrame(this.time, frame);
         this.ui.showPicked(this.pickedText(frame));
         this.stage.render();

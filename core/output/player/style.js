@@ -16,6 +16,7 @@ canvas { position: fixed; inset: 0; width: 100%; height: 100%; display: block; t
     gap: 3px 18px; font-variant-numeric: tabular-nums; }
 #numbers dt { color: var(--soft); margin: 0; }
 #numbers dd { margin: 0; text-align: right; font-weight: 550; }
+#numbers.rigid .soft-only { display: none; }
 #picked { display: none; grid-column: 1 / 3; border-top: 1px solid rgba(20,30,40,.12); margin-top: 6px;
     padding-top: 6px; max-width: 260px; overflow-wrap: anywhere; }
 #controls { left: 50%; bottom: 18px; transform: translateX(-50%); width: min(900px, calc(100vw - 32px));

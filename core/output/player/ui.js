@@ -26,7 +26,7 @@ const kPage = `
 <canvas tabindex="0" aria-label="The scene; drag to turn, wheel to zoom"></canvas>
 <section id="about" class="panel"><h1></h1><p id="description"></p><p id="made"></p></section>
 <dl id="numbers" class="panel">
-  <dt>Bodies</dt><dd id="bodies"></dd><dt>Contacts</dt><dd id="contacts"></dd>
+  <dt>Bodies</dt><dd id="bodies"></dd><dt class="soft-only">Particles</dt><dd id="particles" class="soft-only"></dd><dt>Contacts</dt><dd id="contacts"></dd>
   <dt>Kinetic energy</dt><dd id="kinetic"></dd><dt>Potential energy</dt><dd id="potential"></dd>
   <dt>Penetration</dt><dd id="penetration"></dd><div id="picked"></div></dl>
 <nav id="controls" class="panel" aria-label="Replay">
@@ -61,6 +61,9 @@ export class Interface {
         this.made.textContent = [scene.collider && `Collider ${scene.collider}`, scene.method &&
             `method ${scene.method}`, scene.dt > 0 && `step ${withUnit(scene.dt, 's')}`].filter(Boolean).join(' · ');
         this.bodies.textContent = scene.bodies.length.toLocaleString('en');
+        const particles = scene.deformables.reduce((sum, { count }) => sum + count, 0);
+        this.particles.textContent = particles.toLocaleString('en');
+        this.numbers.classList.toggle('rigid', particles === 0);
         this.scrub.min = this.times[0] ?? 0;
         this.scrub.max = this.times.at(-1) ?? 0;
     }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/// What the HTML replay carries of deformables and links.
+#pragma once
+
+#include "output/particle_motion.h"
+#include "output/recording.h"
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+namespace plumb {
+
+/// What each deformable looks like and how its places are to be read. Triangles go to the meshes,
+/// each corner a uint32.
+nlohmann::json deformables_json(const RecordingHeader& header,
+                                const std::vector<ParticleGrid>& grids, std::string& meshes);
+
+/// Their two ends each: a particle, or a place on a body or in the world.
+nlohmann::json links_json(const RecordingHeader& header);
+
+}  // namespace plumb

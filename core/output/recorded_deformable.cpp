@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#include "output/recorded_deformable.h"
+
+#include "scene/outer_faces.h"
+
+#include <algorithm>
+
+namespace plumb {
+namespace {
+
+/// Those elements whose points exist.
+template <std::size_t N>
+std::vector<std::array<std::uint32_t, N>> sound(std::vector<std::array<std::uint32_t, N>> elements,
+                                                std::size_t points) {
+    std::erase_if(elements, [points](const std::array<std::uint32_t, N>& element) {
+        return std::any_of(element.begin(), element.end(),
+                           [points](std::uint32_t point) { return point >= points; });
+    });
+    return elements;
+}
+
+double size_of(const std::vector<Eigen::Vector3d>& points) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& point : points)
+        if (point.allFinite()) box.extend(point);
+    return box.isEmpty() ? 0 : box.sizes().maxCoeff();
+}
+
+RecordedPoint recorded_point(const Scene& scene, const std::vector<RecordedDeformable>& deformables,
+                             const ScenePoint& point) {
+    if (point.deformable < deformables.size())
+        return {deformables[point.deformable].first + point.point, kNoIndex, {}};
+    if (point.body >= scene.bodies.size()) return {kNoIndex, kNoIndex, point.position};
+    const Placement& body = scene.bodies[point.body].placement;
+    return {kNoIndex, point.body,
+            body.rotation.conjugate() * Eigen::Vector3d(point.position - body.position)};
+}
+
+}  // namespace
+
+std::vector<RecordedDeformable> recorded_deformables(const Scene& scene) {
+    std::vector<RecordedDeformable> result;
+    std::uint32_t first = 0;
+    for (const DeformableSpec& spec : scene.deformables) {
+        RecordedDeformable deformable{spec.name, spec.kind, first,          0,
+                                      {},        {},        spec.thickness, spec.radius};
+        deformable.count = static_cast<std::uint32_t>(spec.points.size());
+        if (spec.kind == DeformableKind::rope)
+            deformable.segments = sound(spec.segments, spec.points.size());
+        else if (spec.kind == DeformableKind::solid && spec.triangles.empty())
+            deformable.triangles = sound(outer_faces(spec.tetrahedra), spec.points.size());
+        else
+            deformable.triangles = sound(spec.triangles, spec.points.size());
+        deformable.size = size_of(spec.points);
+        deformable.color = spec.color;
+        first += deformable.count;
+        result.push_back(std::move(deformable));
+    }
+    return result;
+}
+
+std::vector<RecordedLink> recorded_links(const Scene& scene) {
+    const std::vector<RecordedDeformable> deformables = recorded_deformables(scene);
+    std::vector<RecordedLink> links;
+    for (const LinkSpec& link : scene.links)
+        links.push_back({recorded_point(scene, deformables, link.a),
+                         recorded_point(scene, deformables, link.b)});
+    return links;
+}
+
+std::size_t particle_count(const std::vector<RecordedDeformable>& deformables) {
+    std::size_t count = 0;
+    for (const RecordedDeformable& deformable : deformables) count += deformable.count;
+    return count;
+}
+
+Eigen::Vector3d place_of(const RecordedPoint& point, const Frame& frame) {
+    if (point.particle < frame.particles.size()) return frame.particles[point.particle];
+    if (point.body >= frame.bodies.size()) return point.place;
+    const Placement& body = frame.bodies[point.body].placement;
+    return body.position + body.rotation * point.place;
+}
+
+}  // namespace plumb
