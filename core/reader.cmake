@@ -10,6 +10,8 @@ add_library(plumb_reader STATIC
   reader/node.cpp reader/obj.cpp reader/parse.cpp reader/polyhedra.cpp reader/reader.cpp reader/repeat.cpp
   reader/file_text.cpp reader/overlap.cpp reader/robots.cpp reader/stl.cpp reader/urdf.cpp reader/urdf_file.cpp reader/urdf_joints.cpp reader/urdf_loads.cpp
   reader/urdf_shapes.cpp reader/urdf_tree.cpp
+  reader/attachments.cpp reader/ball.cpp reader/deformable_shapes.cpp reader/deformables.cpp reader/element_files.cpp reader/lattice.cpp
+  reader/links.cpp reader/gmsh.cpp reader/plain_shapes.cpp reader/tetgen.cpp reader/tube.cpp
   reader/rotation.cpp reader/schema.cpp reader/settings.cpp reader/shapes.cpp reader/solid.cpp reader/table.cpp reader/torus.cpp reader/types.cpp)
 add_library(plumb::reader ALIAS plumb_reader)
 set_target_properties(plumb_reader PROPERTIES EXPORT_NAME reader)

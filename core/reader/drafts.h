@@ -35,7 +35,8 @@ std::string numbered(const std::string& name, std::size_t number);
 
 struct SceneDraft {
     Scene scene;
-    Names materials{"material"}, shapes{"shape"}, bodies{"body"}, joints{"joint"};
+    Names materials{"material"}, shapes{"shape"}, bodies{"body"}, joints{"joint"},
+        deformables{"deformable"};
 };
 
 /// A body, and how often a "repeat" deals it.
@@ -87,6 +88,8 @@ void add_mobile_definitions(SchemaJson& definitions);
 void add_joint_definitions(SchemaJson& definitions);
 void add_coupling_definitions(SchemaJson& definitions);
 void add_robot_definitions(SchemaJson& definitions);
+void add_deformable_definitions(SchemaJson& definitions);
+void add_link_definitions(SchemaJson& definitions);
 
 // Whole parts of a scene.
 void read_materials(SceneDraft& draft, const Node& node);
@@ -96,6 +99,8 @@ void read_bodies(SceneDraft& draft, const Node& node);
 void read_robots(SceneDraft& draft, const Node& node);
 void read_joints(SceneDraft& draft, const Node& node);
 void read_couplings(SceneDraft& draft, const Node& node);
+void read_deformables(SceneDraft& draft, const Node& node);
+void read_links(SceneDraft& draft, const Node& node);
 
 /// One shape object, {"sphere": {…}}; compounds may name shapes of the scene.
 Geometry read_geometry(const SceneDraft& draft, const Node& node);

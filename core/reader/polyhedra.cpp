@@ -5,6 +5,7 @@
 #include "reader/decompose.h"
 #include "reader/height_fields.h"
 #include "reader/hull.h"
+#include "reader/lists.h"
 #include "reader/obj.h"
 
 namespace plumb::reader {
@@ -12,46 +13,6 @@ namespace plumb::reader {
 namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
-
-/// [[x, y, z], …].
-struct VertexList {
-    std::vector<Eigen::Vector3d> read(const Node& node) const {
-        if (!node.json().is_array()) node.fail_wanting("a list of points [x, y, z]");
-        std::vector<Eigen::Vector3d> list;
-        list.reserve(node.size());
-        for (std::size_t i = 0; i < node.size(); ++i) {
-            list.push_back(Vector3{{-1e6, 1e6}}.read(node.at(i)));
-        }
-        return list;
-    }
-    SchemaJson schema() const {
-        return {{"type", "array"}, {"items", Vector3{{-1e6, 1e6}}.schema()}};
-    }
-};
-
-/// [[i, j, k], …].
-struct TriangleList {
-    std::vector<Triangle> read(const Node& node) const {
-        if (!node.json().is_array()) node.fail_wanting("a list of triangles [i, j, k]");
-        std::vector<Triangle> list;
-        list.reserve(node.size());
-        for (std::size_t i = 0; i < node.size(); ++i) {
-            const Node corners = node.at(i);
-            require_list(corners, 3, "indices of vertices");
-            list.push_back(
-                {index.read(corners.at(0)), index.read(corners.at(1)), index.read(corners.at(2))});
-        }
-        return list;
-    }
-    SchemaJson schema() const {
-        return {{"type", "array"},
-                {"items",
-                 {{"type", "array"}, {"items", index.schema()}, {"minItems", 3}, {"maxItems", 3}}}};
-    }
-
-private:
-    Whole<std::uint32_t> index{{0, 4294967294.0}};
-};
 
 /// Points from the scene itself or from a file.
 struct PointsDraft {
@@ -65,7 +26,7 @@ struct PointsDraft {
 const Table<PointsDraft>& hull_table() {
     using P = PointsDraft;
     static const Table<P> table = {
-        field<P>("vertices", VertexList{}, &P::vertices, "points, whose convex hull is taken [m]"),
+        field<P>("vertices", PointList{}, &P::vertices, "points, whose convex hull is taken [m]"),
         field<P>("obj", Text{}, &P::obj, "Wavefront OBJ file, relative to the scene's folder"),
         field<P>("scale", Number{kScale}, &P::scale, "factor on the coordinates of the file"),
     };
@@ -76,9 +37,9 @@ const Table<PointsDraft>& mesh_table() {
     static const Table<PointsDraft> table = [] {
         Table<PointsDraft> fields = hull_table();
         fields[0].meaning = "corners of the triangles [m]";
-        fields.push_back(
-            field<PointsDraft>("triangles", TriangleList{}, &PointsDraft::triangles,
-                               "three indices of vertices each, counter-clockwise from outside"));
+        fields.push_back(field<PointsDraft>(
+            "triangles", IndexList<3>{"triangles [i, j, k]", "vertices"}, &PointsDraft::triangles,
+            "three indices of vertices each, counter-clockwise from outside"));
         fields.push_back(special<PointsDraft>(
             "height_field", height_field_schema(),
             [](PointsDraft& p, const Node& node) {

@@ -59,6 +59,10 @@ const Table<SceneDraft>& scene_table() {
         special<D>("joints", list_of("joint"), read_joints, "joints between bodies"),
         special<D>("couplings", list_of("coupling"), read_couplings,
                    "ties between joints: gears, racks, screws, pulleys"),
+        special<D>("deformables", list_of("deformable"), read_deformables,
+                   "cloth, balloons, soft solids and ropes"),
+        special<D>("links", list_of("link"), read_links,
+                   "rods and ropes between points of deformables, bodies and the world"),
         special<D>("view", reference_to("view"), read_view, "where pictures are taken from"),
     };
     return table;

@@ -19,6 +19,9 @@ namespace plumb {
 /// Most bodies that a scene may have, those of "repeat" entries counted one by one.
 inline constexpr std::size_t kMaxBodies = 1'000'000;
 
+/// Most points that its deformables may have together.
+inline constexpr std::size_t kMaxParticles = 1'000'000;
+
 /// Reads a scene's file, or a robot's, whose name ends in .urdf (urdf.h).
 Scene read_scene(const std::filesystem::path& file);
 

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "reader/drafts.h"
+#include "reader/lists.h"
 #include "reader/random.h"
 
 namespace plumb::reader {
@@ -27,21 +28,7 @@ struct Grid {
     std::uint64_t places() const { return std::uint64_t{count[0]} * count[1] * count[2]; }
 };
 
-constexpr Range kJitter{0, 1e6};
-
-/// [nx, ny, nz].
-struct Counts {
-    std::array<std::uint32_t, 3> read(const Node& node) const {
-        require_list(node, 3, "whole numbers");
-        return {count.read(node.at(0)), count.read(node.at(1)), count.read(node.at(2))};
-    }
-    SchemaJson schema() const {
-        return {{"type", "array"}, {"items", count.schema()}, {"minItems", 3}, {"maxItems", 3}};
-    }
-
-private:
-    Whole<std::uint32_t> count{{1, static_cast<double>(kMaxBodies)}};
-};
+constexpr Range kJitter{0, 1e6}, kCounts{1, static_cast<double>(kMaxBodies)};
 
 void read_jitter(Grid& grid, const Node& node) {
     grid.jitter = node.json().is_number()
@@ -52,8 +39,8 @@ void read_jitter(Grid& grid, const Node& node) {
 const Table<Grid>& grid_table() {
     using W = Whole<std::uint32_t>;
     static const Table<Grid> table = {
-        field<Grid>("count", Counts{}, &Grid::count, "[nx, ny, nz]: places along each axis",
-                    Presence::required),
+        field<Grid>("count", WholeList<3>{kCounts}, &Grid::count,
+                    "[nx, ny, nz]: places along each axis", Presence::required),
         field<Grid>("spacing", Vector3{kCoordinate}, &Grid::spacing, "distance between places [m]"),
         field<Grid>("origin", Vector3{kCoordinate}, &Grid::origin,
                     "of the first place, and of the middle on axes that are centred [m]"),

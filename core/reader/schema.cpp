@@ -17,6 +17,8 @@ std::string scene_schema() {
     add_mobile_definitions(definitions);
     add_robot_definitions(definitions);
     add_joint_definitions(definitions);
+    add_deformable_definitions(definitions);
+    add_link_definitions(definitions);
     definitions["view"] = object_schema(view_table());
 
     SchemaJson schema = {

@@ -4,13 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
+#include "reader/lists.h"
+
 namespace plumb::reader {
 
 namespace {
-
-SchemaJson list_schema(const SchemaJson& item, std::size_t count) {
-    return {{"type", "array"}, {"items", item}, {"minItems", count}, {"maxItems", count}};
-}
 
 bool inside(const Range& range, double value) { return value >= range.low && value <= range.high; }
 

@@ -73,6 +73,13 @@ TEST(Schema, NamesKeysThatTheReaderKnows) {
         {"coupling", {R"({"couplings": [{)", "}]}"}},
         {"robot", {R"({"robots": [{)", "}]}"}},
         {"robot_motor", {R"({"robots": [{"urdf": "x", "motors": {"m": {)", "}}}]}"}},
+        {"deformable", {R"({"deformables": [{)", "}]}"}},
+        {"deformable_shape", {R"({"deformables": [{"kind": "cloth", "shape": {)", "}}]}"}},
+        {"attachment",
+         {R"({"deformables": [{"kind": "rope", "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0]}}, "attach": [{)",
+          "}]}]}"}},
+        {"link", {R"({"links": [{)", "}]}"}},
+        {"link_end", {R"({"links": [{"a": {)", "}}]}"}},
         {"view", {R"({"view": {)", "}}"}}};
 
     const Json definitions = schema()["$defs"];

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+/// What is being read of "deformables" and "links".
+#pragma once
+
+#include "reader/deformable_shapes.h"
+#include "reader/drafts.h"
+#include "scene/element_faults.h"
+
+namespace plumb::reader {
+
+struct DeformableDraft {
+    SceneDraft* scene;
+    DeformableSpec spec;
+    Placement placement;
+    std::optional<double> thickness, young, radius;  ///< as the file has them
+    std::optional<Node> attach;
+};
+
+/// A "shape": {"grid": {…}} and so on, for a deformable whose kind is known. Points come in the
+/// shape's own frame.
+void read_deformable_shape(DeformableDraft& draft, const Node& node);
+void add_deformable_shape_definitions(SchemaJson& definitions);
+
+/// "attach" of a deformable that the scene has.
+void read_attachments(SceneDraft& draft, std::uint32_t deformable, const Node& node);
+void add_attachment_definitions(SchemaJson& definitions);
+
+/// A file of triangles or tetrahedra: OBJ, Gmsh's .msh or TetGen's .node with its .ele, times a
+/// scale. Points that fall together are one.
+struct FileElements {
+    Elements elements;
+    std::size_t merged = 0;  ///< points that fell together with others
+};
+FileElements read_elements_file(const Node& name, double scale, DeformableKind kind);
+
+/// The part that a fault is about, as near as the file has it; of a deformable also within its
+/// shape.
+Node place_of(const DeformableFault& fault, const Node& whole);
+
+inline constexpr Range kCoupling{0, 1e15};  ///< compliances and dampings
+
+}  // namespace plumb::reader

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+/// Solids of cells that are cut into tetrahedra.
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+
+#include "reader/bad_shape.h"
+#include "reader/deformable_shapes.h"
+#include "scene/surface_faults.h"
+
+namespace plumb::reader {
+
+namespace {
+
+/// Cells of a box around a mesh, of which most are outside.
+constexpr double kMostCells = 1e7;
+constexpr const char* kTooManyCells =
+    "the box around the mesh would have more than 10000000 cells; make \"cell\" larger";
+
+using Cell = std::array<std::uint32_t, 3>;
+
+/// Five tetrahedra of a cell whose corners are numbered x + 2 y + 4 z, of those cells whose
+/// coordinates have an even sum; the middle one comes last. Others are mirrored in x.
+constexpr std::array<std::array<std::uint32_t, 4>, 5> kFive{
+    {{1, 0, 5, 3}, {2, 0, 3, 6}, {4, 0, 6, 5}, {7, 3, 5, 6}, {0, 3, 6, 5}}};
+
+/// Cells become tetrahedra, and points are numbered as they are met.
+class Lattice {
+public:
+    Lattice(const Eigen::Vector3d& corner, const Eigen::Vector3d& cell, const Cell& cells)
+        : corner_(corner), cell_(cell), cells_(cells) {}
+
+    void add(const Cell& cell) {
+        const bool mirrored = (cell[0] + cell[1] + cell[2]) % 2 == 1;
+        for (const auto& five : kFive) {
+            std::array<std::uint32_t, 4> t;
+            for (std::size_t k = 0; k < 4; ++k) {
+                const std::uint32_t c = mirrored ? five[k] ^ 1u : five[k];
+                t[k] = point({cell[0] + (c & 1u), cell[1] + (c >> 1 & 1u), cell[2] + (c >> 2)});
+            }
+            if (mirrored) std::swap(t[0], t[1]);
+            made_.tetrahedra.push_back(t);
+        }
+    }
+
+    std::uint32_t point(const Cell& at) {
+        const auto key =
+            at[0] + (std::uint64_t{cells_[0]} + 1) *
+                        (at[2] + (std::uint64_t{cells_[2]} + 1) * std::uint64_t{at[1]});
+        const auto next = static_cast<std::uint32_t>(made_.points.size());
+        const auto [place, is_new] = numbers_.emplace(key, next);
+        if (is_new)
+            made_.points.push_back(corner_ +
+                                   cell_.cwiseProduct(Eigen::Vector3d(at[0], at[1], at[2])));
+        return place->second;
+    }
+
+    Elements take() {
+        made_.triangles = surface_of(made_.tetrahedra);
+        return std::move(made_);
+    }
+
+private:
+    Eigen::Vector3d corner_, cell_;
+    Cell cells_;
+    std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
+    Elements made_;
+};
+
+/// Where lines along z, one through the middle of each column of cells, cross a closed mesh.
+class Crossings {
+public:
+    Crossings(const TriangleMesh& mesh, const Eigen::Vector3d& corner, double cell,
+              const Cell& cells)
+        : mesh_(mesh), corner_(corner), cell_(cell), cells_(cells) {
+        columns_.resize(std::size_t{cells[0]} * cells[1]);
+        for (const auto& t : mesh.triangles) add(t);
+    }
+
+    /// How often the surface winds around the middle of a cell; 0 outside.
+    int winding(const Cell& cell) const {
+        const double z = corner_.z() + cell_ * (cell[2] + 0.5);
+        int sum = 0;
+        for (const Crossing& c : columns_[cell[0] + std::size_t{cells_[0]} * cell[1]])
+            if (c.z > z) sum += c.sign;
+        return sum;
+    }
+
+private:
+    struct Crossing {
+        double z;
+        int sign;  ///< 1 where the triangle faces up
+    };
+
+    Eigen::Vector2d middle(std::uint32_t x, std::uint32_t y) const {
+        return corner_.head<2>() + cell_ * Eigen::Vector2d(x + 0.5, y + 0.5);
+    }
+
+    /// Twice the area of the triangle over an edge with its tip at `at`, seen from +z, and the side
+    /// that `at` is on. Both triangles of an edge compute with the same numbers, so that no line
+    /// slips through between them.
+    double side(std::uint32_t from, std::uint32_t to, const Eigen::Vector2d& at, bool& left) const {
+        const bool forward = from < to;
+        const Eigen::Vector2d p = mesh_.vertices[std::min(from, to)].head<2>(),
+                              q = mesh_.vertices[std::max(from, to)].head<2>();
+        const double area = (q.x() - p.x()) * (at.y() - p.y()) - (q.y() - p.y()) * (at.x() - p.x());
+        left = (area >= 0) == forward;
+        return forward ? area : -area;
+    }
+
+    void cross(const std::array<std::uint32_t, 3>& t, const Eigen::Vector2d& at,
+               std::vector<Crossing>& column) const {
+        bool left[3];
+        const double c = side(t[0], t[1], at, left[0]), a = side(t[1], t[2], at, left[1]),
+                     b = side(t[2], t[0], at, left[2]);
+        if (left[0] != left[1] || left[0] != left[2]) return;
+        const double sum = a + b + c;
+        const auto z = [&](std::size_t k) { return mesh_.vertices[t[k]].z(); };
+        column.push_back(
+            {sum != 0 ? (a * z(0) + b * z(1) + c * z(2)) / sum : z(0), left[0] ? 1 : -1});
+    }
+
+    void add(const std::array<std::uint32_t, 3>& t) {
+        Eigen::Vector2d low = mesh_.vertices[t[0]].head<2>(), high = low;
+        for (const std::uint32_t p : t) {
+            low = low.cwiseMin(mesh_.vertices[p].head<2>());
+            high = high.cwiseMax(mesh_.vertices[p].head<2>());
+        }
+        const auto first = [&](int axis) {
+            const double at = (low[axis] - corner_[axis]) / cell_ - 0.5;
+            return static_cast<std::uint32_t>(std::max(0.0, std::floor(at)));
+        };
+        const auto end = [&](int axis) {
+            const double at = std::max(0.0, (high[axis] - corner_[axis]) / cell_ + 1.5);
+            return std::min(cells_[static_cast<std::size_t>(axis)], static_cast<std::uint32_t>(at));
+        };
+        for (std::uint32_t y = first(1); y < end(1); ++y)
+            for (std::uint32_t x = first(0); x < end(0); ++x)
+                cross(t, middle(x, y), columns_[x + std::size_t{cells_[0]} * y]);
+    }
+
+    const TriangleMesh& mesh_;
+    Eigen::Vector3d corner_;
+    double cell_;
+    Cell cells_;
+    std::vector<std::vector<Crossing>> columns_;
+};
+
+/// Cells that cover a size [m].
+std::uint32_t cells_over(double size, double cell) {
+    const double count = std::ceil(size / cell - 1e-9);
+    if (!(count <= kMostCells)) throw BadShape(kTooManyCells);
+    return static_cast<std::uint32_t>(std::max(1.0, count));
+}
+
+}  // namespace
+
+Elements mesh_lattice(const TriangleMesh& mesh, double cell) {
+    if (const auto fault = deformable_faults::edge_fault(mesh.triangles, true))
+        throw BadShape("no cells can be put into the mesh: " + fault->sentence);
+    Eigen::Vector3d low = mesh.vertices.front(), high = low;
+    for (const Eigen::Vector3d& p : mesh.vertices) low = low.cwiseMin(p), high = high.cwiseMax(p);
+    const Eigen::Vector3d size = high - low;
+    const Cell cells{cells_over(size.x(), cell), cells_over(size.y(), cell),
+                     cells_over(size.z(), cell)};
+    if (static_cast<double>(cells[0]) * cells[1] * cells[2] > kMostCells)
+        throw BadShape(kTooManyCells);
+    const Eigen::Vector3d corner =
+        (low + high) / 2 - cell / 2 * Eigen::Vector3d(cells[0], cells[1], cells[2]);
+    const Crossings crossings(mesh, corner, cell, cells);
+    Lattice lattice(corner, Eigen::Vector3d::Constant(cell), cells);
+    for (std::uint32_t y = 0; y < cells[1]; ++y)
+        for (std::uint32_t z = 0; z < cells[2]; ++z)
+            for (std::uint32_t x = 0; x < cells[0]; ++x)
+                if (crossings.winding({x, y, z}) != 0) lattice.add({x, y, z});
+    Elements made = lattice.take();
+    if (made.points.empty())
+        throw BadShape("no cell has its centre inside the mesh; make \"cell\" smaller");
+    return made;
+}
+
+Elements box_lattice(const Eigen::Vector3d& half_extents, std::array<std::uint32_t, 3> cells) {
+    const Eigen::Vector3d count(cells[0], cells[1], cells[2]);
+    Lattice lattice(-half_extents, (2 * half_extents).cwiseQuotient(count), cells);
+    for (std::uint32_t y = 0; y <= cells[1]; ++y)
+        for (std::uint32_t z = 0; z <= cells[2]; ++z)
+            for (std::uint32_t x = 0; x <= cells[0]; ++x) lattice.point({x, y, z});
+    for (std::uint32_t y = 0; y < cells[1]; ++y)
+        for (std::uint32_t z = 0; z < cells[2]; ++z)
+            for (std::uint32_t x = 0; x < cells[0]; ++x) lattice.add({x, y, z});
+    return lattice.take();
+}
+
+std::vector<std::array<std::uint32_t, 3>> surface_of(
+    const std::vector<std::array<std::uint32_t, 4>>& tetrahedra) {
+    // Seen from outside, counter-clockwise: opposite to each of the four points.
+    constexpr std::array<std::array<std::size_t, 3>, 4> sides{
+        {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+    struct Face {
+        std::array<std::uint32_t, 3> key, points;
+    };
+    std::vector<Face> faces;
+    faces.reserve(4 * tetrahedra.size());
+    for (const auto& t : tetrahedra)
+        for (const auto& [a, b, c] : sides) {
+            Face face{{t[a], t[b], t[c]}, {t[a], t[b], t[c]}};
+            std::sort(face.key.begin(), face.key.end());
+            faces.push_back(face);
+        }
+    std::stable_sort(faces.begin(), faces.end(),
+                     [](const Face& f, const Face& g) { return f.key < g.key; });
+    std::vector<std::array<std::uint32_t, 3>> surface;
+    for (std::size_t i = 0, end = 0; i < faces.size(); i = end) {
+        while (end < faces.size() && faces[end].key == faces[i].key) ++end;
+        if (end - i == 1) surface.push_back(faces[i].points);
+    }
+    return surface;
+}
+
+}  // namespace plumb::reader
