@@ -101,11 +101,15 @@ RecordedBody body_from_json(const json& j) {
 }
 
 json deformable_to_json(const RecordedDeformable& d) {
-    return {{"name", d.name},           {"kind", static_cast<std::uint32_t>(d.kind)},
-            {"count", d.count},         {"segments", d.segments},
-            {"triangles", d.triangles}, {"thickness", d.thickness},
-            {"radius", d.radius},       {"size", d.size},
-            {"color", d.color}};
+    json j{{"name", d.name},           {"kind", static_cast<std::uint32_t>(d.kind)},
+           {"count", d.count},         {"segments", d.segments},
+           {"triangles", d.triangles}, {"thickness", d.thickness},
+           {"radius", d.radius},       {"size", d.size},
+           {"color", d.color}};
+    if (d.rest.empty()) return j;
+    j["tearing_strain"] = d.tearing_strain;
+    j["rest"] = flat(d.rest);
+    return j;
 }
 
 template <std::size_t N>
@@ -133,6 +137,9 @@ RecordedDeformable deformable_from_json(const json& j, std::uint32_t first) {
     d.radius = number(j.at("radius"));
     d.size = number(j.at("size"));
     d.color = j.at("color");
+    if (!j.contains("rest")) return d;
+    d.tearing_strain = number(j.at("tearing_strain"));
+    d.rest = unflat(j.at("rest"));
     return d;
 }
 

@@ -47,6 +47,7 @@ json deformable_json(const RecordedDeformable& deformable, std::size_t index,
            {"low", to_json(grid.low)},
            {"quantum", grid.quantum}};
     if (!grid.bases.empty()) j["bases"] = grid.bases;
+    if (!deformable.rest.empty()) j["tearing_strain"] = deformable.tearing_strain;
     if (deformable.kind == DeformableKind::rope) {
         j["radius"] = rope_radius(deformable);
         j["segments"] = deformable.segments;

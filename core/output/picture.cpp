@@ -184,7 +184,8 @@ private:
     Color sky_light(const Vector& direction) const {
         const float height = direction.dot(up_);
         const Color below(0.50f, 0.48f, 0.46f);
-        return height < 0 ? below : Color(1.02f, 1.08f, 1.16f) * (0.75f + 0.35f * height);
+        const Color above = Color(1.02f, 1.08f, 1.16f) * (0.75f + 0.35f * std::max(0.0f, height));
+        return below + (above - below) * smoothstep(-0.1f, 0.1f, height);
     }
 
     Color color_of(const Drawn& drawn) const {

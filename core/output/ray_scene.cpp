@@ -145,9 +145,13 @@ void RayScene::add_deformables(const RecordingHeader& header, const Frame& frame
         Item item{{Drawn::Kind::deformable, i}};
         if (deformable.kind == DeformableKind::rope) {
             std::vector<Piece> rope;
-            for (const auto& [a, b] : deformable.segments)
-                rope.push_back({(frame.particles[deformable.first + a] - middle_).cast<float>(),
-                                (frame.particles[deformable.first + b] - middle_).cast<float>()});
+            for (const auto& segment : deformable.segments) {
+                if (is_torn(deformable, segment, frame)) continue;
+                const auto end = [&](std::size_t k) -> Eigen::Vector3f {
+                    return (frame.particles[deformable.first + segment[k]] - middle_).cast<float>();
+                };
+                rope.push_back({end(0), end(1)});
+            }
             add(std::move(item), pieces(rope, std::max(rope_radius(deformable), thinnest)));
         } else if ((item.surface = surface_of(deformable, frame, middle_))) {
             const RTCGeometry geometry = triangles(device_.get(), item.surface->mesh());

@@ -4,6 +4,7 @@
 #include "scene/outer_faces.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb {
 namespace {
@@ -28,12 +29,17 @@ double size_of(const std::vector<Eigen::Vector3d>& points) {
 
 RecordedPoint recorded_point(const Scene& scene, const std::vector<RecordedDeformable>& deformables,
                              const ScenePoint& point) {
-    if (point.deformable < deformables.size())
-        return {deformables[point.deformable].first + point.point, kNoIndex, {}};
-    if (point.body >= scene.bodies.size()) return {kNoIndex, kNoIndex, point.position};
-    const Placement& body = scene.bodies[point.body].placement;
-    return {kNoIndex, point.body,
-            body.rotation.conjugate() * Eigen::Vector3d(point.position - body.position)};
+    RecordedPoint result;
+    if (point.deformable < deformables.size()) {
+        result.particle = deformables[point.deformable].first + point.point;
+    } else if (point.body < scene.bodies.size()) {
+        const Placement& body = scene.bodies[point.body].placement;
+        result.body = point.body;
+        result.place = body.rotation.conjugate() * Eigen::Vector3d(point.position - body.position);
+    } else {
+        result.place = point.position;
+    }
+    return result;
 }
 
 }  // namespace
@@ -42,8 +48,10 @@ std::vector<RecordedDeformable> recorded_deformables(const Scene& scene) {
     std::vector<RecordedDeformable> result;
     std::uint32_t first = 0;
     for (const DeformableSpec& spec : scene.deformables) {
-        RecordedDeformable deformable{spec.name, spec.kind, first,          0,
-                                      {},        {},        spec.thickness, spec.radius};
+        RecordedDeformable deformable;
+        deformable.name = spec.name;
+        deformable.kind = spec.kind;
+        deformable.first = first;
         deformable.count = static_cast<std::uint32_t>(spec.points.size());
         if (spec.kind == DeformableKind::rope)
             deformable.segments = sound(spec.segments, spec.points.size());
@@ -51,8 +59,12 @@ std::vector<RecordedDeformable> recorded_deformables(const Scene& scene) {
             deformable.triangles = sound(outer_faces(spec.tetrahedra), spec.points.size());
         else
             deformable.triangles = sound(spec.triangles, spec.points.size());
+        deformable.thickness = spec.thickness;
+        deformable.radius = spec.radius;
         deformable.size = size_of(spec.points);
         deformable.color = spec.color;
+        deformable.tearing_strain = spec.tearing_strain;
+        if (std::isfinite(spec.tearing_strain)) deformable.rest = spec.points;
         first += deformable.count;
         result.push_back(std::move(deformable));
     }
@@ -72,6 +84,20 @@ std::size_t particle_count(const std::vector<RecordedDeformable>& deformables) {
     std::size_t count = 0;
     for (const RecordedDeformable& deformable : deformables) count += deformable.count;
     return count;
+}
+
+bool is_torn(const RecordedDeformable& deformable, std::span<const std::uint32_t> element,
+             const Frame& frame) {
+    if (deformable.rest.size() != deformable.count) return false;
+    const std::size_t n = element.size();
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::uint32_t a = element[k], b = element[(k + 1) % n];
+        const double now =
+            (frame.particles[deformable.first + a] - frame.particles[deformable.first + b]).norm();
+        const double rest = (deformable.rest[a] - deformable.rest[b]).norm();
+        if (now > (1 + deformable.tearing_strain) * rest) return true;
+    }
+    return false;
 }
 
 Eigen::Vector3d place_of(const RecordedPoint& point, const Frame& frame) {

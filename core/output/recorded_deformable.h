@@ -8,6 +8,8 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,8 @@ struct RecordedDeformable {
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of all others: the surface
     double thickness = 0;                                 ///< of cloth; a rope's diameter [m]
     double radius = 0;                                    ///< of the particles [m]
+    double tearing_strain = std::numeric_limits<double>::infinity();
+    std::vector<Eigen::Vector3d> rest;  ///< the points at the start, where it can tear [m]
     double size = 0;          ///< longest side of the box about the points at the start [m]
     std::uint32_t color = 0;  ///< 0xRRGGBB, 0 = chosen by the viewer
 };
@@ -46,6 +50,10 @@ std::size_t particle_count(const std::vector<RecordedDeformable>& deformables);
 inline double rope_radius(const RecordedDeformable& rope) {
     return rope.thickness > 0 ? 0.5 * rope.thickness : rope.radius;
 }
+
+/// Whether a segment or a triangle has an edge that is stretched so far that it must have torn.
+bool is_torn(const RecordedDeformable& deformable, std::span<const std::uint32_t> element,
+             const Frame& frame);
 
 /// Where a point of a link is in a frame, which has the header's bodies and particles.
 Eigen::Vector3d place_of(const RecordedPoint& point, const Frame& frame);

@@ -45,8 +45,8 @@ private:
     std::vector<std::array<Eigen::Vector3f, 3>> normals_;  ///< [triangle][corner], unit
 };
 
-/// The surface of a deformable relative to a place; nothing where it has none. Triangles with a
-/// point that is not finite are left out.
+/// The surface of a deformable relative to a place; nothing where it has none. Triangles that are
+/// torn, or have a point that is not finite, are left out.
 std::optional<SmoothSurface> surface_of(const RecordedDeformable& deformable, const Frame& frame,
                                         const Eigen::Vector3d& middle);
 

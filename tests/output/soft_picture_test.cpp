@@ -82,6 +82,28 @@ TEST(SoftPicture, PointThatIsNotFiniteTakesItsTrianglesAlone) {
     EXPECT_FALSE(draw_picture(header, frame, {64, 48, 2, 1}).rgb.empty());
 }
 
+/// A sheet that is pulled apart in the middle loses the row of triangles that are stretched too
+/// far, and a rope its piece.
+TEST(SoftPicture, WhatIsTornIsLeftOut) {
+    for (const bool tears : {false, true}) {
+        Scene scene = scene_of(sheet(11, 1), {0, 0, kDistance});
+        if (tears) scene.deformables[0].tearing_strain = 0.5;
+        Frame frame = soft_frame(scene, 0, 0);
+        for (Eigen::Vector3d& place : frame.particles) place.x() += place.x() > 0.05 ? 0.3 : 0;
+        const auto surface =
+            surface_of(recording_header(scene, {}).deformables[0], frame, Eigen::Vector3d::Zero());
+        ASSERT_TRUE(surface.has_value());
+        EXPECT_EQ(surface->mesh().triangles.size(), tears ? 180u : 200u);
+    }
+    Scene scene = scene_of(rope(10, 2, 0.12), {0, 0, kDistance});
+    scene.deformables[0].tearing_strain = 0.5;
+    const RecordingHeader header = recording_header(scene, {});
+    Frame frame = soft_frame(scene, 0, 0);
+    for (std::size_t i = 6; i < 11; ++i) frame.particles[i].x() += 0.2;
+    for (std::size_t i = 0; i < 10; ++i)
+        EXPECT_EQ(is_torn(header.deformables[0], scene.deformables[0].segments[i], frame), i == 5);
+}
+
 /// On a ball, blended normals are almost those of the ball. Rays start above it, by little more
 /// than the triangles lie below it.
 TEST(SmoothSurfaceTest, OfABallIsRound) {

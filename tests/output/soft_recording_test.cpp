@@ -88,6 +88,7 @@ TEST_F(SoftRecordingTest, WhatFliesApartOrIsNotFiniteLeavesTheOthersExact) {
 TEST_F(SoftRecordingTest, HeaderComesBackWhole) {
     Scene scene = soft_scene(2);
     scene.deformables[0].color = 0x123456;
+    scene.deformables[3].tearing_strain = 0.25;
     const RecordingHeader wanted = recording_header(scene, {});
     const RecordingHeader got = there_and_back(scene, {}).header;
     ASSERT_EQ(got.deformables.size(), 4u);
@@ -109,6 +110,11 @@ TEST_F(SoftRecordingTest, HeaderComesBackWhole) {
     EXPECT_DOUBLE_EQ(got.deformables[0].size, 2);
     EXPECT_DOUBLE_EQ(got.deformables[1].size, 1);
     EXPECT_EQ(got.deformables[0].triangles, scene.deformables[0].triangles);
+
+    EXPECT_TRUE(std::isinf(got.deformables[0].tearing_strain));
+    EXPECT_TRUE(got.deformables[0].rest.empty());
+    EXPECT_EQ(got.deformables[3].tearing_strain, 0.25);
+    EXPECT_EQ(got.deformables[3].rest, scene.deformables[3].points);
 
     ASSERT_EQ(got.links.size(), 2u);
     const Frame frame = soft_frame(scene, 0, 0);  // where all is as at the start

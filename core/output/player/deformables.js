@@ -2,7 +2,7 @@
 // What is made of particles, and the links between things: surfaces, and rods for ropes and links.
 import * as THREE from 'three';
 import { meshArrays, ParticleMotion } from './data.js';
-import { SmoothSurface } from './smooth_surface.js';
+import { limitOf, SmoothSurface, squaredDistance } from './smooth_surface.js';
 
 const kThinnest = 8e-4;  // radius of a rope or link at the least, of the view's distance
 const kLinkColor = 0x4a5560;
@@ -33,6 +33,13 @@ class Rods {
         this.rotation = new THREE.Quaternion();
         this.scale = new THREE.Vector3();
         this.matrix = new THREE.Matrix4();
+    }
+
+    hide(i) {
+        this.matrix.makeScale(0, 0, 0);
+        this.rods.setMatrixAt(i, this.matrix);
+        this.balls.setMatrixAt(2 * i, this.matrix);
+        this.balls.setMatrixAt(2 * i + 1, this.matrix);
     }
 
     place(i, a, b) {
@@ -73,9 +80,9 @@ export class Deformables {
 
     /// Each side of a surface is a mesh of its own, so that each is lit and shaded as what it is: the near side.
     addSurface(deformable, bytes) {
-        const { first, count, kind, color, mesh, crease } = deformable;
+        const { first, count, kind, color, mesh, crease, tearing_strain: strain } = deformable;
         const places = this.places.subarray(3 * first, 3 * (first + count));
-        const surface = new SmoothSurface(places, meshArrays(bytes, mesh).corners, crease);
+        const surface = new SmoothSurface(places, meshArrays(bytes, mesh).corners, crease, strain);
         for (const side of [THREE.FrontSide, THREE.BackSide]) {
             const material = new THREE.MeshStandardMaterial({ ...kLooks[kind], color, side, shadowSide: THREE.DoubleSide,
                 emissive: kind === 'cloth' ? color : 0 });
@@ -95,6 +102,9 @@ export class Deformables {
             this.objects.push(...rods.objects);
             return rods;
         }
+        const { first, segments, tearing_strain: strain } = deformable;
+        rods.limits = strain === undefined ? null
+            : segments.map(([a, b]) => limitOf(this.places, first + a, first + b, strain));
         const [pieces, ends] = rods.objects;
         pieces.userData = { deformable, point: ({ instanceId }) => deformable.segments[instanceId][0] };
         ends.userData = { deformable, point: ({ instanceId }) => deformable.segments[instanceId >> 1][instanceId & 1] };
@@ -113,6 +123,9 @@ export class Deformables {
     }
 
     place(frame, fraction) {
+        if (frame === this.frame && fraction === this.fraction) return;
+        this.frame = frame;
+        this.fraction = fraction;
         const a = new THREE.Vector3(), b = new THREE.Vector3();
         this.motion.fill(this.places, frame, fraction);
         this.deformables.forEach(({ first, segments }, i) => {
@@ -121,7 +134,10 @@ export class Deformables {
                 part.update();
                 return;
             }
-            segments.forEach(([from, to], k) => part.place(k, this.particle(a, first + from), this.particle(b, first + to)));
+            segments.forEach(([from, to], k) => {
+                if (part.limits && squaredDistance(this.places, first + from, first + to) > part.limits[k]) part.hide(k);
+                else part.place(k, this.particle(a, first + from), this.particle(b, first + to));
+            });
             part.finish();
         });
         this.links.forEach((link, k) => this.rods.place(k, this.end(a, link[0]), this.end(b, link[1])));

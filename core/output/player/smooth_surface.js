@@ -14,6 +14,17 @@ function areaNormals(result, places, corners) {
     }
 }
 
+/// Longest that an edge between two points can be without tearing, squared [m²].
+export function limitOf(places, a, b, strain) {
+    return (1 + strain) ** 2 * squaredDistance(places, a, b);
+}
+
+export function squaredDistance(places, a, b) {
+    let sum = 0;
+    for (let i = 0; i < 3; ++i) sum += (places[3 * a + i] - places[3 * b + i]) ** 2;
+    return sum;
+}
+
 /// Cosine of the angle between the normals of two triangles, given by their first corners.
 function cosine(normals, s, t) {
     const dot = normals[s] * normals[t] + normals[s + 1] * normals[t + 1] + normals[s + 2] * normals[t + 2];
@@ -47,11 +58,14 @@ class Vertices {
 }
 
 export class SmoothSurface {
-    /// `places`: those of the surface's points, which are followed from then on.
-    constructor(places, corners, crease) {
+    /// `places`: those of the surface's points, which are followed from then on. `strain`: beyond which its edges tear,
+    /// or undefined.
+    constructor(places, corners, crease, strain) {
         this.places = places;
         this.corners = corners;
         this.flat = new Float32Array(corners.length);
+        this.limits = strain === undefined ? null
+            : Float32Array.from(corners, (point, k) => limitOf(places, point, corners[this.following(k)], strain));
         this.vertices = new Vertices(places, corners, crease);
         this.geometry = new THREE.BufferGeometry();
         for (const name of ['position', 'normal']) {
@@ -59,7 +73,7 @@ export class SmoothSurface {
             const attribute = new THREE.BufferAttribute(values, 3).setUsage(THREE.DynamicDrawUsage);
             this.geometry.setAttribute(name, attribute);
         }
-        this.geometry.setIndex(new THREE.BufferAttribute(this.vertices.index, 1));
+        this.geometry.setIndex(new THREE.BufferAttribute(this.vertices.index.slice(), 1));
     }
 
     /// The point of the surface that a vertex shows.
@@ -67,9 +81,29 @@ export class SmoothSurface {
         return this.vertices.points[vertex];
     }
 
+    /// The next corner of the same triangle.
+    following(k) {
+        return k % 3 === 2 ? k - 2 : k + 1;
+    }
+
+    /// Triangles with a torn edge shrink to a point.
+    tear() {
+        const { index } = this.geometry, whole = this.vertices.index;
+        for (let t = 0; t < this.corners.length; t += 3) {
+            const torn = [t, t + 1, t + 2].some((k) => squaredDistance(this.places, this.corners[k],
+                this.corners[this.following(k)]) > this.limits[k]);
+            for (let k = t; k < t + 3; ++k) {
+                index.array[k] = whole[torn ? t : k];
+                if (torn) this.flat[k] = 0;
+            }
+        }
+        index.needsUpdate = true;
+    }
+
     update() {
         const { position, normal } = this.geometry.attributes, { points, starts, triangles } = this.vertices;
         areaNormals(this.flat, this.places, this.corners);
+        if (this.limits) this.tear();
         for (let i = 0; i < points.length; ++i) {
             let x = 0, y = 0, z = 0;
             for (let k = starts[i]; k < starts[i + 1]; ++k) {
