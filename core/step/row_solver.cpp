@@ -121,6 +121,7 @@ public:
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.velocity_iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
+                pass.iteration = i;
                 for (const auto& group : groups_)
                     if (!group->empty()) group->iterate_velocities(table_.rows(), pass, worker);
             }
