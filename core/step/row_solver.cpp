@@ -7,6 +7,7 @@
 #include "solve/deformable_group.h"
 #include "solve/link_group.h"
 #include "solve/particle_contact_group.h"
+#include "solve/surface_contact_group.h"
 #include "step/contact_solver.h"
 #include "step/impacts.h"
 #include "step/joint_solver.h"
@@ -216,6 +217,7 @@ private:
         }
         if (plan.runs(Effect::deformables)) add<DeformableGroup<Real, W>>(world, workers_);
         if (plan.runs(Effect::links)) add<LinkGroup<Real>>(world, workers_);
+        if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
         if (plan.runs(Effect::particle_contacts))
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);

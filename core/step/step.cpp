@@ -49,6 +49,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             detect_particles(world, stepper.workers, proximity, stepper.buffers, dt, report,
                              ledger);
         });
+    if (plan.runs(Effect::surface_contacts))
+        timed(Stage::surface_contacts, [&] { stepper.surfaces.detect(world, dt); });
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {
         const bool first = i == 0;
         if (plan.runs(Effect::kinematics))
