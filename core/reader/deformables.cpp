@@ -194,18 +194,22 @@ void move_points(DeformableSpec& spec, const Placement& placement) {
     for (Eigen::Vector3d& p : spec.points) p = placement.position + placement.rotation * p;
 }
 
+void check_deformable(const D& draft, const Node& node) {
+    if (const auto fault = deformable_fault(draft.spec, draft.scene->scene.materials.size()))
+        place_of(*fault, node).fail(fault->sentence);
+}
+
 /// A deformable with its checks; of a "repeat" it may have a weight.
 D read_deformable(SceneDraft& scene, const Node& node, const std::string& name,
                   const Table<D>& table) {
     D draft{&scene, {}, {}, {}, {}, {}, {}, 1};
-    draft.spec.name = node.has("name") ? Text{}.read(node.at("name")) : name;
+    draft.spec.name = name;
     read_object(draft, node, table);
     check_keys(draft, node);
     move_points(draft.spec, draft.placement);
     set_defaults(draft);
     turn_outwards(draft);
-    if (const auto fault = deformable_fault(draft.spec, scene.scene.materials.size()))
-        place_of(*fault, node).fail(fault->sentence);
+    check_deformable(draft, node);
     // Where points are is known only now.
     if (node.has("attach"))
         draft.attachments = read_attachments(scene, draft.spec, node.at("attach"));
@@ -288,7 +292,9 @@ void read_repeated(SceneDraft& scene, const Node& node) {
         require_room(scene, static_cast<double>(draft.spec.points.size()), node.at("repeat"));
         draft.spec.name = numbered(draft.spec.name, i + 1);
         move_points(draft.spec, drawn_place(entry.grid, i, random));
-        add_deformable(scene, std::move(draft), node.at("deformables").at(choice[i]), node);
+        const Node prototype = node.at("deformables").at(choice[i]);
+        check_deformable(draft, prototype);
+        add_deformable(scene, std::move(draft), prototype, node);
     }
 }
 

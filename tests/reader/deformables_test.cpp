@@ -264,6 +264,10 @@ TEST(Deformables, AreRepeatedOverAGrid) {
     expect_error(grid + R"("deformables": [{"kind": "rope", "shape": {"line": {"from": [0, 0, 0],
                            "to": [1, 0, 0], "segments": 9999}}}]}]})",
                  "/deformables/0/repeat", "but a scene may have at most 1000000");
+    expect_error(R"({"deformables": [{"repeat": {"count": [2, 1, 1], "spacing": [1e9, 0, 0]},
+                     "deformables": [{"kind": "rope", "shape": {"line": {"from": [0, 0, 0],
+                                      "to": [1, 0, 0]}}}]}]})",
+                 "/deformables/0/deformables/0/shape", "lies further from the origin than 1e9 m");
     expect_error(grid + R"("deformables": []}]})", "/deformables/0/deformables",
                  "a list of at least one deformable");
     expect_error(grid + R"("deformables": [{"kind": "rop"}]}]})",
