@@ -4,7 +4,7 @@
 #include "effects/meetings.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
-#include "world/has_rim.h"
+#include "world/round_shapes.h"
 
 #include <algorithm>
 
