@@ -14,11 +14,8 @@ namespace {
 constexpr double kShareAtRest = 0.9;
 /// Two triangles whose directions differ by more than this cosine both hold a point off.
 constexpr double kSameSide = 0.7;
-
-bool may_meet(std::uint32_t group_a, std::uint32_t mask_a, std::uint32_t group_b,
-              std::uint32_t mask_b) {
-    return (group_a & mask_b) != 0 && (group_b & mask_a) != 0;
-}
+/// From this cosine on, a point faces a triangle and not only its rim.
+constexpr double kFaceOn = 0.99;
 
 Vector3d place_of(const World& world, const WorldPoint& p) {
     return p.particle != kNoIndex ? world.particles.position[p.particle]
@@ -75,54 +72,65 @@ void SurfaceDetector::detect(World& world, double dt) {
     world.surface_contacts.clear();
     if (triangles_.empty()) return;
     const Particles& p = world.particles;
-    double widest = 0, fastest = 0;
-    for (const Probe& probe : probes_) {
-        widest = std::max(widest, probe.radius);
-        fastest = std::max(fastest, speed_of(world, probe.point));
-    }
-    const double margin = world.settings.margin + fastest * dt;
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto& [a, b, c] = triangles_[i].corners;
-        const double grown = widest + p.radius[a] + margin;
+        const double fastest =
+            std::max({p.velocity[a].norm(), p.velocity[b].norm(), p.velocity[c].norm()});
+        const double grown = p.radius[a] + world.settings.margin + fastest * dt;
         const Vector3d by = Vector3d::Constant(std::isfinite(grown) ? grown : 0);
         low_[i] = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]) - by;
         high_[i] = p.position[a].cwiseMax(p.position[b]).cwiseMax(p.position[c]) + by;
     }
     grid_.build(low_, high_);
-    for (const Probe& probe : probes_) look(world, probe, place_of(world, probe.point), margin);
+    bounds_low_ = low_[0], bounds_high_ = high_[0];
+    for (std::size_t i = 1; i < triangles_.size(); ++i) {
+        bounds_low_ = bounds_low_.cwiseMin(low_[i]);
+        bounds_high_ = bounds_high_.cwiseMax(high_[i]);
+    }
+    for (const Probe& probe : probes_) look(world, probe, dt);
 }
 
-void SurfaceDetector::look(World& world, const Probe& probe, const Vector3d& place, double reach) {
+void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
     const Particles& p = world.particles;
+    const Vector3d place = place_of(world, probe.point);
+    const double slack = probe.radius + speed_of(world, probe.point) * dt;
+    const Vector3d low = place - Vector3d::Constant(slack),
+                   high = place + Vector3d::Constant(slack);
+    if (!low.allFinite() || !high.allFinite() || (high.array() < bounds_low_.array()).any() ||
+        (low.array() > bounds_high_.array()).any())
+        return;
     near_.clear();
-    grid_.each_near(place, [&](std::uint32_t i) {
-        if ((place.array() < low_[i].array()).any() || (place.array() > high_[i].array()).any())
+    grid_.each_near(low, high, [&](std::uint32_t i) {
+        if ((high.array() < low_[i].array()).any() || (low.array() > high_[i].array()).any())
             return;
         const Triangle& t = triangles_[i];
-        const DeformableSpec& spec = world.deformables[t.deformable].spec;
-        if (probe.deformable == kNoIndex) {
-            const std::uint32_t body = probe.point.body;
-            if (!may_meet(world.bodies.group[body], world.bodies.mask[body], spec.group, spec.mask))
-                return;
-        } else {
-            const DeformableSpec& other = world.deformables[probe.deformable].spec;
-            if (!may_meet(other.group, other.mask, spec.group, spec.mask)) return;
-            if (std::find(t.corners.begin(), t.corners.end(), probe.point.particle) !=
-                t.corners.end())
-                return;
-        }
+        if (!may_meet(world, probe, t)) return;
         const Vector3d corners[3] = {p.position[t.corners[0]], p.position[t.corners[1]],
                                      p.position[t.corners[2]]};
         const auto w = nearest_weights(place, corners[0], corners[1], corners[2]);
         const Vector3d apart = place - (w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2]);
         const double distance = apart.norm();
-        if (distance <= reach + probe.radius + p.radius[t.corners[0]])
-            near_.push_back({i, w, apart, distance});
+        const Vector3d face = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+        const double facing =
+            distance > 1e-9 ? apart.dot(face) / (distance * std::max(face.norm(), 1e-300)) : 1;
+        near_.push_back({i, w, apart, distance, facing});
     });
     keep_nearest(world, probe);
 }
 
-/// Of each surface the nearest triangle, and the next that lies in another direction.
+bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) {
+    const DeformableSpec& spec = world.deformables[t.deformable].spec;
+    const auto meets = [&](std::uint32_t group, std::uint32_t mask) {
+        return (group & spec.mask) != 0 && (spec.group & mask) != 0;
+    };
+    if (probe.deformable == kNoIndex)
+        return meets(world.bodies.group[probe.point.body], world.bodies.mask[probe.point.body]);
+    const DeformableSpec& other = world.deformables[probe.deformable].spec;
+    return meets(other.group, other.mask) &&
+           std::find(t.corners.begin(), t.corners.end(), probe.point.particle) == t.corners.end();
+}
+
+/// Of each surface the nearest triangle, and the next that the point faces from another side.
 void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
     std::sort(near_.begin(), near_.end(), [&](const Near& x, const Near& y) {
         const std::uint32_t a = triangles_[x.triangle].deformable,
@@ -130,39 +138,55 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
         if (a != b) return a < b;
         return x.distance != y.distance ? x.distance < y.distance : x.triangle < y.triangle;
     });
-    const Particles& p = world.particles;
-    std::uint32_t surface = kNoIndex, kept = 0;
-    Vector3d direction = Vector3d::Zero();
-    for (const Near& n : near_) {
-        const Triangle& t = triangles_[n.triangle];
-        if (t.deformable != surface) surface = t.deformable, kept = 0;
-        if (kept == 2) continue;
-        const Vector3d face = (p.position[t.corners[1]] - p.position[t.corners[0]])
-                                  .cross(p.position[t.corners[2]] - p.position[t.corners[0]]);
-        const bool is_own = probe.deformable == surface;
-        const bool is_inside = closed_[surface] && !is_own && n.apart.dot(face) < 0;
-        // deep inside nobody can tell where it came from
-        if (is_inside && n.distance > std::sqrt(face.norm())) continue;
-        Vector3d normal =
-            n.distance > 1e-9 ? Vector3d(n.apart / n.distance) : Vector3d(face.normalized());
-        if (is_inside) normal = -normal;
-        if (!normal.allFinite() || (kept == 1 && normal.dot(direction) > kSameSide)) continue;
-        double distance = probe.radius + p.radius[t.corners[0]];
-        if (is_own) {
-            const Deformable& d = world.deformables[surface];
-            Vector3d rest = d.spec.points[probe.point.particle - d.first];
-            for (int k = 0; k < 3; ++k)
-                rest -= n.weights[k] * d.spec.points[t.corners[k] - d.first];
-            distance = std::min(distance, kShareAtRest * rest.norm());
+    const auto surface_of = [&](std::size_t i) { return triangles_[near_[i].triangle].deformable; };
+    for (std::size_t first = 0, last = 0; first < near_.size(); first = last) {
+        while (last < near_.size() && surface_of(last) == surface_of(first)) ++last;
+        // of triangles whose common edge or corner is nearest, the one that the point faces most
+        // tells inside from outside
+        std::size_t best = first;
+        const double same = near_[first].distance * (1 + 1e-6) + 1e-12;
+        for (std::size_t i = first; i < last && near_[i].distance <= same; ++i)
+            if (std::abs(near_[i].facing) > std::abs(near_[best].facing)) best = i;
+        if (!add(world, probe, near_[best])) continue;
+        const Vector3d direction = near_[best].apart;
+        for (std::size_t i = first; i < last; ++i) {
+            const Vector3d& other = near_[i].apart;
+            if (std::abs(near_[i].facing) < kFaceOn ||
+                other.dot(direction) > kSameSide * other.norm() * direction.norm())
+                continue;
+            add(world, probe, near_[i]);
+            break;
         }
-        const std::uint32_t material = probe.point.particle != kNoIndex
-                                           ? p.material[probe.point.particle]
-                                           : world.bodies.material[probe.point.body];
-        const double friction = world.surface_of(material, p.material[t.corners[0]]).friction;
-        world.surface_contacts.push_back(
-            {probe.point, t.corners, n.weights, normal, distance, friction});
-        direction = normal, ++kept;
     }
+}
+
+bool SurfaceDetector::add(World& world, const Probe& probe, const Near& n) {
+    const Particles& p = world.particles;
+    const Triangle& t = triangles_[n.triangle];
+    const bool is_own = probe.deformable == t.deformable;
+    const bool is_inside = closed_[t.deformable] && !is_own && n.facing < 0;
+    const Vector3d face = (p.position[t.corners[1]] - p.position[t.corners[0]])
+                              .cross(p.position[t.corners[2]] - p.position[t.corners[0]]);
+    // deep inside nobody can tell where it came from
+    if (is_inside && n.distance > std::sqrt(face.norm())) return false;
+    Vector3d normal =
+        n.distance > 1e-9 ? Vector3d(n.apart / n.distance) : Vector3d(face.normalized());
+    if (is_inside) normal = -normal;
+    if (!normal.allFinite()) return false;
+    double distance = probe.radius + p.radius[t.corners[0]];
+    if (is_own) {
+        const Deformable& d = world.deformables[t.deformable];
+        Vector3d rest = d.spec.points[probe.point.particle - d.first];
+        for (int k = 0; k < 3; ++k) rest -= n.weights[k] * d.spec.points[t.corners[k] - d.first];
+        distance = std::min(distance, kShareAtRest * rest.norm());
+    }
+    const std::uint32_t material = probe.point.particle != kNoIndex
+                                       ? p.material[probe.point.particle]
+                                       : world.bodies.material[probe.point.body];
+    const double friction = world.surface_of(material, p.material[t.corners[0]]).friction;
+    world.surface_contacts.push_back(
+        {probe.point, t.corners, n.weights, normal, distance, friction});
+    return true;
 }
 
 }  // namespace plumb

@@ -35,17 +35,22 @@ private:
         std::array<double, 3> weights;
         Vector3d apart;   ///< from the triangle to the point [m]
         double distance;  ///< [m]
+        double facing;    ///< cosine between that and the triangle's normal
     };
 
     void add_probes(const World& world);
-    void look(World& world, const Probe& probe, const Vector3d& place, double reach);
+    void look(World& world, const Probe& probe, double dt);
+    static bool may_meet(const World& world, const Probe& probe, const Triangle& triangle);
     void keep_nearest(World& world, const Probe& probe);
+    /// Whether it became a contact.
+    bool add(World& world, const Probe& probe, const Near& near);
 
     std::vector<Triangle> triangles_;
     std::vector<Probe> probes_;
     std::vector<std::uint8_t> closed_;  ///< [deformable] whether its surface has an inside
     BoxGrid grid_;
-    std::vector<Vector3d> low_, high_;
+    std::vector<Vector3d> low_, high_;                                         ///< [triangle]
+    Vector3d bounds_low_ = Vector3d::Zero(), bounds_high_ = Vector3d::Zero();  ///< of all
     std::vector<Near> near_;
 };
 

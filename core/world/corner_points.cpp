@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "world/corner_points.h"
 
+#include "scene/coincident_points.h"
+
 #include <algorithm>
 #include <cmath>
 
 namespace plumb {
 namespace {
+
+/// Points closer than this share of the shape's size are one.
+constexpr double kOnePlace = 1e-9;
 
 /// Points of a rim, enough that its polygon is off by 3 % of the radius.
 constexpr int kRimPoints = 12;
@@ -33,6 +38,14 @@ void add_parts(std::vector<CornerPoint>& points, const Shape& s) {
         for (const CornerPoint& p : corner_points(s.parts[i].shape))
             points.push_back({to_eigen(local.position) + rotation * p.position, p.radius});
     }
+    // parts that were cut from one shape share their corners
+    std::vector<Vector3d> places;
+    for (const CornerPoint& p : points) places.push_back(p.position);
+    const std::vector<std::uint32_t> first = first_at_place(places, kOnePlace * size_of(places));
+    std::vector<CornerPoint> kept;
+    for (std::uint32_t i = 0; i < points.size(); ++i)
+        if (first[i] == i || points[i].radius > 0) kept.push_back(points[i]);
+    points.swap(kept);
 }
 
 }  // namespace
