@@ -103,42 +103,67 @@ TEST_P(ParticleFriction, ClothHoldsBelowTheAngleAndSlidesAboveIt) {
 
 /// A ball that falls onto a sheet that is held around its rim.
 TEST_P(ParticleFriction, ABallOnATrampolineStaysAboveIt) {
-    for (const bool fine : {false, true}) {
+    for (const double speed : {0.0, 8.0}) {
         Scene s;
         s.settings.precision = GetParam();
-        if (fine) use_fine_steps(s.settings);
-        add_body(s, sphere(0.2), {0, 0.6, 0}).mass = 2;
-        DeformableSpec cloth = sheet({16, 16}, {1.6, 1.6});
+        use_fine_steps(s.settings);
+        s.settings.substeps = 40;
+        s.settings.velocity_iterations = s.settings.position_iterations = 5;
+        add_body(s, sphere(0.2), {0, 0.6, 0}).velocity = {0, -speed, 0};
+        s.bodies[0].mass = 2;
+        DeformableSpec cloth = sheet({12, 12}, {1.2, 1.2});
         cloth.mass = 1, cloth.radius = 0.02;
-        cloth.elasticity.youngs_modulus = 2e5, cloth.elasticity.damping = 0.01;
+        cloth.elasticity.youngs_modulus = 1e6, cloth.elasticity.damping = 0.05;
         add_soft(s, std::move(cloth));
         std::vector<std::uint32_t> rim;
-        for (std::uint32_t i = 0; i < 17 * 17; ++i)
-            if (i % 17 == 0 || i % 17 == 16 || i < 17 || i >= 16 * 17) rim.push_back(i);
+        for (std::uint32_t i = 0; i < 13 * 13; ++i)
+            if (i % 13 == 0 || i % 13 == 12 || i < 13 || i >= 12 * 13) rim.push_back(i);
         hold(s, 0, rim);
         Simulation simulation(s, colliders(), "reference");
         const World& world = simulation.world();
         double deepest = 0, lowest = 0, sum = 0;
         int steps = 0;
         const double h = s.settings.dt / s.settings.substeps;
-        while (simulation.time() < 8) {
+        while (simulation.time() < 5) {
             ASSERT_TRUE(simulation.step().finite);
             for (const Vector& p : world.particles.position)
                 deepest = std::max(deepest, 0.22 - (p - world.bodies.position[0]).norm());
             lowest = std::min(lowest, world.bodies.position[0].y());
-            if (simulation.time() < 6) continue;
+            if (simulation.time() < 4) continue;
             ++steps;
-            for (std::size_t i = 0; i < world.particle_contacts.found.size(); ++i)
-                sum += world.particle_contacts.memory[i].normal_impulse *
-                       -world.particle_contacts.found[i].normal.y / h;
+            const ParticleContactTable& c = world.particle_contacts;
+            for (std::size_t i = 0; i < c.found.size(); ++i)
+                sum -= (c.memory[i].normal_impulse * to_eigen(c.found[i].normal) +
+                        c.memory[i].friction_impulse)
+                           .y() /
+                       h;
         }
-        std::cout << (fine ? "fine" : "coarse") << ": deepest overlap " << deepest << ", lowest "
-                  << lowest << ", height " << world.bodies.position[0].y() << ", bears "
+        std::cout << speed << " m/s: deepest overlap " << deepest << ", lowest " << lowest
+                  << ", height " << world.bodies.position[0].y() << ", bears "
                   << sum / steps / (2 * 9.81) << " of the weight\n";
-        EXPECT_LT(deepest, 0.02);
-        EXPECT_GT(lowest, -0.5);
-        EXPECT_NEAR(sum / steps / (2 * 9.81), 1, 0.02);
+        EXPECT_LT(deepest, 0.01);
+        EXPECT_GT(lowest, -0.6);
+        EXPECT_NEAR(sum / steps / (2 * 9.81), 1, 0.01);
     }
+}
+
+/// A shot does not pass a sheet by in a step: what it may meet is found before it is there.
+TEST_P(ParticleFriction, AFastBallIsCaught) {
+    Scene s;
+    s.settings.precision = GetParam();
+    s.settings.gravity.setZero();
+    s.settings.dt = 1.0 / 60, s.settings.substeps = 20;
+    add_body(s, sphere(0.05), {0.03, 0.5, 0.02}).velocity = {0, -60, 0};
+    s.bodies[0].mass = 0.05;
+    DeformableSpec cloth = sheet({12, 12}, {0.5, 0.5});
+    cloth.mass = 5, cloth.radius = 0.02;
+    cloth.elasticity.youngs_modulus = 1e6, cloth.elasticity.damping = 0.01;
+    add_soft(s, std::move(cloth));
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 0.5);
+    const Vector v = simulation.world().bodies.velocity[0];
+    std::cout << "it moves at " << v.transpose() << " m/s\n";
+    EXPECT_LT(v.norm(), 20) << "it has passed";
 }
 
 }  // namespace
