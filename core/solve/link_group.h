@@ -20,6 +20,7 @@ public:
         for (const Link& link : world.links) {
             Row row;
             row.link = link;
+            row.impulse = link.impulse;
             row.row_a = row_of(world, link.a), row.row_b = row_of(world, link.b);
             rows_.push_back(row);
         }

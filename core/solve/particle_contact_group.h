@@ -91,19 +91,19 @@ public:
         sweep(kernels_.solve_positions, bodies, pass, worker);
     }
 
-    void end_step(World& world) override {
+    /// Calls visit(contact, RowImpulse) for all contacts, with what they bear in this substep.
+    template <class Visit>
+    void each_impulse(Visit visit) {
         const ContactArrays<Real, W> rows = batches_.arrays();
-        each_contact([&](const ContactPlace& at) {
-            ParticleContactMemory& memory = world.particle_contacts.memory[at.contact];
-            const NormalRow<Real, W>& row = rows.normals[at.row];
-            memory.normal_impulse =
-                double(row.lambda_velocity[at.lane]) + double(row.lambda_position[at.lane]);
-            if (!rows.frictions) return;
-            const FrictionRow<Real, W>& across = rows.frictions[at.row];
-            const ContactTangents t = tangents_of(row, across, at.lane);
-            memory.friction_impulse =
-                (double(across.held_x[at.lane]) + double(across.rubbed_x[at.lane])) * t.x +
-                (double(across.held_y[at.lane]) + double(across.rubbed_y[at.lane])) * t.y;
+        each_contact(
+            [&](const ContactPlace& at) { visit(at.contact, impulse_of(rows, at.row, at.lane)); });
+    }
+
+    void end_step(World& world) override {
+        each_impulse([&](std::size_t contact, const RowImpulse& p) {
+            ParticleContactMemory& memory = world.particle_contacts.memory[contact];
+            memory.normal_impulse = p.normal;
+            memory.friction_impulse = p.friction();
         });
     }
 
