@@ -48,6 +48,7 @@ Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, 
       collider_version(std::move(version)) {
     auto& warnings = stepper.plan.warnings;
     warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    note_broken_joints();
     if (!stepper.plan.runs(Effect::contacts)) return;
     add_bodies(proximity, world, collider_name);
     filled = true;
@@ -59,7 +60,13 @@ void Simulation::Parts::renew() {
     stepper.renew(world);
     auto& warnings = stepper.plan.warnings;
     warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    note_broken_joints();
     outdated = false;
+}
+
+void Simulation::Parts::note_broken_joints() {
+    broken.clear();
+    for (const Joint& joint : world.joints.joints) broken.push_back(joint.broken);
 }
 
 std::uint32_t Simulation::Parts::place(std::uint32_t body) const {
@@ -123,11 +130,15 @@ Simulation::Simulation(const Scene& scene, const ColliderLibrary& colliders,
 }
 
 Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 StepReport Simulation::step() {
     parts_->renew();
     parts_->looked = parts_->looked || parts_->stepper.plan.runs(Effect::contacts);
-    return plumb::step(parts_->world, parts_->stepper, parts_->proximity);
+    StepReport report = plumb::step(parts_->world, parts_->stepper, parts_->proximity);
+    if (parts_->record) parts_->record->take(parts_->world, parts_->stepper);
+    return report;
 }
 double Simulation::time() const { return parts_->world.time; }
 std::uint64_t Simulation::steps() const { return parts_->world.steps; }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/add_bodies.h"
+#include "host/contact_record.h"
 #include "host/simulation.h"
 #include "step/step.h"
 
@@ -19,15 +20,28 @@ struct Simulation::Parts {
     Proximity& proximity;
     std::optional<ColliderLibrary> library;  ///< where the collider is one of its plugins
     std::string collider_name, collider_version, collider_reason;
-    bool filled = false;    ///< the collider has the bodies
-    bool looked = false;    ///< and has been asked for contacts
-    bool outdated = false;  ///< the stepper is of the world before an edit
+    bool filled = false;                  ///< the collider has the bodies
+    bool looked = false;                  ///< and has been asked for contacts
+    bool outdated = false;                ///< the stepper is of the world before an edit
+    std::vector<std::uint8_t> broken;     ///< [joint] whether it was, when the stepper was made
+    std::optional<ContactRecord> record;  ///< where contacts are watched
 
     Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
           std::string version);
 
     /// Brings the stepper up to date with the edits made.
     void renew();
+
+    /// Once the stepper is of the world as it is now.
+    void note_broken_joints();
+
+    /// Makes the stepper as it was made when these joints were broken [joint], with nothing of what
+    /// it has done since.
+    void renew_at(const std::vector<std::uint8_t>& broken_then);
+
+    /// Replaces World::excluded, and tells the collider. Throws ColliderError where it refuses, and
+    /// then leaves all as it was.
+    void exclude_only(std::vector<std::uint64_t> keys);
 
     /// The place of a body in its table; the index of a joint or a coupling in its. Throw
     /// std::out_of_range where there is none.

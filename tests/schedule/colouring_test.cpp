@@ -67,7 +67,7 @@ TEST(Colouring, NoDynamicBodyStandsTwiceInAnIndependentBatch) {
 TEST(Colouring, NoPairsMakeNoBatches) {
     Colouring colouring;
     colouring.colour(random_pairs(20, 1), kDynamic);
-    colouring.colour({}, kDynamic);
+    colouring.colour(std::vector<BodyPair>{}, kDynamic);
     EXPECT_TRUE(colouring.batches().empty());
     EXPECT_TRUE(colouring.order().empty());
 }
