@@ -102,9 +102,23 @@ void ContactRecord::tell_end(const Pair& pair) {
     events_.push_back({ContactEvent::Kind::ended, pair.first, pair.second, 0, 0, Vector3d::Zero()});
 }
 
+/// For all that may happen to the pairs at hand, so that a step in which much happens allocates no
+/// more than others.
+void ContactRecord::reserve_events() {
+    std::size_t pairs = 0;
+    for (std::size_t i = 0; i < contacts_.size(); ++i)
+        pairs += i == 0 || pair_of(contacts_[i]) != pair_of(contacts_[i - 1]);
+    const auto make_room = [](auto& list, std::size_t most) {
+        if (list.capacity() < most) list.reserve(2 * most);
+    };
+    make_room(touching_, pairs), make_room(touched_before_, pairs);
+    make_room(events_, 3 * pairs + touched_before_.size());
+}
+
 /// One walk along the contacts and the pairs that touched before, both sorted.
 void ContactRecord::take_events() {
     events_.clear(), touching_.clear();
+    reserve_events();
     auto old = touched_before_.begin();
     for (auto first = contacts_.begin(); first != contacts_.end();) {
         const Pair pair = pair_of(*first);

@@ -35,6 +35,7 @@ public:
 private:
     void take_contacts(const World& world, const Stepper& stepper);
     void take_particles(const World& world, const Stepper& stepper);
+    void reserve_events();
     void take_events();
     void tell_end(const Pair& pair);
 

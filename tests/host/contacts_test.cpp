@@ -240,8 +240,9 @@ TEST(ContactEvents, ComeAtTheRightSteps) {
         const std::vector<std::string> words = told(simulation, 8);
         ASSERT_EQ(words.size(), 3u) << substeps;
         EXPECT_EQ(words[0], "3: began 0 1");
-        EXPECT_EQ(words[1], "3: hit 0 1");
-        EXPECT_TRUE(words[2] == "3: ended 0 1" || words[2] == "4: ended 0 1") << words[2];
+        // a bounce comes in the first substep that begins with the surfaces touching
+        EXPECT_EQ(words[1], substeps == 1 ? "4: hit 0 1" : "3: hit 0 1");
+        EXPECT_TRUE(words[2] == "4: ended 0 1" || words[2] == "3: ended 0 1") << words[2];
     }
 }
 
