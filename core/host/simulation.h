@@ -99,10 +99,10 @@ public:
     /// The first body that a ray meets: from `origin` [m] along the unit vector `direction`, at
     /// most `length` [m]; bodies with (group & mask) != 0. Nothing where it meets none.
     ///
-    /// This and `closest` ask the collider where the bodies stood when it was last asked for
-    /// contacts: at the beginning of the last step. Both throw std::logic_error before the first
-    /// step and in scenes without contacts, std::invalid_argument for bad numbers, and
-    /// ColliderError where the collider cannot answer.
+    /// This and the next two ask about where the bodies are now, also before the first step and
+    /// after edits. The first question after a step or an edit tells the collider where all are,
+    /// which costs a broad phase. They throw std::logic_error in scenes without contacts,
+    /// std::invalid_argument for bad numbers, and ColliderError where the collider cannot answer.
     std::optional<RayHit> cast_ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                    double length = std::numeric_limits<double>::infinity(),
                                    std::uint32_t mask = ~0u);
@@ -111,6 +111,18 @@ public:
     /// body of the lower identifier is a, and the normal points from b to a. Throws
     /// std::out_of_range where there is no such body.
     Contact closest(std::uint32_t body_a, std::uint32_t body_b);
+
+    /// The bodies that a geometry (of the scene, or of add_geometry) would touch or overlap if it
+    /// stood there, by identifiers, sorted: those with (group & mask) != 0 that may touch anything.
+    /// Costs two broad phases. Throws std::out_of_range where there is no such geometry.
+    std::vector<std::uint32_t> overlaps(std::uint32_t geometry, const Placement& placement,
+                                        std::uint32_t mask = ~0u);
+
+    /// The identifier of the first body, joint, material or deformable of this name that there is.
+    std::optional<std::uint32_t> find_body(const std::string& name) const;
+    std::optional<std::uint32_t> find_joint(const std::string& name) const;
+    std::optional<std::uint32_t> find_material(const std::string& name) const;
+    std::optional<std::uint32_t> find_deformable(const std::string& name) const;
 
     /// Where a body's geometry is, and how fast its centre of mass moves and it turns.
     BodyState body_state(std::uint32_t body) const;

@@ -143,6 +143,7 @@ void Simulation::restore(std::string_view bytes) {
     p.exclude_only(std::move(excluded));
     read_state(p.world, reader);
     p.renew_at(broken);
+    p.placed = false;
     std::vector<ContactRecord::Pair> touching;
     each_number_of_pairs(reader, touching);
     if (p.record) p.record->start_from(std::move(touching));
