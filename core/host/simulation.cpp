@@ -24,6 +24,12 @@ Scene stock_of(const Scene& scene) {
     return stock;
 }
 
+template <class Spec>
+void add_names(Names& names, const std::vector<Spec>& specs) {
+    for (std::size_t i = 0; i < specs.size(); ++i)
+        if (!specs[i].name.empty()) names.emplace(specs[i].name, static_cast<std::uint32_t>(i));
+}
+
 /// The index of the entry of an identifier in a table that is sorted by them.
 template <class Entry>
 std::uint32_t index_of(const std::vector<Entry>& table, std::uint32_t id, std::uint32_t next_id,
@@ -48,6 +54,8 @@ Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, 
       collider_version(std::move(version)) {
     auto& warnings = stepper.plan.warnings;
     warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    note_broken_joints();
+    add_names(body_names, scene.bodies), add_names(joint_names, scene.joints);
     if (!stepper.plan.runs(Effect::contacts)) return;
     add_bodies(proximity, world, collider_name);
     filled = true;
@@ -59,7 +67,13 @@ void Simulation::Parts::renew() {
     stepper.renew(world);
     auto& warnings = stepper.plan.warnings;
     warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    note_broken_joints();
     outdated = false;
+}
+
+void Simulation::Parts::note_broken_joints() {
+    broken.clear();
+    for (const Joint& joint : world.joints.joints) broken.push_back(joint.broken);
 }
 
 std::uint32_t Simulation::Parts::place(std::uint32_t body) const {
@@ -75,22 +89,6 @@ std::uint32_t Simulation::Parts::joint_index(std::uint32_t joint) const {
 
 std::uint32_t Simulation::Parts::coupling_index(std::uint32_t coupling) const {
     return index_of(world.joints.couplings, coupling, world.joints.next_coupling_id, "coupling");
-}
-
-Proximity& Simulation::Parts::placed() {
-    renew();
-    if (!stepper.plan.runs(Effect::contacts))
-        throw std::logic_error("the scene has no contacts, so the collider has no bodies");
-    if (!looked) throw std::logic_error("the collider has no poses before the first step");
-    return proximity;
-}
-
-void Simulation::Parts::expect_answer(const Status& status, const std::string& question) const {
-    if (status.code == Status::ok) return;
-    const std::string sentence = "collider \"" + collider_name + "\" gave no " + question + ": " +
-                                 (status.message ? status.message : "it gave no reason");
-    if (status.code == Status::bad_argument) throw std::invalid_argument(sentence);
-    throw ColliderError(sentence);
 }
 
 namespace {
@@ -123,11 +121,16 @@ Simulation::Simulation(const Scene& scene, const ColliderLibrary& colliders,
 }
 
 Simulation::~Simulation() = default;
+Simulation::Simulation(Simulation&&) noexcept = default;
+Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
 StepReport Simulation::step() {
     parts_->renew();
-    parts_->looked = parts_->looked || parts_->stepper.plan.runs(Effect::contacts);
-    return plumb::step(parts_->world, parts_->stepper, parts_->proximity);
+    StepReport report = plumb::step(parts_->world, parts_->stepper, parts_->proximity);
+    parts_->placed = false;
+    parts_->stats = parts_->proximity.stats();
+    if (parts_->record) parts_->record->take(parts_->world, parts_->stepper);
+    return report;
 }
 double Simulation::time() const { return parts_->world.time; }
 std::uint64_t Simulation::steps() const { return parts_->world.steps; }
@@ -137,48 +140,11 @@ const Plan& Simulation::plan() const {
     return parts_->stepper.plan;
 }
 const Ledger& Simulation::ledger() const { return parts_->stepper.ledger; }
-DetectStats Simulation::detect_stats() const { return parts_->proximity.stats(); }
+DetectStats Simulation::detect_stats() const { return parts_->stats; }
 const std::string& Simulation::collider_name() const { return parts_->collider_name; }
 const std::string& Simulation::collider_version() const { return parts_->collider_version; }
 const std::string& Simulation::collider_reason() const { return parts_->collider_reason; }
 void Simulation::capture(Frame& frame) const { plumb::capture(parts_->world, frame); }
-
-std::optional<RayHit> Simulation::cast_ray(const Eigen::Vector3d& origin,
-                                           const Eigen::Vector3d& direction, double length,
-                                           std::uint32_t mask) {
-    const RayRequest ray{to_plain(origin), to_plain(direction), length, mask, 0};
-    RayHit hit{kNoBody, 0, 0, {0, 0, 0}};
-    parts_->expect_answer(parts_->placed().cast_rays(&ray, &hit, 1), "hit of a ray");
-    if (hit.body == kNoBody) return std::nullopt;
-    const std::vector<std::uint32_t>& ids = parts_->world.bodies.id;
-    if (hit.body >= ids.size())
-        throw ColliderError("collider \"" + parts_->collider_name +
-                            "\" says that a ray hits a body that there is not");
-    hit.body = ids[hit.body];
-    return hit;
-}
-
-namespace {
-
-/// The same contact with its bodies in the other order.
-Contact swapped(Contact c) {
-    std::swap(c.a, c.b);
-    std::swap(c.point_a, c.point_b);
-    std::swap(c.radius_a, c.radius_b);
-    std::swap(c.part_a, c.part_b);
-    c.normal = {-c.normal.x, -c.normal.y, -c.normal.z};
-    return c;
-}
-
-}  // namespace
-
-Contact Simulation::closest(std::uint32_t body_a, std::uint32_t body_b) {
-    const std::uint32_t a = parts_->place(body_a), b = parts_->place(body_b);
-    Contact contact{};
-    parts_->expect_answer(parts_->placed().closest(a, b, &contact), "closest points");
-    contact.a = a < b ? body_a : body_b, contact.b = a < b ? body_b : body_a;
-    return contact.a < contact.b ? contact : swapped(contact);
-}
 
 Simulation::JointMotion Simulation::joint_motion(std::uint32_t joint, std::uint32_t axis) const {
     const World& world = parts_->world;

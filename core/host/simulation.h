@@ -14,17 +14,20 @@
 
 #include "effects/ledger.h"
 #include "effects/plan.h"
+#include "effects/report.h"
+#include "host/body_contact.h"
 #include "host/collider_library.h"
 #include "measure/frame.h"
 #include "scene/scene.h"
 #include "step/joint_state.h"
-#include "effects/report.h"
 #include "world/world.h"
 
 #include <limits>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 namespace plumb {
 
@@ -41,6 +44,9 @@ public:
     ~Simulation();
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
+    /// What was moved from can only be assigned to or destroyed.
+    Simulation(Simulation&&) noexcept;
+    Simulation& operator=(Simulation&&) noexcept;
 
     /// Advances by Settings::dt.
     StepReport step();
@@ -57,13 +63,46 @@ public:
 
     void capture(Frame& frame) const;
 
+    /// From the next step on, contacts and events are kept for the members below, until
+    /// `stop_watching_contacts`. Nobody else pays for them, and nothing that a step does depends on
+    /// them. All that touches in the first step that is watched begins to. May be called again, to
+    /// change what a hit is.
+    void watch_contacts(const ContactWatch& watch = {});
+    void stop_watching_contacts();
+
+    /// The contacts of the last step, sorted by (body_a, body_b): also those that bore nothing,
+    /// since the step looked out for them. Of a pair the order of the points is the same in each
+    /// run. The three are as they were at the end of the step, whatever was edited since, stay
+    /// until the next, and throw std::logic_error where nothing is watched.
+    const std::vector<BodyContact>& contacts() const;
+
+    /// Those of particles, sorted by (particle, body).
+    const std::vector<ParticleContact>& particle_contacts() const;
+
+    /// Which pairs of bodies began to touch, hit each other and ended, sorted by (body_a, body_b)
+    /// and in this order.
+    const std::vector<ContactEvent>& contact_events() const;
+
+    /// All that a step leaves for the next, as bytes: little-endian, with a version, a length and a
+    /// checksum. A simulation that is restored goes on to the same bits on the same collider,
+    /// however many threads and lanes it has.
+    ///
+    /// What a scene and edits make of a simulation is not in it. `restore` takes the bytes of this
+    /// simulation, or of another one of the same scene with the same edits: bodies, joints and
+    /// couplings of the same identifiers, placed, pushed and driven as may be. It throws
+    /// std::invalid_argument, and changes nothing, for bytes that are not such a state or not of
+    /// such a simulation; ColliderError where the collider refuses to let a pair meet or to keep it
+    /// apart.
+    std::string save() const;
+    void restore(std::string_view bytes);
+
     /// The first body that a ray meets: from `origin` [m] along the unit vector `direction`, at
     /// most `length` [m]; bodies with (group & mask) != 0. Nothing where it meets none.
     ///
-    /// This and `closest` ask the collider where the bodies stood when it was last asked for
-    /// contacts: at the beginning of the last step. Both throw std::logic_error before the first
-    /// step and in scenes without contacts, std::invalid_argument for bad numbers, and
-    /// ColliderError where the collider cannot answer.
+    /// This and the next two ask about where the bodies are now, also before the first step and
+    /// after edits. The first question after a step or an edit tells the collider where all are,
+    /// which costs a broad phase. They throw std::logic_error in scenes without contacts,
+    /// std::invalid_argument for bad numbers, and ColliderError where the collider cannot answer.
     std::optional<RayHit> cast_ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                    double length = std::numeric_limits<double>::infinity(),
                                    std::uint32_t mask = ~0u);
@@ -72,6 +111,18 @@ public:
     /// body of the lower identifier is a, and the normal points from b to a. Throws
     /// std::out_of_range where there is no such body.
     Contact closest(std::uint32_t body_a, std::uint32_t body_b);
+
+    /// The bodies that a geometry (of the scene, or of add_geometry) would touch or overlap if it
+    /// stood there, by identifiers, sorted: those with (group & mask) != 0 that may touch anything.
+    /// Costs two broad phases. Throws std::out_of_range where there is no such geometry.
+    std::vector<std::uint32_t> overlaps(std::uint32_t geometry, const Placement& placement,
+                                        std::uint32_t mask = ~0u);
+
+    /// The identifier of the first body, joint, material or deformable of this name that there is.
+    std::optional<std::uint32_t> find_body(const std::string& name) const;
+    std::optional<std::uint32_t> find_joint(const std::string& name) const;
+    std::optional<std::uint32_t> find_material(const std::string& name) const;
+    std::optional<std::uint32_t> find_deformable(const std::string& name) const;
 
     /// Where a body's geometry is, and how fast its centre of mass moves and it turns.
     BodyState body_state(std::uint32_t body) const;

@@ -94,6 +94,8 @@ std::uint32_t Simulation::add_body(const BodySpec& body) {
         throw;
     }
     parts_->outdated = true;
+    parts_->placed = false;
+    if (!body.name.empty()) parts_->body_names.emplace(body.name, id);
     return id;
 }
 
@@ -106,6 +108,7 @@ void Simulation::remove_body(std::uint32_t body) {
         if (joints[i].a == place || joints[i].b == place) erase_joint(world, i);
     erase_body(world, place);
     parts_->outdated = true;
+    parts_->placed = false;
 }
 
 std::uint32_t Simulation::add_joint(const JointSpec& joint) {
@@ -118,7 +121,9 @@ std::uint32_t Simulation::add_joint(const JointSpec& joint) {
         exclude_pair(parts_->proximity, world, kept_apart(draft.joint), true,
                      parts_->collider_name);
     parts_->outdated = true;
-    return insert_joint(world, std::move(draft));
+    const std::uint32_t id = insert_joint(world, std::move(draft));
+    if (!joint.name.empty()) parts_->joint_names.emplace(joint.name, id);
+    return id;
 }
 
 void Simulation::remove_joint(std::uint32_t joint) {

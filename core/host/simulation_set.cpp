@@ -21,6 +21,12 @@ bool follows_keyframes(const Bodies& b, std::uint32_t place) {
 
 }  // namespace
 
+void expect_placement(const Placement& placement) {
+    expect_finite(placement.position, "a position");
+    if (!placement.rotation.coeffs().allFinite() || placement.rotation.norm() < 1e-9)
+        throw std::invalid_argument("a rotation must be a quaternion other than 0");
+}
+
 bool Simulation::has_body(std::uint32_t body) const {
     return parts_->world.places.find(body).has_value();
 }
@@ -43,15 +49,14 @@ void Simulation::set_placement(std::uint32_t body, const Placement& placement) {
     World& world = parts_->world;
     Bodies& b = world.bodies;
     const std::uint32_t place = parts_->place(body);
-    expect_finite(placement.position, "a position");
-    if (!placement.rotation.coeffs().allFinite() || placement.rotation.norm() < 1e-9)
-        throw std::invalid_argument("a rotation must be a quaternion other than 0");
+    expect_placement(placement);
     if (follows_keyframes(b, place))
         throw std::invalid_argument("a body that follows keyframes cannot be placed");
     const Placement outer{placement.position, placement.rotation.normalized()};
     const Placement now = outer * inverse(b.geometry_in_body[place]);
     b.position[place] = now.position, b.orientation[place] = now.rotation;
     forget_contacts(world, place);
+    parts_->placed = false;
 }
 
 void Simulation::set_velocity(std::uint32_t body, const Eigen::Vector3d& v,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/html_deformables.h"
 
-#include "output/bytes.h"
+#include "math/bytes.h"
 #include "output/palette.h"
 #include "output/smooth_surface.h"
 

@@ -10,7 +10,7 @@
 /// the error could exceed 1e-4 of that, or a place is not finite, floats stand in its place.
 #pragma once
 
-#include "output/bytes.h"
+#include "math/bytes.h"
 
 #include <Eigen/Core>
 #include <span>

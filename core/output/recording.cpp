@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/recording.h"
 
-#include "output/bytes.h"
+#include "math/bytes.h"
 #include "output/error.h"
 #include "output/header_json.h"
 #include "output/particle_code.h"

@@ -21,6 +21,27 @@ inline ContactTangents tangents_of(const NormalRow<Real, W>& row,
     return {x, n.cross(x)};
 }
 
+/// What a row bears in a substep, both passes together: along the normal, and along the tangents x
+/// and y [N s].
+struct RowImpulse {
+    double normal, x = 0, y = 0;
+    ContactTangents tangents{Vector3d::Zero(), Vector3d::Zero()};
+
+    Vector3d friction() const { return x * tangents.x + y * tangents.y; }
+};
+template <class Real, int W>
+inline RowImpulse impulse_of(const ContactArrays<Real, W>& rows, std::uint32_t k,
+                             std::uint32_t lane) {
+    const NormalRow<Real, W>& row = rows.normals[k];
+    RowImpulse p{double(row.lambda_velocity[lane]) + double(row.lambda_position[lane])};
+    if (!rows.frictions) return p;
+    const FrictionRow<Real, W>& across = rows.frictions[k];
+    p.tangents = tangents_of(row, across, lane);
+    p.x = double(across.held_x[lane]) + double(across.rubbed_x[lane]);
+    p.y = double(across.held_y[lane]) + double(across.rubbed_y[lane]);
+    return p;
+}
+
 /// Calls a kernel on the blocks of a batch that is solved in order, forwards or backwards.
 template <class Real, int W>
 inline void solve_in_order(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,

@@ -85,6 +85,14 @@ public:
         sweep(kernels_.solve_positions, bodies, cold(pass, pass.iteration), worker);
     }
 
+    /// Calls visit(contact, RowImpulse) for all contacts, with what they bear in this substep.
+    template <class Visit>
+    void each_impulse(Visit visit) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact(
+            [&](const ContactPlace& at) { visit(at.contact, impulse_of(rows, at.row, at.lane)); });
+    }
+
 private:
     template <class Visit>
     void each_contact(Visit visit) const {

@@ -14,6 +14,7 @@
 #include "step/contact_impulses.h"
 #include "step/contact_measures.h"
 #include "step/contact_pairs.h"
+#include "step/contact_sums.h"
 #include "step/impacts.h"
 #include "step/island_group.h"
 #include "step/velocity_table.h"
@@ -133,6 +134,17 @@ public:
     }
     void end_impacts(World& world) { impacts_.end(world, batches_); }
 
+    /// Adds what the contacts of impacts bore, before their end.
+    void add_impacts(const Impacts& impacts, ContactSums& sums) {
+        impacts.each_taken([&](std::size_t pair, double share) {
+            const auto at = batches_.slot(pair);
+            for (std::uint32_t i = 0; i < pairs_[pair].count; ++i) {
+                const RowImpulse p = impulse_of(batches_.arrays(), row_of(at.block, i), at.lane);
+                sums.add(pairs_[pair].first + i, share * p.normal, share * p.friction());
+            }
+        });
+    }
+
     void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) override {
         run(kernels_.warm_start, bodies, pass);
     }
@@ -176,24 +188,28 @@ public:
         }
     }
 
-    void end_step(World& world) override {
-        ContactTable& contacts = world.contacts;
+    /// Adds what the contacts bear in this substep.
+    void add_impulses(ContactSums& sums) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
-            ContactMemory& memory = contacts.memory[contact];
-            const NormalRow<Real, W>& row = rows.normals[k];
-            memory.normal_impulse =
-                double(row.lambda_velocity[lane]) + double(row.lambda_position[lane]);
+            const RowImpulse p = impulse_of(rows, k, lane);
+            sums.add(contact, p.normal, p.friction());
+        });
+    }
+
+    void end_step(World& world) override {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            ContactMemory& memory = world.contacts.memory[contact];
+            const RowImpulse p = impulse_of(rows, k, lane);
+            memory.normal_impulse = p.normal;
             memory.turning_impulse.setZero();
             memory.sticks = memory.exact = false;
             if (!rows.frictions) return;
-            const FrictionRow<Real, W>& across = rows.frictions[k];
-            const auto [x, y] = tangents_of(row, across, lane);
-            const double fx = double(across.held_x[lane]) + double(across.rubbed_x[lane]);
-            const double fy = double(across.held_y[lane]) + double(across.rubbed_y[lane]);
-            memory.friction_impulse = fx * x + fy * y;
-            const double most = (1 - 1e-5) * double(across.friction[lane]) * memory.normal_impulse;
-            memory.sticks = fx * fx + fy * fy < most * most;
+            memory.friction_impulse = p.friction();
+            const double friction = double(rows.frictions[k].friction[lane]);
+            const double most = (1 - 1e-5) * friction * memory.normal_impulse;
+            memory.sticks = p.x * p.x + p.y * p.y < most * most;
         });
     }
 

@@ -97,8 +97,9 @@ void DrivenAxis::store_impulses(JointTable& joints) {
     AxisAnswer last = answer_;
     last.impulse = impulse_;
     share_impulse(drive_, last, shares);
+    impulse_ = 0;  // as one that is made from the table begins
     for (std::uint32_t i = first_, row = 0; i < last_; ++i)
-        joints.drives[i].impulse = shares[row++];
+        impulse_ += joints.drives[i].impulse = shares[row++];
 }
 
 }  // namespace plumb

@@ -39,6 +39,7 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     hit_.reserve(pairs.size());
     islands_.find(pairs, world.dynamic_count);
     colliding_.reserve(bodies);
+    shares_.reserve(bodies);
     changes_.resize(bodies);
     body_of_.resize(bodies);
 }
@@ -106,8 +107,9 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
 
 void Impacts::take(World& world, const std::vector<BodyPair>& pairs) {
     Bodies& b = world.bodies;
+    shares_.clear();
     for (const ContactIsland& island : colliding_) {
-        const double share = bounded_share(world, island, pairs);
+        const double share = shares_.emplace_back(bounded_share(world, island, pairs));
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
             const std::int32_t row = islands_.bodies()[i];
             const std::uint32_t body = body_of_[row];

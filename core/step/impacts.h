@@ -53,6 +53,15 @@ public:
     /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities.
     void take(World& world, const std::vector<BodyPair>& pairs);
 
+    /// Calls visit(pair, share) for the pairs of these islands, with the share of their impulses
+    /// that was taken.
+    template <class Visit>
+    void each_taken(Visit visit) const {
+        for (std::size_t i = 0; i < colliding_.size(); ++i)
+            for (std::uint32_t p = colliding_[i].first_pair; p < colliding_[i].last_pair; ++p)
+                visit(islands_.pairs()[p], shares_[i]);
+    }
+
 private:
     static constexpr std::uint8_t kAmongOthers = 1, kAlone = 2;
 
@@ -62,6 +71,7 @@ private:
 
     ContactIslands islands_;
     std::vector<ContactIsland> colliding_;
+    std::vector<double> shares_;          // [colliding_] of the changes that were taken
     std::vector<std::uint8_t> hit_;       // [pair]
     std::vector<std::uint32_t> body_of_;  // [row], of the rows above
     std::vector<Change> changes_;         // [row]

@@ -454,6 +454,13 @@ void IslandGroup::take_changes(Bodies& bodies) const {
     }
 }
 
+void IslandGroup::add_impulses(ContactSums& sums) const {
+    for (std::size_t k = 0; k < points_.size(); ++k) {
+        const IslandPoint& p = points_[k];
+        sums.add(contacts_[k], p.impulse[0], p.frame.rightCols<2>() * p.impulse.segment<2>(1));
+    }
+}
+
 void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t k = 0; k < points_.size(); ++k) {
         const IslandPoint& p = points_[k];

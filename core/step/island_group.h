@@ -11,6 +11,7 @@
 #include "effects/plan.h"
 #include "schedule/contact_islands.h"
 #include "schedule/workers.h"
+#include "step/contact_sums.h"
 #include "step/island_solver.h"
 #include "world/world.h"
 
@@ -42,6 +43,9 @@ public:
 
     /// Adds what the substep changed to the bodies' velocities.
     void take_changes(Bodies& bodies) const;
+
+    /// Adds what the contacts bear in this substep.
+    void add_impulses(ContactSums& sums) const;
 
     void store_impulses(ContactTable& contacts) const;
 

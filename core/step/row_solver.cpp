@@ -96,7 +96,7 @@ public:
         return clamped;
     }
 
-    void solve_impacts(World& world, double h) override {
+    void solve_impacts(World& world, double h, ContactSums* sums) override {
         if (contacts_->empty() || !impacts_.find(world, contacts_->pairs(), h)) return;
         const Bodies& b = world.bodies;
         table_.begin(world, b.velocity_now, b.angular_velocity_now);
@@ -111,6 +111,7 @@ public:
                                        change.w.template cast<double>()};
         });
         impacts_.take(world, contacts_->pairs());
+        if (sums) contacts_->add_impacts(impacts_, *sums);
         contacts_->end_impacts(world);
     }
 
@@ -161,8 +162,6 @@ public:
 
     /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman
     /// et al.).
-    /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman
-    /// et al.).
     void propagate_shock() override {
         if (contacts_->empty()) return;
         shock_->copy_impulses(*contacts_);
@@ -172,6 +171,16 @@ public:
         pass.forwards = substeps_ % 2 == 0;  // the order of a pair's points favours no side
         workers_.run([&](std::uint32_t worker) {
             shock_->rounds_iteration(table_.rows(), pass, kShockRounds, worker);
+        });
+    }
+
+    /// Shock propagation begins from the sums of the passes, and what it adds is not felt below.
+    void add_impulses(ContactSums& sums) override {
+        (shocks_ ? *shock_ : *contacts_).add_impulses(sums);
+        if (islands_) islands_->add_impulses(sums);
+        if (!particle_contacts_) return;
+        particle_contacts_->each_impulse([&](std::size_t contact, const RowImpulse& p) {
+            sums.add_of_particle(contact, p.normal, p.friction());
         });
     }
 
@@ -255,7 +264,7 @@ private:
     std::vector<std::unique_ptr<Group>> groups_;  ///< in the order of the sweep
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;
-    Group* particle_contacts_ = nullptr;
+    ParticleContactGroup<Real, W>* particle_contacts_ = nullptr;
     Group* trees_ = nullptr;
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;

@@ -9,6 +9,7 @@
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
+#include "step/contact_sums.h"
 #include "world/world.h"
 
 #include <memory>
@@ -26,8 +27,9 @@ public:
     /// many contacts overlap deeper than the substep may push out.
     virtual std::uint32_t begin_substep(const World& world, double h, Ledger& ledger) = 0;
 
-    /// Collisions that begin in this substep, before forces: step/impacts.h.
-    virtual void solve_impacts(World& world, double h) = 0;
+    /// Collisions that begin in this substep, before forces: step/impacts.h. Adds what they bear
+    /// to the sums, if there are any.
+    virtual void solve_impacts(World& world, double h, ContactSums* sums) = 0;
 
     virtual void solve_velocities() = 0;
     /// Tells the report of what could not be solved.
@@ -35,6 +37,8 @@ public:
     /// The islands that are solved exactly. Returns how many still miss the law of contact.
     virtual std::uint32_t solve_islands() = 0;
     virtual void propagate_shock() = 0;
+    /// After all of these: adds what contacts bear in this substep, besides its impacts.
+    virtual void add_impulses(ContactSums& sums) = 0;
 
     /// Adds what the passes changed to the velocities of dynamic bodies and particles, and keeps
     /// the turns'.

@@ -40,6 +40,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     // to the paper's letter, velocities are those of a substep's start
     const bool foresees = plan.runs(Effect::rims) && world.settings.shared_push;
     const bool watches = plan.runs(Effect::still_ground);
+    ContactSums* sums = stepper.sums ? &*stepper.sums : nullptr;
     if (plan.runs(Effect::contacts)) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
@@ -51,6 +52,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         });
     if (plan.runs(Effect::surface_contacts))
         timed(Stage::surface_contacts, [&] { stepper.surfaces.detect(world, dt); });
+    if (sums) timed(Stage::remember, [&] { sums->begin_step(world); });
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {
         const bool first = i == 0;
         if (plan.runs(Effect::kinematics))
@@ -59,6 +61,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::kinematics, [&] { hold_scripted(world.bodies); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
         timed(Stage::begin, [&] { remember_velocities(world.bodies); });
+        if (sums) timed(Stage::remember, [&] { sums->begin_substep(world); });
         if (plan.runs(Effect::joints))
             timed(Stage::joints, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
@@ -71,7 +74,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (foresees) timed(Stage::begin, [&] { foresee_rims(world, h); });
         if (first) timed(Stage::schedule, [&] { solver.load(world); });
         if (plan.runs(Effect::impacts))
-            timed(Stage::impacts, [&] { solver.solve_impacts(world, h); });
+            timed(Stage::impacts, [&] { solver.solve_impacts(world, h, sums); });
         timed(Stage::begin,
               [&] { report.clamped_recoveries += solver.begin_substep(world, h, ledger); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
@@ -80,6 +83,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::islands, [&] { report.unsolved_islands += solver.solve_islands(); });
         if (plan.runs(Effect::shock_propagation))
             timed(Stage::shock, [&] { solver.propagate_shock(); });
+        if (sums) timed(Stage::remember, [&] { solver.add_impulses(*sums); });
         timed(Stage::move, [&] {
             solver.take_changes(world);
             move(world, stepper.motion, h);

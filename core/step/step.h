@@ -6,6 +6,7 @@
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
+#include "step/contact_sums.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
@@ -16,6 +17,7 @@
 #include <plumb/proximity.h>
 
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -51,7 +53,8 @@ struct Stepper {
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     StillGround still_ground;
-    Ledger ledger;  ///< of the last step
+    std::optional<ContactSums> sums;  ///< of the last step, where someone wants them
+    Ledger ledger;                    ///< of the last step
 };
 
 /// Advances the world by Settings::dt.

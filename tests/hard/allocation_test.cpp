@@ -87,14 +87,18 @@ TEST(Allocation, AWarmStepAllocatesNothing) {
                 replayed.contacts = teacher.world().contacts.found_before;
                 ASSERT_GT(replayed.contacts.size(), 100u);
 
-                Simulation simulation(s, replayed);
-                for (int i = 0; i < 3; ++i) simulation.step();
-                allocations = 0;
-                counting = true;
-                for (int i = 0; i < 5; ++i) simulation.step();
-                counting = false;
-                EXPECT_EQ(allocations, 0)
-                    << required << ", " << threads << " threads, " << substeps << " substeps";
+                for (const bool watched : {false, true}) {
+                    Simulation simulation(s, replayed);
+                    if (watched) simulation.watch_contacts();
+                    for (int i = 0; i < 3; ++i) simulation.step();
+                    allocations = 0;
+                    counting = true;
+                    for (int i = 0; i < 5; ++i) simulation.step();
+                    counting = false;
+                    EXPECT_EQ(allocations, 0)
+                        << required << ", " << threads << " threads, " << substeps << " substeps"
+                        << (watched ? ", contacts are watched" : "");
+                }
             }
 }
 

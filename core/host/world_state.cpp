@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: MIT
+#include "host/world_state.h"
+
+namespace plumb {
+namespace {
+
+/// Calls io(x) for each number of the parts that follow; `io` may be a writer of what is const, or
+/// a reader.
+template <class Io, class V>
+void vector(Io& io, V& v) {
+    for (int k = 0; k < 3; ++k) io(v[k]);
+}
+template <class Io, class Q>
+void quaternion(Io& io, Q& q) {
+    for (int k = 0; k < 4; ++k) io(q.coeffs()[k]);
+}
+template <class Io, class V>
+void plain_vector(Io& io, V& v) {
+    io(v.x), io(v.y), io(v.z);
+}
+
+template <class Io, class B>
+void each_number_of_bodies(Io& io, B& b) {
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        quaternion(io, b.orientation[i]);
+        for (auto* column : {&b.position, &b.velocity, &b.angular_velocity, &b.force, &b.torque,
+                             &b.velocity_now, &b.angular_velocity_now, &b.velocity_before,
+                             &b.angular_velocity_before, &b.angular_momentum, &b.turn_change})
+            vector(io, (*column)[i]);
+        auto& m = b.world_inverse_inertia[i];
+        io(m.xx), io(m.yy), io(m.zz), io(m.xy), io(m.xz), io(m.yz);
+    }
+}
+
+template <class Io, class Table>
+void each_number_of_joints(Io& io, Table& table) {
+    for (auto& joint : table.joints) {
+        io(joint.broken), io(joint.keeps_apart);
+        for (auto& x : joint.rows) io(x);
+        for (auto& x : joint.rows_before) io(x);
+    }
+    for (auto& turn : table.turn) io(turn);
+    for (auto& drive : table.drives) {
+        io(drive.impulse), io(drive.impulse_before);
+        auto& motor = drive.spec.motor;
+        io(motor.target), io.count(motor.keys);
+        for (auto& key : motor.keys) io(key.time), io(key.value);
+    }
+    for (auto& coupling : table.couplings) io(coupling.impulse), io(coupling.owed);
+}
+
+template <class Io, class List>
+void each_number_of_contacts(Io& io, List& contacts) {
+    io.count(contacts);
+    for (auto& c : contacts) {
+        io(c.a), io(c.b), io(c.feature);
+        plain_vector(io, c.point_a), plain_vector(io, c.point_b), plain_vector(io, c.normal);
+        io(c.gap), io(c.radius_a), io(c.radius_b);
+        io(c.flags), io(c.part_a), io(c.part_b), io(c.reserved);
+    }
+}
+
+template <class Io, class Table>
+void each_number_of_memory(Io& io, Table& table) {
+    each_number_of_contacts(io, table.found_before);
+    io.count(table.memory_before);
+    for (auto& m : table.memory_before) {
+        io(m.normal_impulse), io(m.gap);
+        vector(io, m.friction_impulse), vector(io, m.turning_impulse);
+        vector(io, m.stick_a), vector(io, m.stick_b);
+        io(m.sticks), io(m.exact), io(m.jammed), io(m.known), io(m.matched);
+    }
+    io(table.rejected);
+    each_number_of_contacts(io, table.kept.pool);
+    io.count(table.kept.pairs);
+    for (auto& pair : table.kept.pairs) {
+        io(pair.a), io(pair.b), io(pair.first), io(pair.count), io(pair.fresh), io(pair.margin);
+        vector(io, pair.offset), quaternion(io, pair.turn);
+    }
+}
+
+template <class Io, class W>
+void each_number_of_particles(Io& io, W& world) {
+    for (std::size_t i = 0; i < world.particles.size(); ++i)
+        vector(io, world.particles.position[i]), vector(io, world.particles.velocity[i]);
+    for (auto& link : world.links) vector(io, link.impulse);
+}
+
+template <class Io, class W>
+void each_number(Io& io, W& world) {
+    io(world.time), io(world.steps);
+    each_number_of_bodies(io, world.bodies);
+    each_number_of_joints(io, world.joints);
+    each_number_of_memory(io, world.contacts);
+    each_number_of_particles(io, world);
+}
+
+}  // namespace
+
+void write_state(const World& world, StateWriter& to) { each_number(to, world); }
+
+void read_state(World& world, StateReader& from) {
+    each_number(from, world);
+    world.contacts.found.clear(), world.contacts.memory.clear();
+}
+
+}  // namespace plumb
