@@ -51,6 +51,7 @@ Scene free_mix(Precision precision, bool linked, Random& random) {
     moving(balloon(0.3, 3, {-1.5, 0, 0}), 0.3);
     s.deformables.back().elasticity.youngs_modulus = 1e5;
     moving(block({0.2, 0.3, 0.2}, {2, 3, 2}, {0, 1.5, 0}), 2);
+    s.deformables.back().elasticity.youngs_modulus = 5e3;
     s.deformables.back().elasticity.damping = 0.01;
     moving(rope({-0.5, -1.5, 0}, {0.5, -1.5, 0}, 8), 0.4);
     s.deformables.back().thickness = 0.02;
