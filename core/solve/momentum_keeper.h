@@ -4,7 +4,8 @@
 /// Its constraints push where their points will be at the end of the substep, which is stable, and
 /// leaves a torque about where the points are at its start; rounding leaves a resultant. Both are
 /// taken out again after each iteration as the motion of a rigid body, so that momentum and angular
-/// momentum stay to rounding. Deformables that hang on the world have no momentum to keep.
+/// momentum stay to rounding: of each piece that hangs together, for others are none of its
+/// business. Pieces that hang on the world have no momentum to keep.
 #pragma once
 
 #include "math/types.h"
@@ -14,6 +15,8 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace plumb {
@@ -22,13 +25,7 @@ template <class Real>
 class MomentumKeeper {
 public:
     MomentumKeeper(const World& world, Workers& workers) : workers_(workers) {
-        for (std::size_t i = 0; i < world.deformables.size(); ++i) {
-            const Deformable& d = world.deformables[i];
-            bool is_free = true;
-            for (std::uint32_t p = d.first; p < d.first + d.count; ++p)
-                is_free = is_free && world.particles.inverse_mass[p] > 0;
-            if (is_free) shapes_.push_back({d.first, d.count});
-        }
+        for (const Deformable& d : world.deformables) add_pieces(world, d);
         arm_.resize(world.particles.size());
     }
 
@@ -40,15 +37,17 @@ public:
         for (Shape& s : shapes_) {
             Vector3d centre = Vector3d::Zero();
             s.mass = 0;
-            for (std::uint32_t i = s.first; i < s.first + s.count; ++i)
-                s.mass += p.mass[i], centre += p.mass[i] * (p.position[i] - p.position[s.first]);
-            centre = p.position[s.first] + centre / s.mass;
+            const Vector3d& near = p.position[member_[s.first]];
+            each_member(s, [&](std::uint32_t i) {
+                s.mass += p.mass[i], centre += p.mass[i] * (p.position[i] - near);
+            });
+            centre = near + centre / s.mass;
             Matrix3d inertia = Matrix3d::Zero();
-            for (std::uint32_t i = s.first; i < s.first + s.count; ++i) {
+            each_member(s, [&](std::uint32_t i) {
                 arm_[i] = p.position[i] - centre;
                 inertia += p.mass[i] * (arm_[i].squaredNorm() * Matrix3d::Identity() -
                                         arm_[i] * arm_[i].transpose());
-            }
+            });
             // a straight string has no inertia about itself, and nothing turns it there
             inertia += 1e-13 * inertia.trace() * Matrix3d::Identity();
             s.inverse_inertia = inertia.inverse();
@@ -64,8 +63,8 @@ public:
             const Momentum now = momentum(s, rows);
             const Vector3d v = (now.linear - s.before.linear) / s.mass;
             const Vector3d w = s.inverse_inertia * (now.angular - s.before.angular);
-            for (std::uint32_t i = s.first; i < s.first + s.count; ++i)
-                add_change(rows, row(i), -(v + w.cross(arm_[i])));
+            each_member(
+                s, [&](std::uint32_t i) { add_change(rows, row(i), -(v + w.cross(arm_[i]))); });
         });
     }
 
@@ -73,12 +72,48 @@ private:
     struct Momentum {
         Vector3d linear = Vector3d::Zero(), angular = Vector3d::Zero();
     };
+    /// A piece that hangs together: [first, last) of `member_`.
     struct Shape {
-        std::uint32_t first, count;
+        std::uint32_t first, last;
         double mass = 0;
         Matrix3d inverse_inertia = Matrix3d::Zero();
         Momentum before{};
     };
+
+    /// The free pieces of a deformable, by their lowest points.
+    void add_pieces(const World& world, const Deformable& d) {
+        std::vector<std::uint32_t> lower(d.count);  // a point of the same piece, or itself
+        std::iota(lower.begin(), lower.end(), 0u);
+        const auto lowest = [&](std::uint32_t i) {
+            while (lower[i] != i) i = lower[i] = lower[lower[i]];
+            return i;
+        };
+        const auto hang_together = [&](const auto& elements) {
+            for (const auto& element : elements)
+                for (const std::uint32_t point : element) {
+                    const std::uint32_t a = lowest(element[0]), b = lowest(point);
+                    lower[std::max(a, b)] = std::min(a, b);
+                }
+        };
+        hang_together(d.spec.segments), hang_together(d.spec.triangles);
+        hang_together(d.spec.tetrahedra);
+        std::vector<std::vector<std::uint32_t>> pieces(d.count);
+        for (std::uint32_t i = 0; i < d.count; ++i) pieces[lowest(i)].push_back(d.first + i);
+        for (const std::vector<std::uint32_t>& piece : pieces) {
+            const bool is_free = std::all_of(piece.begin(), piece.end(), [&](std::uint32_t i) {
+                return world.particles.inverse_mass[i] > 0;
+            });
+            if (piece.empty() || !is_free) continue;
+            const auto first = static_cast<std::uint32_t>(member_.size());
+            member_.insert(member_.end(), piece.begin(), piece.end());
+            shapes_.push_back({first, static_cast<std::uint32_t>(member_.size())});
+        }
+    }
+
+    template <class Visit>
+    void each_member(const Shape& s, Visit visit) const {
+        for (std::uint32_t k = s.first; k < s.last; ++k) visit(member_[k]);
+    }
 
     std::int32_t row(std::uint32_t particle) const {
         return first_row_ + static_cast<std::int32_t>(particle);
@@ -86,10 +121,10 @@ private:
 
     Momentum momentum(const Shape& s, const BodyRows<Real>& rows) const {
         Momentum sum;
-        for (std::uint32_t i = s.first; i < s.first + s.count; ++i) {
+        each_member(s, [&](std::uint32_t i) {
             const Vector3d p = (*mass_)[i] * change_of(rows, row(i));
             sum.linear += p, sum.angular += arm_[i].cross(p);
-        }
+        });
         return sum;
     }
 
@@ -102,7 +137,8 @@ private:
 
     Workers& workers_;
     std::vector<Shape> shapes_;
-    std::vector<Vector3d> arm_;  ///< [particle] from the centre of its deformable [m]
+    std::vector<std::uint32_t> member_;  ///< particles, piece by piece
+    std::vector<Vector3d> arm_;          ///< [particle] from the centre of its piece [m]
     const std::vector<double>* mass_ = nullptr;
     std::int32_t first_row_ = 0;
 };

@@ -2,6 +2,7 @@
 #include "effects/plan.h"
 
 #include "support/scenes.h"
+#include "support/soft.h"
 
 namespace plumb::test {
 namespace {
@@ -57,6 +58,18 @@ TEST(Plan, StillGroundRunsWhereSomethingStands) {
     s.settings.forbid.clear();
     s.bodies[0].motion = Motion::kinematic;
     EXPECT_FALSE(runs(s, Effect::still_ground));
+}
+
+TEST(Plan, ParticlesTouchNothingWhereContactsAreForbidden) {
+    Scene s = box_on_the_ground();
+    EXPECT_FALSE(runs(s, Effect::particle_contacts));
+    add_soft(s, rope({0.5, 0.1, 0}, {1, 0.1, 0}, 2));
+    EXPECT_TRUE(runs(s, Effect::particle_contacts));
+    s.settings.forbid = {"contacts"};
+    EXPECT_FALSE(runs(s, Effect::particle_contacts));
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 1);
+    EXPECT_LT(simulation.world().particles.position[0].y(), -4);
 }
 
 TEST(Plan, WhatNeedsNoWatchHasNone) {

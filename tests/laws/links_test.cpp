@@ -250,6 +250,29 @@ TEST_P(Links, WhatIsAttachedToFreeBodiesPullsThem) {
     }
 }
 
+/// A compliant attachment is a spring to where the point was: m g times its compliance.
+TEST_P(Links, ACompliantAttachmentGivesWay) {
+    Scene s = airy(GetParam());
+    s.settings.dt = 0.02;  // steps that take the swing out
+    add_body(s, box(0.1, 0.1, 0.1), {0, 0.1, 0}, Motion::kinematic);
+    add_soft(s, loose_particles({0, 0, 1}, {0, 0, 0}));
+    hold(s, 0, {0});
+    hold(s, 0, {1}, 0).compliance = 1e-3;
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 10);
+    EXPECT_NEAR(simulation.world().particles.position[1].y(), -9.81e-3, 1e-6);
+    // of a free body, for which reaction and action are one
+    Scene falling = s;
+    falling.settings.gravity.setZero();
+    falling.bodies[0].motion = Motion::dynamic, falling.bodies[0].mass = 3;
+    falling.bodies[0].velocity = {0.5, 0, 0};
+    Simulation pair(falling, colliders(), "reference");
+    run_for(pair, 10);
+    const World& world = pair.world();
+    EXPECT_NEAR(world.bodies.velocity[0].x(), 0.375, 0.02) << "they share 1.5 N s";
+    EXPECT_NEAR(world.particles.velocity[1].x() + 3 * world.bodies.velocity[0].x(), 1.5, 1e-5);
+}
+
 /// A heavy box on a light string, tied to its middle, swings like a point on a rod. Steps that
 /// carry a load a hundred times the string's along it.
 TEST_P(Links, ABoxOnAStringSwingsWithThePeriodOfAPendulum) {

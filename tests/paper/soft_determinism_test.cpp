@@ -18,7 +18,7 @@ std::uint64_t hash_of(Precision precision, std::uint32_t threads, std::uint32_t 
     s.settings.threads = threads, s.settings.lanes = lanes;
     Simulation simulation(s, colliders(), "reference");
     std::vector<std::uint8_t> touched(s.deformables.size(), 0);
-    for (int i = 0; i < 80; ++i) {
+    for (int i = 0; i < 50; ++i) {
         EXPECT_TRUE(simulation.step().finite);
         for (const Contact& c : simulation.world().particle_contacts.found)
             touched[simulation.world().particles.deformable[c.a]] = 1;
