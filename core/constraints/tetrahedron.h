@@ -1,46 +1,60 @@
 // SPDX-License-Identifier: MIT
-/// Strain of a tetrahedron with two moduli: a Neo-Hookean solid that keeps its stiffness when it is
-/// turned inside out (Smith et al. 2018, as two constraints after Macklin and Müller 2021).
+/// Strain of a tetrahedron with two moduli.
 ///
-///   F            how the tetrahedron is mapped; J = det F
-///   C_D = √(F:F)                       with compliance 1/(μ V)
-///   C_H = J − 1 − μ/λ                  with compliance 1/(λ V)
+///   F  how the tetrahedron is mapped; J = det F; E = ½ (FᵀF − 1)
+///   C  E_xx, E_yy, E_zz with compliance 1/(2 μ V), 2 E_yz, 2 E_zx, 2 E_xy with 1/(μ V),
+///      J − 1 with 1/(λ V)
 ///
-/// At rest the two pull against each other and nothing is left; for small strains the solid is
-/// Hooke's with Lamé's moduli μ and λ − μ.
+/// For small strains that is Hooke's solid with Lamé's moduli. All rows are 0 at rest: those of a
+/// solid under stress of its own would have to be turned with it within a substep. E knows no
+/// inside and outside, so where J < 0 only the last row acts, and turns it back.
 #pragma once
 
 #include "constraints/points.h"
+#include "math/lanes.h"
 #include "world/particles.h"
 
 #include <Eigen/LU>
 
+#include <algorithm>
+
 namespace plumb {
 
 struct Tetrahedron {
-    static constexpr int kPoints = 4, kRows = 2;
-    /// The inverse of the edges at rest, by rows [1/m], and 1 + μ/λ.
-    static constexpr int kNumbers = 10;
+    static constexpr int kPoints = 4, kRows = 7;
+    static constexpr int kNumbers = 9;  ///< the inverse of the edges at rest, by rows [1/m]
 
     template <class T>
-    static PointRows<T, 4, 2> rows(const Vector3<T> (&p)[4], const T (&numbers)[kNumbers]) {
+    static PointRows<T, 4, 7> rows(const Vector3<T> (&p)[4], const T (&inverse)[kNumbers]) {
         const Vector3<T> e[3] = {p[1] - p[0], p[2] - p[0], p[3] - p[0]};
         Vector3<T> f[3];
         for (int k = 0; k < 3; ++k)
-            f[k] = e[0] * numbers[k] + e[1] * numbers[3 + k] + e[2] * numbers[6 + k];
+            f[k] = e[0] * inverse[k] + e[1] * inverse[3 + k] + e[2] * inverse[6 + k];
         const Vector3<T> minors[3] = {cross<T>(f[1], f[2]), cross<T>(f[2], f[0]),
                                       cross<T>(f[0], f[1])};
-        PointRows<T, 4, 2> r;
-        const T size = sqrt(dot(f[0], f[0]) + (dot(f[1], f[1]) + dot(f[2], f[2])));
-        const T inverse = T(1) / max(size, T(1e-6));
-        r.c[0] = size;
-        r.c[1] = dot(f[0], minors[0]) - numbers[9];
-        for (int i = 0; i < 3; ++i) {
-            const T* d = numbers + 3 * i;
-            r.gradient[0][i + 1] = (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]) * inverse;
-            r.gradient[1][i + 1] = minors[0] * d[0] + minors[1] * d[1] + minors[2] * d[2];
+        const T volume = dot(f[0], minors[0]);
+        const T upright = select_greater(volume, T(0), T(1), T(0));
+        PointRows<T, 4, 7> r;
+        // ∂C/∂f of each row, three vectors
+        const Vector3<T> none(T(0), T(0), T(0));
+        Vector3<T> slope[7][3];
+        for (int k = 0; k < 3; ++k) {
+            const int i = (k + 1) % 3, j = (k + 2) % 3;
+            r.c[k] = (dot(f[k], f[k]) - T(1)) * (T(0.5) * upright);
+            slope[k][k] = f[k] * upright, slope[k][i] = none, slope[k][j] = none;
+            r.c[3 + k] = dot(f[i], f[j]) * upright;
+            slope[3 + k][i] = f[j] * upright, slope[3 + k][j] = f[i] * upright;
+            slope[3 + k][k] = none;
+            slope[6][k] = minors[k];
         }
-        for (auto& row : r.gradient) row[0] = -(row[1] + row[2] + row[3]);
+        r.c[6] = volume - T(1);
+        for (int row = 0; row < 7; ++row) {
+            for (int i = 0; i < 3; ++i)
+                r.gradient[row][i + 1] = slope[row][0] * inverse[3 * i] +
+                                         slope[row][1] * inverse[3 * i + 1] +
+                                         slope[row][2] * inverse[3 * i + 2];
+            r.gradient[row][0] = -(r.gradient[row][1] + r.gradient[row][2] + r.gradient[row][3]);
+        }
         return r;
     }
 
@@ -50,20 +64,25 @@ struct Tetrahedron {
         if (d.spec.kind != DeformableKind::solid) return;
         const double nu = d.spec.elasticity.poissons_ratio;
         const double mu = d.spec.elasticity.youngs_modulus / (2 * (1 + nu));
-        const double lambda = mu / (1 - 2 * nu);  // Lamé's first modulus + μ
+        // what widens as it is pulled still has a volume that can be turned back
+        const double lambda = std::max(2 * mu * nu / (1 - 2 * nu), kLeastLambda * mu);
         for (const auto& t : d.spec.tetrahedra) {
             Matrix3d edges;
             for (int k = 0; k < 3; ++k)
                 edges.col(k) = d.spec.points[t[k + 1]] - d.spec.points[t[0]];
             const Matrix3d inverse = edges.inverse();
             const double volume = edges.determinant() / 6;
-            double numbers[kNumbers];
+            double numbers[kNumbers], compliances[kRows];
             for (int i = 0; i < 9; ++i) numbers[i] = inverse(i / 3, i % 3);
-            numbers[9] = 1 + mu / lambda;
-            const double compliances[2] = {1 / (mu * volume), 1 / (lambda * volume)};
+            for (int k = 0; k < 3; ++k)
+                compliances[k] = 1 / (2 * mu * volume), compliances[3 + k] = 1 / (mu * volume);
+            compliances[6] = 1 / (lambda * volume);
             visit(t, numbers, compliances);
         }
     }
+
+private:
+    static constexpr double kLeastLambda = 1e-3;
 };
 
 }  // namespace plumb

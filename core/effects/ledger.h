@@ -27,18 +27,19 @@ enum class Stage : std::uint32_t {
     particles,          ///< constraints among particles
     links,              ///< links between points
     particle_contacts,  ///< contacts of particles with bodies
+    surface_contacts,   ///< points found near surfaces that deform, and kept off them
     islands,            ///< islands solved exactly
     shock,              ///< shock propagation
     move,               ///< new poses
     still_ground,       ///< energy that the ground gave, taken back
     remember,           ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 21;
+inline constexpr std::size_t kStageCount = 22;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect",  "reuse",        "match",   "schedule",          "kinematics", "restitution",
-    "impacts", "integrate",    "begin",   "velocities",        "positions",  "joints",
-    "trees",   "particles",    "links",   "particle_contacts", "islands",    "shock",
-    "move",    "still_ground", "remember"};
+    "detect",  "reuse",     "match",        "schedule",          "kinematics",       "restitution",
+    "impacts", "integrate", "begin",        "velocities",        "positions",        "joints",
+    "trees",   "particles", "links",        "particle_contacts", "surface_contacts", "islands",
+    "shock",   "move",      "still_ground", "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

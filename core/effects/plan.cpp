@@ -4,7 +4,7 @@
 #include "effects/meetings.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
-#include "world/has_rim.h"
+#include "world/round_shapes.h"
 
 #include <algorithm>
 
@@ -144,6 +144,14 @@ Wish particle_contacts(const World& w) {
                    "bodies have shapes that particles may meet",
                    "no body has a shape that particles may meet");
 }
+Wish surface_contacts(const World& w) {
+    const auto surfaces =
+        std::count_if(w.deformables.begin(), w.deformables.end(),
+                      [](const Deformable& d) { return !d.spec.triangles.empty(); });
+    return counted(static_cast<std::size_t>(surfaces),
+                   "surfaces that particles and corners of bodies may meet",
+                   "nothing that deforms has a surface");
+}
 Wish kinematics(const World& w) {
     return counted(static_cast<std::size_t>(w.kinematic_count),
                    "bodies are moved by a script or a given velocity", "no kinematic bodies");
@@ -175,6 +183,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"deformables", deformables},
     {"links", links},
     {"particle_contacts", particle_contacts},
+    {"surface_contacts", surface_contacts},
     {"kinematics", kinematics},
     {"shock_propagation", shock_propagation},
 }};

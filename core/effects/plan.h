@@ -34,10 +34,11 @@ enum class Effect : std::uint32_t {
     deformables,
     links,
     particle_contacts,
+    surface_contacts,
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 18;
+inline constexpr std::size_t kEffectCount = 19;
 
 struct Decision {
     std::string_view name;

@@ -84,10 +84,6 @@ void each_number_of_particles(Io& io, W& world) {
     for (std::size_t i = 0; i < world.particles.size(); ++i)
         vector(io, world.particles.position[i]), vector(io, world.particles.velocity[i]);
     for (auto& link : world.links) vector(io, link.impulse);
-    each_number_of_contacts(io, world.particle_contacts.found);
-    io.count(world.particle_contacts.memory);
-    for (auto& m : world.particle_contacts.memory)
-        io(m.normal_impulse), vector(io, m.friction_impulse);
 }
 
 template <class Io, class W>

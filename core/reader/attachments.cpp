@@ -4,7 +4,6 @@
 #include <numeric>
 
 #include "reader/deformables.h"
-#include "scene/link_faults.h"
 
 namespace plumb::reader {
 
@@ -12,11 +11,8 @@ namespace {
 
 struct AttachmentDraft {
     SceneDraft* scene;
+    const DeformableSpec* deformable;
     AttachmentSpec spec;
-
-    const std::vector<Eigen::Vector3d>& points() const {
-        return scene->scene.deformables[spec.deformable].points;
-    }
 };
 using A = AttachmentDraft;
 
@@ -52,7 +48,7 @@ const Table<Within>& within_table() {
 /// Takes the points whose distance is 0; fails with the least distance where there are none.
 template <class Distance>
 void pick(A& attachment, const Node& node, const std::string& what, Distance distance) {
-    const auto& points = attachment.points();
+    const auto& points = attachment.deformable->points;
     double least = std::numeric_limits<double>::infinity();
     std::uint32_t nearest = 0;
     for (std::uint32_t i = 0; i < points.size(); ++i) {
@@ -83,7 +79,7 @@ void pick_within(A& attachment, const Node& node) {
 
 void pick_all(A& attachment, const Node& node) {
     if (!Flag{}.read(node)) node.fail("must be true, or left out");
-    attachment.spec.points.resize(attachment.points().size());
+    attachment.spec.points.resize(attachment.deformable->points.size());
     std::iota(attachment.spec.points.begin(), attachment.spec.points.end(), 0u);
 }
 
@@ -119,20 +115,19 @@ const Table<A>& attachment_table() {
 
 }  // namespace
 
-void read_attachments(SceneDraft& draft, std::uint32_t deformable, const Node& node) {
+std::vector<AttachmentSpec> read_attachments(SceneDraft& draft, const DeformableSpec& deformable,
+                                             const Node& node) {
     if (!node.json().is_array()) node.fail_wanting("a list of attachments");
+    std::vector<AttachmentSpec> list;
     for (std::size_t i = 0; i < node.size(); ++i) {
         const Node entry = node.at(i);
-        AttachmentDraft attachment{&draft, {deformable, {}, kNoIndex, 0}};
-        if (entry.has("points") + entry.has("near") + entry.has("box") + entry.has("all") > 1)
-            entry.fail("must have one of \"points\", \"near\", \"box\" and \"all\"");
+        AttachmentDraft attachment{&draft, &deformable, {}};
         read_object(attachment, entry, attachment_table());
-        if (attachment.spec.points.empty())
+        if (entry.has("points") + entry.has("near") + entry.has("box") + entry.has("all") != 1)
             entry.fail("must have one of \"points\", \"near\", \"box\" and \"all\"");
-        if (const auto fault = attachment_fault(draft.scene, attachment.spec))
-            place_of(*fault, entry).fail(fault->sentence);
-        draft.scene.attachments.push_back(std::move(attachment.spec));
+        list.push_back(std::move(attachment.spec));
     }
+    return list;
 }
 
 void add_attachment_definitions(SchemaJson& definitions) {

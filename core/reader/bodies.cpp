@@ -6,13 +6,11 @@
 #include <iterator>
 
 #include "reader/drafts.h"
+#include "reader/repeat.h"
 
 namespace plumb::reader {
 
 namespace {
-
-/// Anything that is finite and sane: weights of a "repeat".
-constexpr Range kWeight{1e-6, 1e6};
 
 void read_shape(BodyDraft& draft, const Node& node) {
     SceneDraft& scene = *draft.scene;

@@ -18,15 +18,6 @@ namespace {
 using Draft = DeformableDraft;
 constexpr Range kCells{1, 1e4}, kCellsAround{3, 1e4}, kCellsOfBall{1, 1e3};
 
-/// Fails where a scene would have too many points.
-void require_room(const Draft& draft, double points, const Node& node) {
-    std::size_t sum = 0;
-    for (const DeformableSpec& d : draft.scene->scene.deformables) sum += d.points.size();
-    if (points > static_cast<double>(kMaxParticles - sum))
-        node.fail("these are " + short_number(points) + " points, but a scene may have at most " +
-                  std::to_string(kMaxParticles));
-}
-
 void take(Draft& draft, Elements elements) {
     draft.spec.points = std::move(elements.points);
     draft.spec.segments = std::move(elements.segments);
@@ -54,7 +45,7 @@ const Table<GridKeys>& grid_table() {
 void read_grid(Draft& draft, const Node& node) {
     GridKeys grid;
     read_object(grid, node, grid_table());
-    require_room(draft, (grid.cells[0] + 1.0) * (grid.cells[1] + 1.0), node);
+    require_room(*draft.scene, (grid.cells[0] + 1.0) * (grid.cells[1] + 1.0), node);
     take(draft, grid_surface(grid.cells, {grid.size[0], grid.size[1]}));
 }
 
@@ -78,7 +69,7 @@ void read_ball(Draft& draft, const Node& node) {
     BallKeys ball;
     read_object(ball, node, ball_table());
     const bool solid = draft.spec.kind == DeformableKind::solid;
-    require_room(draft,
+    require_room(*draft.scene,
                  static_cast<double>(solid ? ball_solid_points(ball.cells)
                                            : ball_surface_points(ball.cells)),
                  node);
@@ -118,7 +109,7 @@ void read_tube(Draft& draft, const Node& node) {
     read_object(tube, node, tube_table());
     const bool closed = draft.spec.kind == DeformableKind::balloon;
     const double around = tube.cells[0], lids = closed ? around * around / 6 + 2 : 0;
-    require_room(draft, around * (tube.cells[1] + 1.0) + lids, node);
+    require_room(*draft.scene, around * (tube.cells[1] + 1.0) + lids, node);
     take(draft, tube_surface(tube.radius, tube.length, tube.cells, closed));
 }
 
@@ -169,7 +160,7 @@ void read_lattice(Draft& draft, const Node& node) {
     check_lattice(node);
     if (lattice.half_extents) {
         const auto& c = lattice.cells;
-        require_room(draft, (c[0] + 1.0) * (c[1] + 1.0) * (c[2] + 1.0), node);
+        require_room(*draft.scene, (c[0] + 1.0) * (c[1] + 1.0) * (c[2] + 1.0), node);
         take(draft, box_lattice(*lattice.half_extents, c));
         return;
     }
@@ -181,7 +172,7 @@ void read_lattice(Draft& draft, const Node& node) {
     } catch (const BadShape& error) {
         node.fail(error.what());
     }
-    require_room(draft, static_cast<double>(draft.spec.points.size()), node);
+    require_room(*draft.scene, static_cast<double>(draft.spec.points.size()), node);
 }
 
 struct LineKeys {
@@ -206,7 +197,7 @@ void read_line(Draft& draft, const Node& node) {
     read_object(line, node, line_table());
     if (line.from == line.to)
         node.fail("the line has no length: \"from\" and \"to\" are one point");
-    require_room(draft, line.segments + 1.0, node);
+    require_room(*draft.scene, line.segments + 1.0, node);
     take(draft, straight_line(line.from, line.to, line.segments));
 }
 
@@ -275,7 +266,7 @@ void read_mesh_shape(Draft& draft, const Node& node) {
                 " points of \"" + mesh.file + "\" lay where others did and became one with them");
         mesh.elements = std::move(file.elements);
     }
-    require_room(draft, static_cast<double>(mesh.elements.points.size()), node);
+    require_room(*draft.scene, static_cast<double>(mesh.elements.points.size()), node);
     if (draft.spec.kind == DeformableKind::solid &&
         !deformable_faults::element_fault(mesh.elements.points, mesh.elements.tetrahedra))
         mesh.elements.triangles = surface_of(mesh.elements.tetrahedra);
@@ -318,6 +309,12 @@ const Table<Draft>& shape_table_of_deformables() {
 }
 
 }  // namespace
+
+void require_room(const SceneDraft& draft, double points, const Node& node) {
+    if (points > static_cast<double>(kMaxParticles - draft.points))
+        node.fail("these are " + short_number(points) + " points, but a scene may have at most " +
+                  std::to_string(kMaxParticles));
+}
 
 void read_deformable_shape(DeformableDraft& draft, const Node& node) {
     read_object(draft, node, shape_table_of_deformables());

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <sstream>
 
+#include "reader/repeat.h"
 #include "scene/deformable_faults.h"
+#include "scene/link_faults.h"
 
 namespace plumb::reader {
 
@@ -31,7 +33,7 @@ const Table<D>& look_table() {
         field<D>(
             "color", Color{}, [](D & d) -> auto& { return d.spec.color; }, "\"#rrggbb\""),
         special<D>(
-            "attach", list_of("attachment"), [](D& d, const Node& n) { d.attach = n; },
+            "attach", list_of("attachment"), [](D&, const Node&) {},
             "points that ride on bodies, or stay where they are"),
     };
     return table;
@@ -188,22 +190,112 @@ void turn_outwards(D& draft) {
                                          "\": its triangles faced inwards and were turned over");
 }
 
-void read_deformable(SceneDraft& scene, const Node& node, const std::string& name) {
-    D draft{&scene, {}, {}, {}, {}, {}, {}};
-    draft.spec.name = node.has("name") ? Text{}.read(node.at("name")) : name;
-    read_object(draft, node, deformable_table());
+void move_points(DeformableSpec& spec, const Placement& placement) {
+    for (Eigen::Vector3d& p : spec.points) p = placement.position + placement.rotation * p;
+}
+
+void check_deformable(const D& draft, const Node& node) {
+    if (const auto fault = deformable_fault(draft.spec, draft.scene->scene.materials.size()))
+        place_of(*fault, node).fail(fault->sentence);
+}
+
+/// A deformable with its checks; of a "repeat" it may have a weight.
+D read_deformable(SceneDraft& scene, const Node& node, const std::string& name,
+                  const Table<D>& table) {
+    D draft{&scene, {}, {}, {}, {}, {}, {}, 1};
+    draft.spec.name = name;
+    read_object(draft, node, table);
     check_keys(draft, node);
-    for (Eigen::Vector3d& p : draft.spec.points)
-        p = draft.placement.position + draft.placement.rotation * p;
+    move_points(draft.spec, draft.placement);
     set_defaults(draft);
     turn_outwards(draft);
-    if (const auto fault = deformable_fault(draft.spec, scene.scene.materials.size()))
-        place_of(*fault, node).fail(fault->sentence);
+    check_deformable(draft, node);
+    // Where points are is known only now.
+    if (node.has("attach"))
+        draft.attachments = read_attachments(scene, draft.spec, node.at("attach"));
+    return draft;
+}
 
+/// `node` is the deformable's own, `entry` the one of the list that it comes from.
+void add_deformable(SceneDraft& scene, D draft, const Node& node, const Node& entry) {
     const auto index = static_cast<std::uint32_t>(scene.scene.deformables.size());
-    scene.deformables.add(draft.spec.name, index, node);
+    scene.deformables.add(draft.spec.name, index, entry);
+    scene.points += draft.spec.points.size();
     scene.scene.deformables.push_back(std::move(draft.spec));
-    if (draft.attach) read_attachments(scene, index, *draft.attach);
+    for (std::size_t i = 0; i < draft.attachments.size(); ++i) {
+        AttachmentSpec& attachment = draft.attachments[i];
+        attachment.deformable = index;
+        if (const auto fault = attachment_fault(scene.scene, attachment))
+            place_of(*fault, node.at("attach").at(i)).fail(fault->sentence);
+        scene.scene.attachments.push_back(std::move(attachment));
+    }
+}
+
+const Table<D>& prototype_table() {
+    static const Table<D> table = [] {
+        Table<D> fields = deformable_table();
+        fields.push_back(field<D>("weight", Number{kWeight}, &D::weight,
+                                  "share of this deformable among those that a repeat deals"));
+        return fields;
+    }();
+    return table;
+}
+
+struct RepeatDraft {
+    SceneDraft* scene;
+    Grid grid;
+    std::vector<D> prototypes;
+};
+
+void read_prototypes(RepeatDraft& draft, const Node& node) {
+    if (!node.json().is_array() || node.size() == 0)
+        node.fail_wanting("a list of at least one deformable");
+    for (std::size_t i = 0; i < node.size(); ++i)
+        draft.prototypes.push_back(read_deformable(
+            *draft.scene, node.at(i),
+            "deformable_" + std::to_string(draft.scene->scene.deformables.size() + 1),
+            prototype_table()));
+}
+
+const Table<RepeatDraft>& repeat_table() {
+    using R = RepeatDraft;
+    static const Table<R> table = {
+        special<R>(
+            "repeat", reference_to("grid"),
+            [](R& r, const Node& node) { read_object(r.grid, node, grid_table()); }, "the grid",
+            Presence::required),
+        special<R>("deformables", list_of("deformable_prototype"), read_prototypes,
+                   "deformables to deal over the grid; position, rotation and the places of "
+                   "\"attach\" are relative to the place",
+                   Presence::required),
+    };
+    return table;
+}
+
+void read_repeated(SceneDraft& scene, const Node& node) {
+    RepeatDraft entry{&scene, {}, {}};
+    read_object(entry, node, repeat_table());
+    const std::uint64_t total = total_of(entry.grid, node.at("repeat"));
+    std::size_t fewest = kMaxParticles;
+    std::vector<double> weights;
+    for (const D& p : entry.prototypes) {
+        fewest = std::min(fewest, p.spec.points.size());
+        weights.push_back(p.weight);
+    }
+    require_room(scene, static_cast<double>(total) * static_cast<double>(fewest),
+                 node.at("repeat"));
+
+    Random random(entry.grid.seed);
+    const std::vector<std::size_t> choice = dealt(weights, total, random);
+    for (std::size_t i = 0; i < total; ++i) {
+        D draft = entry.prototypes[choice[i]];
+        require_room(scene, static_cast<double>(draft.spec.points.size()), node.at("repeat"));
+        draft.spec.name = numbered(draft.spec.name, i + 1);
+        move_points(draft.spec, drawn_place(entry.grid, i, random));
+        const Node prototype = node.at("deformables").at(choice[i]);
+        check_deformable(draft, prototype);
+        add_deformable(scene, std::move(draft), prototype, node);
+    }
 }
 
 }  // namespace
@@ -228,13 +320,28 @@ Node place_of(const DeformableFault& fault, const Node& whole) {
 
 void read_deformables(SceneDraft& draft, const Node& node) {
     if (!node.json().is_array()) node.fail_wanting("a list of deformables");
-    for (std::size_t i = 0; i < node.size(); ++i)
-        read_deformable(draft, node.at(i), "deformable_" + std::to_string(i + 1));
+    for (std::size_t i = 0; i < node.size(); ++i) {
+        const Node entry = node.at(i);
+        if (entry.has("repeat"))
+            read_repeated(draft, entry);
+        else
+            add_deformable(
+                draft,
+                read_deformable(draft, entry,
+                                "deformable_" + std::to_string(draft.scene.deformables.size() + 1),
+                                deformable_table()),
+                entry, entry);
+    }
 }
 
 void add_deformable_definitions(SchemaJson& definitions) {
     add_deformable_shape_definitions(definitions);
     definitions["deformable"] = object_schema(deformable_table());
+    definitions["deformable_prototype"] = object_schema(prototype_table());
+    definitions["deformable_repeat"] = object_schema(repeat_table());
+    definitions["deformable_entry"] = {{"if", {{"required", {"repeat"}}}},
+                                       {"then", reference_to("deformable_repeat")},
+                                       {"else", reference_to("deformable")}};
     add_attachment_definitions(definitions);
 }
 

@@ -13,16 +13,21 @@ struct DeformableDraft {
     DeformableSpec spec;
     Placement placement;
     std::optional<double> thickness, young, radius;  ///< as the file has them
-    std::optional<Node> attach;
+    std::vector<AttachmentSpec> attachments;         ///< of a deformable without a number yet
+    double weight = 1;                               ///< how often a "repeat" deals it
 };
+
+/// Fails where so many points more would be too many for a scene.
+void require_room(const SceneDraft& draft, double points, const Node& node);
 
 /// A "shape": {"grid": {…}} and so on, for a deformable whose kind is known. Points come in the
 /// shape's own frame.
 void read_deformable_shape(DeformableDraft& draft, const Node& node);
 void add_deformable_shape_definitions(SchemaJson& definitions);
 
-/// "attach" of a deformable that the scene has.
-void read_attachments(SceneDraft& draft, std::uint32_t deformable, const Node& node);
+/// "attach", for a deformable whose points are where they belong.
+std::vector<AttachmentSpec> read_attachments(SceneDraft& draft, const DeformableSpec& deformable,
+                                             const Node& node);
 void add_attachment_definitions(SchemaJson& definitions);
 
 /// A file of triangles or tetrahedra: OBJ, Gmsh's .msh or TetGen's .node with its .ele, times a

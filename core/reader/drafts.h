@@ -37,6 +37,7 @@ struct SceneDraft {
     Scene scene;
     Names materials{"material"}, shapes{"shape"}, bodies{"body"}, joints{"joint"},
         deformables{"deformable"};
+    std::size_t points = 0;  ///< of all deformables
 };
 
 /// A body, and how often a "repeat" deals it.

@@ -1,32 +1,18 @@
 // SPDX-License-Identifier: MIT
 /// Entries {"repeat": …, "bodies": […]}: bodies dealt over the places of a grid.
 ///
-/// Places run along x first, then z, then y, so a grid fills from the bottom. The listed bodies are
+/// Places run along x first, then z, then y, so a grid fills from the bottom. What is listed is
 /// dealt in the proportion of their weights and shuffled by the seed; then each place in turn draws
 /// its jitter (x, y, z) and its rotation. All draws come from one `Random`.
+#include "reader/repeat.h"
+
 #include <cmath>
 
-#include "reader/drafts.h"
 #include "reader/lists.h"
-#include "reader/random.h"
 
 namespace plumb::reader {
 
 namespace {
-
-struct Grid {
-    std::array<std::uint32_t, 3> count{1, 1, 1};
-    Eigen::Vector3d spacing = Eigen::Vector3d::Ones();  // [m]
-    Eigen::Vector3d origin =
-        Eigen::Vector3d::Zero();  // of place 0, or of the middle on centred axes [m]
-    std::array<bool, 3> centered{false, false, false};
-    std::optional<std::uint32_t> total;
-    Eigen::Vector3d jitter = Eigen::Vector3d::Zero();  // greatest displacement either way [m]
-    bool random_rotation = false;
-    std::uint64_t seed = 1;
-
-    std::uint64_t places() const { return std::uint64_t{count[0]} * count[1] * count[2]; }
-};
 
 constexpr Range kJitter{0, 1e6}, kCounts{1, static_cast<double>(kMaxBodies)};
 
@@ -34,28 +20,6 @@ void read_jitter(Grid& grid, const Node& node) {
     grid.jitter = node.json().is_number()
                       ? Eigen::Vector3d::Constant(Number{kJitter}.read(node)).eval()
                       : Vector3{kJitter}.read(node);
-}
-
-const Table<Grid>& grid_table() {
-    using W = Whole<std::uint32_t>;
-    static const Table<Grid> table = {
-        field<Grid>("count", WholeList<3>{kCounts}, &Grid::count,
-                    "[nx, ny, nz]: places along each axis", Presence::required),
-        field<Grid>("spacing", Vector3{kCoordinate}, &Grid::spacing, "distance between places [m]"),
-        field<Grid>("origin", Vector3{kCoordinate}, &Grid::origin,
-                    "of the first place, and of the middle on axes that are centred [m]"),
-        field<Grid>("centered", Flags3{}, &Grid::centered,
-                    "axes on which the grid's middle lies at the origin"),
-        field<Grid>("total", W{{1, static_cast<double>(kMaxBodies)}}, &Grid::total,
-                    "stop after so many; places run along x, then z, then y"),
-        special<Grid>("jitter", {{"anyOf", {Number{kJitter}.schema(), Vector3{kJitter}.schema()}}},
-                      read_jitter, "greatest random displacement along each axis, either way [m]"),
-        field<Grid>("random_rotation", Flag{}, &Grid::random_rotation,
-                    "turn each body, uniformly over all rotations"),
-        field<Grid>("seed", Whole<std::uint64_t>{{0, kMostExact}}, &Grid::seed,
-                    "seed of all draws of this entry"),
-    };
-    return table;
 }
 
 struct RepeatDraft {
@@ -86,41 +50,8 @@ const Table<RepeatDraft>& repeat_table() {
     return table;
 }
 
-std::size_t checked_total(const Grid& grid, const SceneDraft& draft, const Node& node) {
-    if (grid.total && *grid.total > grid.places()) {
-        node.at("total").fail("the grid has only " + std::to_string(grid.places()) + " places");
-    }
-    const std::uint64_t total = grid.total.value_or(grid.places());
-    if (total > kMaxBodies - draft.scene.bodies.size()) {
-        node.fail("these are " + std::to_string(total) + " bodies, but a scene may have at most " +
-                  std::to_string(kMaxBodies));
-    }
-    return total;
-}
-
-/// Which prototype each place gets: [total], in the proportion of the weights, shuffled.
-std::vector<std::size_t> dealt(const std::vector<BodyDraft>& prototypes, std::size_t total,
-                               Random& random) {
-    double sum = 0;
-    for (const BodyDraft& p : prototypes) sum += p.weight;
-
-    std::vector<std::size_t> choice;
-    choice.reserve(total);
-    double so_far = 0;
-    for (std::size_t i = 0; i < prototypes.size(); ++i) {
-        so_far += prototypes[i].weight;
-        const bool last = i + 1 == prototypes.size();
-        const double end = last ? static_cast<double>(total)
-                                : std::round(static_cast<double>(total) * so_far / sum);
-        while (static_cast<double>(choice.size()) < end) choice.push_back(i);
-    }
-
-    // Fisher and Yates, from the back.
-    for (std::size_t i = total; i > 1; --i) std::swap(choice[i - 1], choice[random.below(i)]);
-    return choice;
-}
-
-Eigen::Vector3d place_of(const Grid& grid, std::size_t index) {
+/// Without jitter [m].
+Eigen::Vector3d middle_of(const Grid& grid, std::size_t index) {
     const std::size_t nx = grid.count[0], nz = grid.count[2];
     const std::array<std::size_t, 3> step{index % nx, index / (nx * nz), index / nx % nz};
     Eigen::Vector3d position = grid.origin;
@@ -144,21 +75,79 @@ void put(BodySpec& body, const Placement& place) {
 
 }  // namespace
 
+const Table<Grid>& grid_table() {
+    using W = Whole<std::uint32_t>;
+    static const Table<Grid> table = {
+        field<Grid>("count", WholeList<3>{kCounts}, &Grid::count,
+                    "[nx, ny, nz]: places along each axis", Presence::required),
+        field<Grid>("spacing", Vector3{kCoordinate}, &Grid::spacing, "distance between places [m]"),
+        field<Grid>("origin", Vector3{kCoordinate}, &Grid::origin,
+                    "of the first place, and of the middle on axes that are centred [m]"),
+        field<Grid>("centered", Flags3{}, &Grid::centered,
+                    "axes on which the grid's middle lies at the origin"),
+        field<Grid>("total", W{{1, static_cast<double>(kMaxBodies)}}, &Grid::total,
+                    "stop after so many; places run along x, then z, then y"),
+        special<Grid>("jitter", {{"anyOf", {Number{kJitter}.schema(), Vector3{kJitter}.schema()}}},
+                      read_jitter, "greatest random displacement along each axis, either way [m]"),
+        field<Grid>("random_rotation", Flag{}, &Grid::random_rotation,
+                    "turn each body, uniformly over all rotations"),
+        field<Grid>("seed", Whole<std::uint64_t>{{0, kMostExact}}, &Grid::seed,
+                    "seed of all draws of this entry"),
+    };
+    return table;
+}
+
+std::uint64_t total_of(const Grid& grid, const Node& node) {
+    const std::uint64_t places = std::uint64_t{grid.count[0]} * grid.count[1] * grid.count[2];
+    if (grid.total && *grid.total > places)
+        node.at("total").fail("the grid has only " + std::to_string(places) + " places");
+    return grid.total.value_or(places);
+}
+
+std::vector<std::size_t> dealt(const std::vector<double>& weights, std::size_t total,
+                               Random& random) {
+    double sum = 0;
+    for (const double weight : weights) sum += weight;
+
+    std::vector<std::size_t> choice;
+    choice.reserve(total);
+    double so_far = 0;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        so_far += weights[i];
+        const bool last = i + 1 == weights.size();
+        const double end = last ? static_cast<double>(total)
+                                : std::round(static_cast<double>(total) * so_far / sum);
+        while (static_cast<double>(choice.size()) < end) choice.push_back(i);
+    }
+
+    // Fisher and Yates, from the back.
+    for (std::size_t i = total; i > 1; --i) std::swap(choice[i - 1], choice[random.below(i)]);
+    return choice;
+}
+
+Placement drawn_place(const Grid& grid, std::size_t index, Random& random) {
+    Placement place{middle_of(grid, index), Eigen::Quaterniond::Identity()};
+    for (int axis = 0; axis < 3; ++axis)
+        place.position[axis] += random.between(-grid.jitter[axis], grid.jitter[axis]);
+    if (grid.random_rotation) place.rotation = random.rotation();
+    return place;
+}
+
 void read_repeat(SceneDraft& draft, const Node& node) {
     RepeatDraft entry{&draft, {}, {}};
     read_object(entry, node, repeat_table());
-    const Grid& grid = entry.grid;
-    const std::size_t total = checked_total(grid, draft, node.at("repeat"));
+    const std::uint64_t total = total_of(entry.grid, node.at("repeat"));
+    if (total > kMaxBodies - draft.scene.bodies.size())
+        node.at("repeat").fail("these are " + std::to_string(total) +
+                               " bodies, but a scene may have at most " +
+                               std::to_string(kMaxBodies));
 
-    Random random(grid.seed);
-    const std::vector<std::size_t> choice = dealt(entry.prototypes, total, random);
+    Random random(entry.grid.seed);
+    std::vector<double> weights;
+    for (const BodyDraft& p : entry.prototypes) weights.push_back(p.weight);
+    const std::vector<std::size_t> choice = dealt(weights, total, random);
     for (std::size_t i = 0; i < total; ++i) {
-        Placement place{place_of(grid, i), Eigen::Quaterniond::Identity()};
-        for (int axis = 0; axis < 3; ++axis) {
-            place.position[axis] += random.between(-grid.jitter[axis], grid.jitter[axis]);
-        }
-        if (grid.random_rotation) place.rotation = random.rotation();
-
+        const Placement place = drawn_place(entry.grid, i, random);
         BodySpec body = entry.prototypes[choice[i]].spec;
         body.name = numbered(body.name, i + 1);
         put(body, place);

@@ -74,24 +74,29 @@ double relative_extent(const std::vector<Eigen::Vector3d>& points,
 inline std::optional<DeformableFault> points_fault(const std::vector<Eigen::Vector3d>& points) {
     if (points.empty()) return DeformableFault{"/points", "there are no points"};
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const std::string place = "/points/" + std::to_string(i),
-                          noun = "point " + std::to_string(i);
-        if (!points[i].allFinite()) return DeformableFault{place, noun + " is not finite"};
-        if (points[i].cwiseAbs().maxCoeff() > kFurthest)
-            return DeformableFault{place, noun + " lies further from the origin than 1e9 m"};
+        const char* wrong = !points[i].allFinite() ? " is not finite"
+                            : points[i].cwiseAbs().maxCoeff() > kFurthest
+                                ? " lies further from the origin than 1e9 m"
+                                : nullptr;
+        if (!wrong) continue;
+        const std::string number = std::to_string(i);
+        return DeformableFault{"/points/" + number, ("point " + number).append(wrong)};
     }
     return std::nullopt;
+}
+
+template <std::size_t N>
+DeformableFault fault_of_element(std::size_t i, const std::string& what) {
+    const std::string number = std::to_string(i);
+    return {std::string("/") + kKey<N> + "/" + number,
+            std::string(kNoun<N>) + " " + number + " " + what};
 }
 
 template <std::size_t N>
 std::optional<DeformableFault> element_fault(const std::vector<Eigen::Vector3d>& points,
                                              const Elements<N>& elements) {
     for (std::size_t i = 0; i < elements.size(); ++i) {
-        const auto fault = [&](const std::string& what) {
-            const std::string number = std::to_string(i);
-            return DeformableFault{std::string("/") + kKey<N> + "/" + number,
-                                   std::string(kNoun<N>) + " " + number + " " + what};
-        };
+        const auto fault = [i](const std::string& what) { return fault_of_element<N>(i, what); };
         for (std::size_t k = 0; k < N; ++k) {
             const std::uint32_t p = elements[i][k];
             if (p >= points.size())

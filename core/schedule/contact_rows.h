@@ -94,15 +94,15 @@ struct BodyRows {
 /// What a pass needs to know besides the rows.
 template <class Real>
 struct PassSettings {
-    Real h, inverse_h;   // substep [s] and its inverse [1/s]
-    Real stiffness;      // s of this substep
-    Real recovery;       // overlap beyond which no more is pushed out in a substep [m]
-    bool warm_start;     // begin with the impulses of the substep before
-    bool shared_cone;    // one friction bound for both passes
-    bool shared_push;    // the push of both passes together stays repulsive, not of each alone
-    bool forwards;       // direction of this sweep
+    Real h, inverse_h;  // substep [s] and its inverse [1/s]
+    Real stiffness;     // s of this substep
+    Real recovery;      // overlap beyond which no more is pushed out in a substep [m]
+    bool warm_start;    // begin with the impulses of the substep before
+    bool shared_cone;   // one friction bound for both passes
+    bool shared_push;   // the push of both passes together stays repulsive, not of each alone
+    bool forwards;      // direction of this sweep
     std::uint32_t iteration = 0;  // of the pass
-    bool alone = false;  // nothing but one group changes velocities in this pass
+    bool alone = false;           // nothing but one group changes velocities in this pass
 };
 
 }  // namespace plumb

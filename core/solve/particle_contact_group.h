@@ -53,7 +53,6 @@ public:
             rows.frictions[at.row].friction[at.lane] = static_cast<Real>(
                 world.surface_of(material, world.bodies.material[contact.b]).friction);
         });
-        is_fresh_ = true;
     }
 
     void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
@@ -74,21 +73,16 @@ public:
                       at.lane);
         });
         run(kernels_.prepare, bodies, pass);
-        if (is_fresh_ && pass.warm_start) load_impulses(c);
-        is_fresh_ = false;
-        run(kernels_.begin, bodies, pass);
+        run(kernels_.begin, bodies, cold(pass, 0));
     }
 
-    void warm_start(const BodyRows<Real>& bodies, const PassSettings<Real>& pass) override {
-        run(kernels_.warm_start, bodies, pass);
-    }
     void iterate_velocities(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                             std::uint32_t worker) override {
-        sweep(kernels_.solve_velocities, bodies, pass, worker);
+        sweep(kernels_.solve_velocities, bodies, cold(pass, pass.iteration), worker);
     }
     void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        sweep(kernels_.solve_positions, bodies, pass, worker);
+        sweep(kernels_.solve_positions, bodies, cold(pass, pass.iteration), worker);
     }
 
     /// Calls visit(contact, RowImpulse) for all contacts, with what they bear in this substep.
@@ -99,32 +93,18 @@ public:
             [&](const ContactPlace& at) { visit(at.contact, impulse_of(rows, at.row, at.lane)); });
     }
 
-    void end_step(World& world) override {
-        each_impulse([&](std::size_t contact, const RowImpulse& p) {
-            ParticleContactMemory& memory = world.particle_contacts.memory[contact];
-            memory.normal_impulse = p.normal;
-            memory.friction_impulse = p.friction();
-        });
-    }
-
 private:
     template <class Visit>
     void each_contact(Visit visit) const {
         batches_.each_contact(pairs_, visit);
     }
 
-    void load_impulses(const ParticleContactTable& c) {
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        each_contact([&](const ContactPlace& at) {
-            const ParticleContactMemory& memory = c.memory[at.contact];
-            NormalRow<Real, W>& row = rows.normals[at.row];
-            row.lambda_velocity[at.lane] = static_cast<Real>(memory.normal_impulse);
-            if (!rows.frictions) return;
-            FrictionRow<Real, W>& across = rows.frictions[at.row];
-            const ContactTangents t = tangents_of(row, across, at.lane);
-            across.held_x[at.lane] = static_cast<Real>(t.x.dot(memory.friction_impulse));
-            across.held_y[at.lane] = static_cast<Real>(t.y.dot(memory.friction_impulse));
-        });
+    /// Each substep begins from nothing and sweeps alike: what deforms is never solved to the end,
+    /// and impulses carried over would feed what is left.
+    static PassSettings<Real> cold(PassSettings<Real> pass, std::uint32_t iteration) {
+        pass.warm_start = false;
+        pass.forwards = iteration % 2 == 0;
+        return pass;
     }
 
     void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
@@ -143,7 +123,6 @@ private:
     std::vector<BodyPair> pairs_;
     Colouring colouring_;
     ContactBatches<Real, W> batches_;
-    bool is_fresh_ = false;  ///< whether the impulses of the step before are still to be taken
 };
 
 }  // namespace plumb

@@ -31,8 +31,6 @@ double sweep(const World& world, const Deformable& d, double dt) {
 void detect_particles(World& world, Workers& workers, Proximity& proximity, DetectBuffers& buffers,
                       double dt, StepReport& report, Ledger& ledger) {
     ParticleContactTable& table = world.particle_contacts;
-    std::swap(table.found, table.found_before);
-    std::swap(table.memory, table.memory_before);
     table.found.clear();
     const TaskRunner runner = runner_on(workers);
     buffers.places.resize(world.particles.size());
@@ -71,16 +69,9 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
     if (!std::is_sorted(table.found.begin(), table.found.end(), before))
         std::stable_sort(table.found.begin(), table.found.end(), before);
 
-    table.memory.assign(table.found.size(), {});
     table.track.resize(table.found.size());
-    auto old = table.found_before.begin();
-    for (std::size_t i = 0; i < table.found.size(); ++i) {
-        const Contact& c = table.found[i];
-        table.track[i] = in_body(world.bodies, c.b, to_eigen(c.point_b));
-        while (old != table.found_before.end() && before(*old, c)) ++old;
-        if (old != table.found_before.end() && key(*old) == key(c))
-            table.memory[i] = table.memory_before[old - table.found_before.begin()];
-    }
+    for (std::size_t i = 0; i < table.found.size(); ++i)
+        table.track[i] = in_body(world.bodies, table.found[i].b, to_eigen(table.found[i].point_b));
     report.contacts += static_cast<std::uint32_t>(table.found.size());
 }
 

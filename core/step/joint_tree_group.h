@@ -15,7 +15,8 @@ namespace plumb {
 template <class Real, int W>
 class JointTreeGroup final : public ConstraintGroup<Real> {
 public:
-    JointTreeGroup(const World& world, const JointForest& forest, Workers& workers) : workers_(workers) {
+    JointTreeGroup(const World& world, const JointForest& forest, Workers& workers)
+        : workers_(workers) {
         for (const JointForest& share : share_out_trees(forest, workers.count()))
             trees_.emplace_back(world, share);
     }

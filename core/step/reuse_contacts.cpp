@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/reuse_contacts.h"
 
-#include "world/has_rim.h"
+#include "world/round_shapes.h"
 
 #include <algorithm>
 #include <tuple>
@@ -12,8 +12,31 @@ namespace {
 /// Share of the reuse distance by which a rim may turn while its contacts are kept.
 constexpr double kLag = 0.01;
 
+/// Share of it by which what is round may move where contacts are solved exactly. Contacts that lag
+/// by x behind what rolls over a radius r lead it on by g x/r: what lies in a hollow swings for
+/// ever, and what rolls slowly gets faster.
+constexpr double kStill = 1e-4;
+
 std::tuple<std::uint32_t, std::uint32_t> key(const KeptPair& p) { return {p.a, p.b}; }
 std::tuple<std::uint32_t, std::uint32_t> key(const Contact& c) { return {c.a, c.b}; }
+
+/// Walks along the contacts of the step before, with pairs that rise.
+class ContactsBefore {
+public:
+    explicit ContactsBefore(const ContactTable& contacts) : contacts_(contacts) {}
+
+    /// Whether the pair's contacts were solved exactly.
+    bool were_exact(const KeptPair& pair) {
+        const std::vector<Contact>& found = contacts_.found_before;
+        while (at_ < found.size() && key(found[at_]) < key(pair)) ++at_;
+        return at_ < found.size() && key(found[at_]) == key(pair) &&
+               contacts_.memory_before[at_].exact;
+    }
+
+private:
+    const ContactTable& contacts_;
+    std::size_t at_ = 0;
+};
 
 /// The smaller body of a pair, whose points are watched in the frame of the other.
 struct Watched {
@@ -43,14 +66,17 @@ double motion(const KeptPair& then, const KeptPair& now, double reach) {
 
 /// Whether the contacts that `then` has will do at the poses of `now`. Contacts on a rim that turns
 /// will not: they would lag behind it, and brake what rolls.
-bool will_do(const KeptPair& then, const KeptPair& now, const World& world) {
+bool will_do(const KeptPair& then, const KeptPair& now, const World& world, bool exact) {
     const Bodies& b = world.bodies;
     const double distance = world.settings.reuse_distance;
     const double reach = b.reach[watched(b, now.a, now.b).small];
+    const double moved = motion(then, now, reach);
     if ((has_rim(world, now.a) || has_rim(world, now.b)) &&
         turned(then, now) * reach > kLag * distance)
         return false;
-    return then.margin >= now.margin - distance && motion(then, now, reach) <= distance;
+    if (exact && moved > kStill * distance && (is_round(world, now.a) || is_round(world, now.b)))
+        return false;
+    return then.margin >= now.margin - distance && moved <= distance;
 }
 
 /// Whether candidate i is of bodies that there are, and stands behind the one before it.
@@ -66,6 +92,7 @@ void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uin
     KeptContacts& kept = world.contacts.kept;
     const std::vector<double>& sweeps = *context.sweeps;
     auto old = kept.pairs_before.begin();
+    ContactsBefore before(world.contacts);
     for (std::uint32_t i = 0; i < count; ++i) {
         wanted[i] = 1;
         if (!in_order(pairs, i, sweeps.size())) continue;  // a fault of the collider: nothing kept
@@ -73,7 +100,8 @@ void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uin
         now.margin = world.settings.margin + sweeps[now.a] + sweeps[now.b];
         measure_pose(now, world.bodies);
         while (old != kept.pairs_before.end() && key(*old) < key(now)) ++old;
-        if (old != kept.pairs_before.end() && key(*old) == key(now) && will_do(*old, now, world)) {
+        if (old != kept.pairs_before.end() && key(*old) == key(now) &&
+            will_do(*old, now, world, before.were_exact(now))) {
             now = *old;
             now.fresh = false;
         }

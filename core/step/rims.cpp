@@ -2,7 +2,7 @@
 #include "step/rims.h"
 
 #include "math/rotation.h"
-#include "world/has_rim.h"
+#include "world/round_shapes.h"
 
 #include <cmath>
 

@@ -7,6 +7,7 @@
 #include "solve/deformable_group.h"
 #include "solve/link_group.h"
 #include "solve/particle_contact_group.h"
+#include "solve/surface_contact_group.h"
 #include "step/contact_solver.h"
 #include "step/impacts.h"
 #include "step/joint_solver.h"
@@ -122,6 +123,7 @@ public:
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.velocity_iterations; ++i) {
                 pass.forwards = forwards(sweeps_ + i);
+                pass.iteration = i;
                 for (const auto& group : groups_)
                     if (!group->empty()) group->iterate_velocities(table_.rows(), pass, worker);
             }
@@ -224,6 +226,7 @@ private:
         }
         if (plan.runs(Effect::deformables)) add<DeformableGroup<Real, W>>(world, workers_);
         if (plan.runs(Effect::links)) add<LinkGroup<Real>>(world, workers_);
+        if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
         if (plan.runs(Effect::particle_contacts))
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);

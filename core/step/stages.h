@@ -35,8 +35,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
 /// The solver's workers, for the collider.
 TaskRunner runner_on(Workers& workers);
 
-/// Asks the collider for the contacts of particles at the poses of `detect`, checks and sorts them,
-/// and hands each the memory of the same contact of the step before.
+/// Asks the collider for the contacts of particles at the poses of `detect`, checks and sorts them.
 void detect_particles(World& world, Workers& workers, Proximity& proximity, DetectBuffers& buffers,
                       double dt, StepReport& report, Ledger& ledger);
 

@@ -50,6 +50,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             detect_particles(world, stepper.workers, proximity, stepper.buffers, dt, report,
                              ledger);
         });
+    if (plan.runs(Effect::surface_contacts))
+        timed(Stage::surface_contacts, [&] { stepper.surfaces.detect(world, dt); });
     if (sums) timed(Stage::remember, [&] { sums->begin_step(world); });
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {
         const bool first = i == 0;

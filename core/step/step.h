@@ -11,6 +11,7 @@
 #include "step/row_solver.h"
 #include "step/stages.h"
 #include "step/still_ground.h"
+#include "step/surface_detector.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -29,6 +30,7 @@ struct Stepper {
           workers(world.settings.threads),
           motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
           turning(turning_joints(world)),
+          surfaces(world),
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints or rows. What a
@@ -38,6 +40,7 @@ struct Stepper {
         const Plan before = std::exchange(plan, make_plan(world));
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         turning = turning_joints(world);
+        if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
         if (plan.runs(Effect::joints) || !plan.runs_as(before))
             solver = make_row_solver(world, plan, workers);
     }
@@ -46,6 +49,7 @@ struct Stepper {
     Workers workers;
     MotionLists motion;
     std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
+    SurfaceDetector surfaces;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     StillGround still_ground;

@@ -3,6 +3,7 @@
 
 #include "scene/deformable_faults.h"
 #include "scene/error.h"
+#include "scene/outer_faces.h"
 
 #include <cmath>
 #include <string>
@@ -68,7 +69,9 @@ void build_particles(World& world, const Scene& scene) {
         const std::string place = "/deformables/" + std::to_string(i);
         if (const auto fault = deformable_fault(scene.deformables[i], scene.materials.size()))
             throw SceneError("", place + fault->place, fault->sentence);
-        const DeformableSpec& spec = scene.deformables[i];
+        DeformableSpec spec = scene.deformables[i];
+        if (spec.kind == DeformableKind::solid && spec.triangles.empty())
+            spec.triangles = outer_faces(spec.tetrahedra);
         world.deformables.push_back({spec, static_cast<std::uint32_t>(world.particles.size()),
                                      static_cast<std::uint32_t>(spec.points.size())});
         add_particles(world, scene, i);

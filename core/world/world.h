@@ -11,6 +11,7 @@
 #include "world/particles.h"
 #include "world/places.h"
 #include "world/shape_store.h"
+#include "world/surface_contacts.h"
 
 #include <cstdint>
 #include <vector>
@@ -41,6 +42,7 @@ struct World {
                                           ///< often as there are reasons
     ContactTable contacts;
     ParticleContactTable particle_contacts;
+    std::vector<SurfaceContact> surface_contacts;
     ShapeStore shapes;
     std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table,
     std::int32_t kinematic_count = 0;  ///< then particles, kinematic bodies, and one row of zeros
@@ -63,6 +65,8 @@ struct World {
     template <class Visit>
     void each_body_among_particles(Visit visit) const {
         for (const Contact& c : particle_contacts.found) visit(c.b);
+        for (const SurfaceContact& c : surface_contacts)
+            if (c.point.body != kNoIndex) visit(c.point.body);
         for (const Link& link : links)
             for (const WorldPoint* p : {&link.a, &link.b})
                 if (p->body != kNoIndex) visit(p->body);

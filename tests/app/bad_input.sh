@@ -42,6 +42,9 @@ scene cone.json '{"bodies": [{"shape": {"cone": {"radius": 1, "half_height": 1}}
 scene pair.json '{"bodies": [{"shape": {"plane": {}}, "motion": "fixed"},
   {"shape": {"height_field": {"rows": 2, "columns": 2, "spacing": [1, 1], "heights": [0, 0, 0, 0]}}, "motion": "fixed"},
   {"shape": {"mesh": {"vertices": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "triangles": [[0,2,1],[0,1,3],[0,3,2],[1,2,3]]}}}]}'
+scene cloth.json '{"deformables": [{"kind": "cloth", "shape": {"grid": {"size": [1, 1]}}, "thickness": -1}]}'
+scene balloon.json '{"deformables": [{"kind": "balloon", "shape": {"mesh": {"points": [[0,0,0],[1,0,0],[0,1,0],[0,0,1]], "triangles": [[0,2,1],[0,1,3],[0,3,2]]}}}]}'
+scene link.json '{"links": [{"a": {"deformable": "string", "point": 0}, "b": {"position": [0, 1, 0]}}]}'
 scene inertia.json "{\"bodies\": [$body, \"mass\": 1, \"inertia\": [1, 1, 5]}]}"
 
 scene torn.urdf '<robot name="r"><link name="a">'
@@ -58,6 +61,9 @@ expect 3 "line 1" "$plumb" check "$work/broken.json"
 expect 3 "did you mean \"bodies\"" "$plumb" check "$work/key.json"
 expect 3 "nan.json" "$plumb" check "$work/nan.json"
 expect 3 "/bodies/0/mass" "$plumb" check "$work/mass.json"
+expect 3 "/deformables/0/thickness" "$plumb" check "$work/cloth.json"
+expect 3 "the edge from point 1 to point 2 belongs to triangle 0 alone" "$plumb" check "$work/balloon.json"
+expect 3 "/links/0/a/deformable" "$plumb" check "$work/link.json"
 expect 3 "/materials/ice/friction" "$plumb" check "$work/friction.json"
 expect 3 "did you mean \"sphere\"" "$plumb" check "$work/shape.json"
 expect 3 "did you mean \"wood\"" "$plumb" check "$work/material.json"

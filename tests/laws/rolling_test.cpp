@@ -195,6 +195,59 @@ TEST_P(Rolling, KeepsItsSpeed) {
     }
 }
 
+/// Contacts are kept from step to step where hardly anything moves, and do not drive what rolls.
+TEST_P(Rolling, KeepsItsSpeedWhereItIsSlow) {
+    for (const Geometry& shape : {sphere(0.15), round_about_y(ShapeKind::capsule, 0.15, 0.2)})
+        for (const double speed : {1e-2, 3e-3, 1e-3}) {
+            Scene s = scene();
+            add_ground(s);
+            BodySpec& body = add_body(s, shape, {0, 0.15, 0});
+            body.placement.rotation = Eigen::AngleAxisd(90 * kDegree, Vector::UnitX());
+            body.velocity = {speed, 0, 0};
+            body.angular_velocity = {0, 0, -speed / 0.15};
+            Simulation simulation(s, colliders(), collider());
+            run_for(simulation, 20);
+            EXPECT_NEAR(simulation.world().bodies.velocity[1].x() / speed, 1, 0.01)
+                << (shape.kind == ShapeKind::sphere ? "ball" : "capsule") << " at " << speed
+                << " m/s";
+        }
+}
+
+/// A capsule of radius r and inertia J that lies across one of radius R > r rolls on it by an angle
+/// θ, which lifts it by (R + r) (cos θ − 1) + R θ sin θ, about (R − r) θ²/2: it swings with
+/// ω² = m g (R − r)/(J + m r²), and keeps its energy.
+TEST_P(Rolling, ACapsuleAcrossAnotherSwingsOn) {
+    const double below = 0.5, radius = 0.15;
+    for (const double angle : {1e-2, 1e-3, 2e-4}) {
+        Scene s = scene();
+        const Rotation level(Eigen::AngleAxisd(90 * kDegree, Vector::UnitX()));
+        BodySpec& support = add_body(s, round_about_y(ShapeKind::capsule, below, 0.5), {0, 0, 0});
+        support.motion = Motion::kinematic;  // what is fixed takes back energy
+        support.placement.rotation = level;
+        BodySpec& body =
+            add_body(s, round_about_y(ShapeKind::capsule, radius, 0.4), {0, below + radius, 0});
+        body.placement.rotation = Eigen::AngleAxisd(90 * kDegree, Vector::UnitZ());
+        Simulation probe(s, colliders(), collider());
+        const Bodies& made = probe.world().bodies;
+        const double inertia = made.inertia[1].maxCoeff() + made.mass[1] * radius * radius;
+        const double rate = std::sqrt(made.mass[1] * kGravity * (below - radius) / inertia);
+        body.angular_velocity = {0, 0, angle * rate};
+        body.velocity = {-angle * rate * radius, 0, 0};
+        Simulation simulation(s, colliders(), collider());
+        double most = 0, last = 0, crossed = 0;
+        int swings = 0;
+        while (simulation.time() < 40) {
+            ASSERT_TRUE(simulation.step().finite);
+            const double now = simulation.world().bodies.angular_velocity[1].z();
+            if (simulation.time() > 35) most = std::max(most, std::abs(now));
+            if (last < 0 && now >= 0) crossed = simulation.time(), ++swings;
+            last = now;
+        }
+        EXPECT_NEAR(most / (angle * rate), 1, 0.02) << "angle " << angle;
+        EXPECT_NEAR(2 * std::numbers::pi * (swings - 0.25) / crossed / rate, 1, 0.01);
+    }
+}
+
 /// A disk that rolls in a circle at a steady tilt θ of its axis from upright, going round at Ω.
 ///
 /// Axes that go round with it: e₃ along the disk's axis, e₂ up its slope, e₁ = e₂ × e₃ level. With

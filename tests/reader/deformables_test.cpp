@@ -246,6 +246,34 @@ TEST(Deformables, RefuseBalloonsAndSolidsThatHoldNothing) {
             "more than two tetrahedra meet in the face of points 0, 1 and 2: 0, 1 and 2");
 }
 
+TEST(Deformables, AreRepeatedOverAGrid) {
+    const Scene scene = scene_of(R"({"deformables": [{
+        "repeat": {"count": [2, 1, 2], "spacing": [3, 1, 5], "origin": [0, 7, 0]},
+        "deformables": [{"name": "string", "kind": "rope", "position": [0, 1, 0],
+                         "shape": {"line": {"from": [0, 0, 0], "to": [1, 0, 0], "segments": 1}},
+                         "attach": [{"near": {"point": [1, 1, 0], "radius": 0.1}}]}]}]})");
+    ASSERT_EQ(scene.deformables.size(), 4u);
+    ASSERT_EQ(scene.attachments.size(), 4u);
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(scene.deformables[i].name, "string_000" + std::to_string(i + 1));
+        EXPECT_EQ(scene.deformables[i].points[0], Eigen::Vector3d(3 * (i % 2), 8, 5 * (i / 2)));
+        EXPECT_EQ(scene.attachments[i].deformable, i);
+        EXPECT_EQ(scene.attachments[i].points, std::vector<std::uint32_t>{1});
+    }
+    const std::string grid = R"({"deformables": [{"repeat": {"count": [300, 300, 300]}, )";
+    expect_error(grid + R"("deformables": [{"kind": "rope", "shape": {"line": {"from": [0, 0, 0],
+                           "to": [1, 0, 0], "segments": 9999}}}]}]})",
+                 "/deformables/0/repeat", "but a scene may have at most 1000000");
+    expect_error(R"({"deformables": [{"repeat": {"count": [2, 1, 1], "spacing": [1e9, 0, 0]},
+                     "deformables": [{"kind": "rope", "shape": {"line": {"from": [0, 0, 0],
+                                      "to": [1, 0, 0]}}}]}]})",
+                 "/deformables/0/deformables/0/shape", "lies further from the origin than 1e9 m");
+    expect_error(grid + R"("deformables": []}]})", "/deformables/0/deformables",
+                 "a list of at least one deformable");
+    expect_error(grid + R"("deformables": [{"kind": "rop"}]}]})",
+                 "/deformables/0/deformables/0/kind", "did you mean \"rope\"?");
+}
+
 TEST(Deformables, AreLimitedInNumber) {
     expect_error(
         with(R"("kind": "cloth", "shape": {"grid": {"cells": [1000, 1000], "size": [1, 1]}})"),

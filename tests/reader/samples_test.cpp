@@ -3,6 +3,8 @@
 #include <set>
 
 #include "reading.h"
+#include "scene/deformable_faults.h"
+#include "scene/link_faults.h"
 
 namespace plumb::test {
 
@@ -165,6 +167,86 @@ TEST(Samples, ConveyorsScriptBeginsWhereThePlatformIs) {
     EXPECT_EQ(platform.script.keyframes.front().placement.position, platform.placement.position);
     EXPECT_EQ(platform.script.keyframes.back().placement.position, platform.placement.position);
     EXPECT_TRUE(platform.script.loop);
+}
+
+TEST(Samples, ClothHangsByFourEqualCornersUnderTenTori) {
+    const Scene scene = sample("cloth");
+    ASSERT_EQ(scene.deformables.size(), 1u);
+    EXPECT_EQ(scene.deformables[0].points.size(), 41u * 41u);
+    ASSERT_EQ(scene.attachments.size(), 4u);
+    for (const AttachmentSpec& corner : scene.attachments) {
+        EXPECT_EQ(corner.body, kNoIndex);
+        EXPECT_EQ(corner.points.size(), 6u);
+    }
+    std::size_t rings = 0;
+    for (const BodySpec& body : scene.bodies) rings += body.motion == Motion::dynamic;
+    EXPECT_EQ(rings, 10u);
+}
+
+TEST(Samples, TrampolinesEdgeIsInItsFrame) {
+    const Scene scene = sample("trampoline");
+    std::set<std::uint32_t> held;
+    for (const AttachmentSpec& side : scene.attachments)
+        held.insert(side.points.begin(), side.points.end());
+    EXPECT_EQ(held.size(), 4u * 24u);
+}
+
+TEST(Samples, StringsEndsAreAtTheCeilingAndOnTheCrate) {
+    const Scene scene = sample("string");
+    ASSERT_EQ(scene.attachments.size(), 2u);
+    for (const AttachmentSpec& end : scene.attachments) {
+        const BodySpec& body = scene.bodies[end.body];
+        const Eigen::Vector3d local =
+            scene.deformables[0].points[end.points[0]] - body.placement.position;
+        EXPECT_NEAR(std::abs(local.y()), scene.geometries[body.geometry].half_extents.y(), 1e-12);
+    }
+}
+
+TEST(Samples, BalloonsTopsAreOnThePlank) {
+    const Scene scene = sample("balloons");
+    ASSERT_EQ(scene.attachments.size(), 6u);
+    for (const AttachmentSpec& top : scene.attachments) {
+        EXPECT_EQ(scene.bodies[top.body].name, "plank");
+        EXPECT_GE(top.points.size(), 3u);
+        const double plank = scene.bodies[top.body].placement.position.y() - 0.025;
+        for (const std::uint32_t p : top.points)
+            EXPECT_NEAR(scene.deformables[top.deformable].points[p].y(), plank, 0.02);
+    }
+}
+
+TEST(Samples, NetsRopesAreSlackAtTheStart) {
+    const Scene scene = sample("net");
+    ASSERT_EQ(scene.links.size(), 4u);
+    for (const LinkSpec& rope : scene.links) {
+        EXPECT_FALSE(rope.shortest);
+        EXPECT_LT((position_of(scene, rope.a) - position_of(scene, rope.b)).norm(), *rope.longest);
+        EXPECT_EQ(std::abs(position_of(scene, rope.a).x()), 0.8);
+    }
+}
+
+TEST(Samples, DuckIsClosedAndStandsOnTheGround) {
+    const Scene scene = sample("elk");
+    EXPECT_TRUE(scene.remarks.empty());
+    const DeformableSpec& duck = scene.deformables.at(0);
+    EXPECT_GT(duck.points.size(), 500u);
+    EXPECT_FALSE(deformable_faults::edge_fault(duck.triangles, true));
+    EXPECT_NEAR(deformable_faults::enclosed_volume(duck.points, duck.triangles), 0.18, 0.005);
+    double lowest = 1;
+    for (const Eigen::Vector3d& p : duck.points) lowest = std::min(lowest, p.y());
+    EXPECT_GE(lowest, duck.radius);
+    EXPECT_LE(lowest, duck.radius + 0.02);
+}
+
+TEST(Samples, ElksWheelsRollOnTheGround) {
+    const Scene scene = sample("elk");
+    ASSERT_EQ(scene.joints.size(), 4u);
+    for (const JointSpec& axle : scene.joints) {
+        const BodySpec& wheel = scene.bodies[axle.body_a];
+        const double radius = scene.geometries[wheel.geometry].radius;
+        EXPECT_EQ(axle.anchor, wheel.placement.position);
+        EXPECT_EQ(wheel.placement.position.y(), radius);
+        EXPECT_DOUBLE_EQ(wheel.velocity.x(), -wheel.angular_velocity.z() * radius);
+    }
 }
 
 }  // namespace plumb::test

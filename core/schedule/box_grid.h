@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+/// Boxes sorted into the cells of a grid, to be found by other boxes. Its memory is reused.
+#pragma once
+
+#include "math/types.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+class BoxGrid {
+public:
+    /// Sorts boxes [low, high] into cells of a side that suits their mean extent.
+    void build(const std::vector<Vector3d>& low, const std::vector<Vector3d>& high);
+
+    /// Calls visit(box) for each box that shares a cell with [low, high], and for some others, each
+    /// once.
+    template <class Visit>
+    void each_near(const Vector3d& low, const Vector3d& high, Visit visit) {
+        for (const std::uint32_t box : large_) visit(box);
+        ++stamp_;
+        const bool few = each_cell(low, high, [&](std::uint32_t bucket) {
+            for (std::uint32_t i = first_[bucket]; i < first_[bucket + 1]; ++i) {
+                if (seen_[boxes_[i]] == stamp_) continue;
+                seen_[boxes_[i]] = stamp_;
+                visit(boxes_[i]);
+            }
+        });
+        if (few) return;
+        for (std::uint32_t box = 0; box < seen_.size(); ++box)
+            if (!is_large_[box]) visit(box);
+    }
+
+private:
+    struct Cell {
+        std::int64_t x, y, z;
+    };
+    Cell cell_of(const Vector3d& p) const {
+        const auto at = [&](double x) {
+            return static_cast<std::int64_t>(std::floor(std::clamp(x / side_, -1e15, 1e15)));
+        };
+        return {at(p.x()), at(p.y()), at(p.z())};
+    }
+    std::uint32_t bucket_of(std::int64_t x, std::int64_t y, std::int64_t z) const {
+        const auto mixed = static_cast<std::uint64_t>(x) * 73856093u ^
+                           static_cast<std::uint64_t>(y) * 19349663u ^
+                           static_cast<std::uint64_t>(z) * 83492791u;
+        return static_cast<std::uint32_t>(mixed) & mask_;
+    }
+
+    /// Calls visit(bucket) for each cell of a box; false where those are too many.
+    template <class Visit>
+    bool each_cell(const Vector3d& low, const Vector3d& high, Visit visit) const {
+        const Vector3d cells = (high - low) / side_ + Vector3d::Ones();
+        if (!(cells.prod() <= kMostCells)) return false;
+        const Cell a = cell_of(low), b = cell_of(high);
+        for (std::int64_t x = a.x; x <= b.x; ++x)
+            for (std::int64_t y = a.y; y <= b.y; ++y)
+                for (std::int64_t z = a.z; z <= b.z; ++z) visit(bucket_of(x, y, z));
+        return true;
+    }
+
+    /// A box in more cells than this is shown to everybody instead.
+    static constexpr double kMostCells = 64;
+
+    double side_ = 1;
+    std::uint32_t mask_ = 0;
+    std::uint64_t stamp_ = 0;
+    std::vector<std::uint32_t> first_, boxes_, large_;
+    std::vector<std::uint8_t> is_large_;
+    std::vector<std::uint64_t> seen_;
+};
+
+}  // namespace plumb

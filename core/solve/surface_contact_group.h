@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+/// Contacts of points with surfaces that deform, one after another: a point of a particle or a body
+/// against three particles, whose connectors are the weights of the triangle's nearest point (§7).
+#pragma once
+
+#include "constraints/connector.h"
+#include "constraints/contact.h"
+#include "effects/plan.h"
+#include "schedule/workers.h"
+#include "solve/constraint_group.h"
+
+#include <vector>
+
+namespace plumb {
+
+template <class Real>
+class SurfaceContactGroup final : public ConstraintGroup<Real> {
+public:
+    SurfaceContactGroup(const Plan& plan, Workers& workers)
+        : rubs_(plan.runs(Effect::friction)), workers_(workers) {}
+
+    Stage stage() const override { return Stage::surface_contacts; }
+    bool empty() const override { return rows_.empty(); }
+
+    void load(const World& world) override { rows_.resize(world.surface_contacts.size()); }
+
+    void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
+               double) override {
+        const Particles& p = world.particles;
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            const SurfaceContact& c = world.surface_contacts[i];
+            Row& row = rows_[i];
+            row = Row();
+            row.normal = c.normal, row.friction = rubs_ ? c.friction : 0;
+            Vector3d place;
+            if (c.point.particle != kNoIndex) {
+                place = p.position[c.point.particle];
+                row.point = world.particle_row(c.point.particle);
+                row.inverse.mass = p.inverse_mass[c.point.particle];
+            } else {
+                place = in_world(world.bodies, c.point.body, c.point.position);
+                row.point = world.bodies.row[c.point.body];
+                row.arm = place - world.bodies.position[c.point.body];
+                row.inverse = {world.bodies.inverse_mass[c.point.body],
+                               world.bodies.world_inverse_inertia[c.point.body]};
+            }
+            double response = plumb::response(row.inverse, row.arm, c.normal, c.normal);
+            for (int k = 0; k < 3; ++k) {
+                row.corner[k] = world.particle_row(c.triangle[k]);
+                row.weight[k] = c.weights[k];
+                row.corner_mass[k] = p.inverse_mass[c.triangle[k]];
+                place -= c.weights[k] * p.position[c.triangle[k]];
+                response += c.weights[k] * c.weights[k] * row.corner_mass[k];
+            }
+            row.gap = c.normal.dot(place) - c.distance;
+            row.mass = response > 0 ? 1 / response : 0;
+        }
+    }
+
+    void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
+                           std::uint32_t worker) override {
+        if (worker == 0)
+            for (std::size_t i = 0; i < rows_.size(); ++i)
+                solve(rows, pass, rows_[pass.iteration % 2 == 0 ? i : rows_.size() - 1 - i]);
+        workers_.barrier();
+    }
+
+private:
+    struct Row {
+        std::int32_t point = 0, corner[3] = {0, 0, 0};
+        InverseMass<double> inverse{0, {0, 0, 0, 0, 0, 0}};
+        Vector3d arm = Vector3d::Zero(), normal = Vector3d::Zero();
+        double weight[3] = {0, 0, 0}, corner_mass[3] = {0, 0, 0};
+        double gap = 0, mass = 0, friction = 0;
+        double push = 0;                     ///< summed along the normal [N s]
+        Vector3d rubbed = Vector3d::Zero();  ///< summed across it [N s]
+    };
+
+    static Velocity<double> velocity(const BodyRows<Real>& rows, std::int32_t row) {
+        const auto at = static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+        const auto sum = [&](int k) {
+            return double(rows.start[at + k]) + double(rows.change[at + k]);
+        };
+        return {{sum(0), sum(1), sum(2)}, {sum(4), sum(5), sum(6)}};
+    }
+
+    static void solve(const BodyRows<Real>& rows, const PassSettings<Real>& pass, Row& row) {
+        if (row.mass == 0) return;
+        const double h = double(pass.h), s = double(pass.stiffness);
+        Vector3d u = velocity_at(velocity(rows, row.point), row.arm);
+        for (int k = 0; k < 3; ++k) u -= row.weight[k] * velocity(rows, row.corner[k]).v;
+        const double left = overlap_left(row.gap, double(pass.recovery));
+        const double c = row.gap + h * row.normal.dot(u) - left, d = std::min(row.gap, 0.0) - left;
+        const double pushed = plumb::push(row.push, -gap_below(c, d, s) * row.mass / h, 0.0);
+        Vector3d impulse = pushed * row.normal;
+        if (row.friction > 0) {
+            const Vector3d across = u - row.normal.dot(u) * row.normal;
+            const Vector3d before = row.rubbed;
+            row.rubbed -= row.mass * across;
+            const double size = row.rubbed.norm(), most = row.friction * row.push;
+            if (size > most) row.rubbed *= most / size;
+            impulse += row.rubbed - before;
+        }
+        Velocity<double> change{Vector3d::Zero(), Vector3d::Zero()};
+        apply_impulse<double>(change, row.inverse, row.arm, impulse);
+        add(rows, row.point, change);
+        for (int k = 0; k < 3; ++k)
+            add(rows, row.corner[k],
+                {Vector3d(impulse * (-row.weight[k] * row.corner_mass[k])), Vector3d::Zero()});
+    }
+
+    static void add(const BodyRows<Real>& rows, std::int32_t row, const Velocity<double>& change) {
+        if (row >= rows.dynamic_count) return;
+        Real* x = rows.change + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
+        for (int k = 0; k < 3; ++k) {
+            x[k] = static_cast<Real>(double(x[k]) + change.v[k]);
+            x[4 + k] = static_cast<Real>(double(x[4 + k]) + change.w[k]);
+        }
+    }
+
+    bool rubs_;
+    Workers& workers_;
+    std::vector<Row> rows_;
+};
+
+}  // namespace plumb
