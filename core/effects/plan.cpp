@@ -140,8 +140,8 @@ Wish links(const World& w) {
 }
 Wish particle_contacts(const World& w) {
     if (w.particles.size() == 0) return {false, "no deformables"};
-    return counted(contacts(w).wanted ? shaped_bodies(w) : 0,
-                   "bodies have shapes that particles may meet",
+    if (!may_touch(w)) return {false, "there are no contacts"};
+    return counted(shaped_bodies(w), "bodies have shapes that particles may meet",
                    "no body has a shape that particles may meet");
 }
 Wish surface_contacts(const World& w) {

@@ -32,7 +32,8 @@ public:
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
         h_ = h;
-        for (Row& row : rows_) {
+        for (std::size_t i = 0; i < rows_.size(); ++i) {
+            Row& row = rows_[i];
             place(world, row.link.a, row.a);
             place(world, row.link.b, row.b);
             const Vector3d apart = row.a.start - row.b.start;
@@ -40,7 +41,7 @@ public:
             row.length = length;
             row.line = length > 0 ? Vector3d(apart / length) : Vector3d(Vector3d::UnitY());
             const double response = line_response(row.a, row.b, row.line);
-            const double pull = row.impulse.norm();  // of the substep before
+            const double pull = world.links[i].impulse.norm();  // of the substep before
             row.share = length > 0 ? line_share(h * pull * response / length) : 0;
             row.impulse.setZero();
         }

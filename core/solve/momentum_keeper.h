@@ -50,7 +50,7 @@ public:
                                         arm_[i] * arm_[i].transpose());
             }
             // a straight string has no inertia about itself, and nothing turns it there
-            inertia += 1e-9 * inertia.trace() * Matrix3d::Identity();
+            inertia += 1e-13 * inertia.trace() * Matrix3d::Identity();
             s.inverse_inertia = inertia.inverse();
         }
     }

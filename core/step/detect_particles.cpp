@@ -36,12 +36,15 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
     buffers.places.resize(world.particles.size());
     for (std::size_t i = 0; i < world.particles.size(); ++i)
         buffers.places[i] = to_plain(world.particles.position[i]);
+    double furthest = 0;  // of all bodies; those that come less far are sorted out below
+    for (const double body : buffers.sweeps) furthest = std::max(furthest, body);
     for (const Deformable& d : world.deformables) {
+        const double margin = world.settings.margin + sweep(world, d, dt);
         ParticleRequest request{};
         request.positions = buffers.places.data() + d.first;
         request.radii = world.particles.radius.data() + d.first;
         request.count = d.count;
-        request.margin = world.settings.margin + sweep(world, d, dt);
+        request.margin = margin + furthest;
         request.group = d.spec.group, request.mask = d.spec.mask;
         request.runner = workers.count() > 1 ? &runner : nullptr;
         for (ContactRoom& room : buffers.rooms) room.clear();
@@ -59,10 +62,10 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
         for (const ContactRoom& room : buffers.rooms)
             for (Contact c : room) {
                 c.a += d.first;
-                if (is_sound(c, world))
-                    table.found.push_back(c);
-                else
+                if (!is_sound(c, world))
                     ++report.rejected_contacts;
+                else if (c.gap <= margin + buffers.sweeps[c.b])
+                    table.found.push_back(c);
             }
     }
     const auto before = [](const Contact& x, const Contact& y) { return key(x) < key(y); };

@@ -67,7 +67,7 @@ TEST(Colouring, NoDynamicBodyStandsTwiceInAnIndependentBatch) {
 TEST(Colouring, NoPairsMakeNoBatches) {
     Colouring colouring;
     colouring.colour(random_pairs(20, 1), kDynamic);
-    colouring.colour(std::vector<BodyPair>{}, kDynamic);
+    colouring.colour(std::vector<BodyPair>(), kDynamic);
     EXPECT_TRUE(colouring.batches().empty());
     EXPECT_TRUE(colouring.order().empty());
 }
@@ -128,6 +128,71 @@ TEST(Colouring, PairsWithMoreRowsComeFirst) {
     for (const Batch& b : colouring.batches())
         for (std::uint32_t i = b.first + 1; i < b.last && b.independent; ++i)
             EXPECT_GE(pairs[colouring.order()[i - 1]].count, pairs[colouring.order()[i]].count);
+}
+
+template <int N>
+std::vector<LinkedRows<N>> random_rows(std::uint32_t count) {
+    Random random(count);
+    std::vector<LinkedRows<N>> items(count);
+    for (LinkedRows<N>& item : items) {
+        std::set<std::int32_t> rows;  // from 100 on immovable, as often as they are drawn
+        while (rows.size() < N) rows.insert(static_cast<std::int32_t>(random.below(110)));
+        std::copy(rows.begin(), rows.end(), item.rows.begin());
+        if (random.below(3) == 0) item.rows[random.below(N)] = 105;
+    }
+    return items;
+}
+
+template <int N>
+void expect_no_shared_row(std::uint32_t count) {
+    const std::vector<LinkedRows<N>> items = random_rows<N>(count);
+    Colouring colouring;
+    colouring.colour(items, kDynamic);
+    expect_complete(colouring, items.size());
+    for (const Batch& batch : colouring.batches()) {
+        std::set<std::int32_t> moving;
+        for (std::uint32_t i = batch.first; i < batch.last; ++i) {
+            if (i > batch.first) {
+                EXPECT_LT(colouring.order()[i - 1], colouring.order()[i]) << "not in their order";
+            }
+            for (const std::int32_t row : items[colouring.order()[i]].rows)
+                if (batch.independent && row < kDynamic) {
+                    EXPECT_TRUE(moving.insert(row).second) << "row " << row;
+                }
+        }
+    }
+}
+
+TEST(Colouring, NoMovingRowOfThreeOrFourStandsTwiceInAnIndependentBatch) {
+    for (const std::uint32_t count : {1u, 10u, 400u, 3000u}) {
+        expect_no_shared_row<3>(count);
+        expect_no_shared_row<4>(count);
+    }
+}
+
+/// All share one point in one of their places: 63 find a colour, the others come last in order.
+template <int N>
+void expect_overflow_in_order() {
+    std::vector<LinkedRows<N>> items(99);
+    for (std::int32_t i = 0; i < 99; ++i) {
+        LinkedRows<N>& item = items[static_cast<std::size_t>(i)];
+        for (std::int32_t k = 0; k < N; ++k) item.rows[k] = 1 + N * i + k;
+        item.rows[i % N] = 0;
+    }
+    Colouring colouring;
+    colouring.colour(items, 1 + N * 99);
+    expect_complete(colouring, items.size());
+    ASSERT_EQ(colouring.batches().size(), Colouring::kMaxColours + 1);
+    const Batch overflow = colouring.batches().back();
+    EXPECT_FALSE(overflow.independent);
+    ASSERT_EQ(overflow.last - overflow.first, 99 - Colouring::kMaxColours);
+    for (std::uint32_t i = overflow.first; i < overflow.last; ++i)
+        EXPECT_EQ(colouring.order()[i], i);
+}
+
+TEST(Colouring, WhatFindsNoColourAmongThreeOrFourStaysInItsOrder) {
+    expect_overflow_in_order<3>();
+    expect_overflow_in_order<4>();
 }
 
 TEST(Colouring, AUsedColouringGivesWhatAFreshOneGives) {

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+/// What deformables keep and where they come to rest: momentum, elongations, volumes, pressures.
+#include "constraints/volume.h"
+#include "support/random.h"
+#include "support/scenes.h"
+#include "support/soft.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iostream>
+
+namespace plumb::test {
+namespace {
+
+class Deformables : public InEachPrecision {};
+INSTANTIATE_TEST_SUITE_P(, Deformables, each_precision(), precision_name);
+
+/// Sums of the magnitudes of what makes up both momenta.
+std::pair<double, double> momentum_sizes(const World& w) {
+    double linear = 0, angular = 0;
+    const auto add = [&](double mass, const Vector& x, const Vector& v) {
+        linear += mass * v.norm(), angular += mass * x.cross(v).norm();
+    };
+    for (std::size_t i = 0; i < w.bodies.size(); ++i) {
+        add(w.bodies.mass[i], w.bodies.position[i], w.bodies.velocity[i]);
+        angular += w.bodies.inertia[i].maxCoeff() * w.bodies.angular_velocity[i].norm();
+    }
+    for (std::size_t i = 0; i < w.particles.size(); ++i)
+        add(w.particles.mass[i], w.particles.position[i], w.particles.velocity[i]);
+    return {linear, angular};
+}
+
+/// A cloth, a balloon, a solid and a rope, free in space, and spinning bodies that fly at them;
+/// `linked`: with links and attachments between them and to two bodies on a joint.
+Scene free_mix(Precision precision, bool linked, Random& random) {
+    Scene s;
+    s.settings.precision = precision;
+    s.settings.gravity.setZero();
+    s.settings.dt = random.number(0.004, 0.02);
+    s.settings.substeps = 1 + random.below(10);
+    s.settings.velocity_iterations = 1 + random.below(6);
+    s.settings.position_iterations = 1 + random.below(10);
+    s.materials[0].density = 300;
+    const auto moving = [&](DeformableSpec spec, double mass) {
+        spec.mass = mass, spec.radius = 0.02;
+        spec.velocity = random.vector(0.2);
+        add_soft(s, std::move(spec));
+    };
+    moving(sheet({6, 6}, {0.6, 0.6}, {1.5, 0, 0}), 0.5);
+    s.deformables.back().elasticity.youngs_modulus = 1e5;
+    moving(balloon(0.3, 3, {-1.5, 0, 0}), 0.3);
+    s.deformables.back().elasticity.youngs_modulus = 1e5;
+    moving(block({0.2, 0.3, 0.2}, {2, 3, 2}, {0, 1.5, 0}), 2);
+    s.deformables.back().elasticity.damping = 0.01;
+    moving(rope({-0.5, -1.5, 0}, {0.5, -1.5, 0}, 8), 0.4);
+    s.deformables.back().thickness = 0.02;
+    for (const Vector& at : {Vector(1.5, 0.8, 0.05), Vector(-1.5, 0.8, 0.1), Vector(0.05, 2.5, 0),
+                             Vector(0.1, -0.9, 0)}) {
+        const auto geometry = random.below(2) == 0 ? sphere(0.15) : box(0.12, 0.1, 0.15);
+        BodySpec& body = add_body(s, geometry, at);
+        body.velocity =
+            at.y() > 2 || at.y() < 0 ? Vector(0, at.y() > 0 ? -1.5 : -1, 0) : Vector(0, -1.2, 0);
+        body.angular_velocity = random.vector(4);
+    }
+    if (!linked) return s;
+    // two bodies on a joint, one on the rope's end, the other tied to the cloth and the solid
+    add_body(s, box(0.1, 0.1, 0.1), {0.6, -1.5, 0}).angular_velocity = random.vector(1);
+    add_body(s, box(0.1, 0.1, 0.1), {0.85, -1.5, 0}).mass = 3;
+    add_joint(s, JointKind::ball, 4, 5, {0.72, -1.5, 0});
+    hold(s, 3, {8}, 4);
+    add_link(s, on_body(5, {0.9, -1.4, 0}), point_of(0, 24)).longest = 1.9;
+    add_link(s, on_body(5, {0.8, -1.4, 0}), point_of(2, 0)).compliance = 1e-3;
+    s.links.back().damping = 5;
+    add_link(s, point_of(1, 3), point_of(3, 0)).longest = 2.2;
+    return s;
+}
+
+/// Runs a mix for 10 s and expects its momentum back.
+void expect_momentum_kept(const Scene& s, double bound, double angular_bound) {
+    SCOPED_TRACE(testing::Message() << s.settings.dt << " s x " << s.settings.substeps << " x ("
+                                    << s.settings.velocity_iterations << " + "
+                                    << s.settings.position_iterations << ")");
+    Simulation simulation(s, colliders(), "reference");
+    const World& world = simulation.world();
+    const Vector p0 = linear_momentum(world), l0 = angular_momentum(world);
+    auto [linear, angular] = momentum_sizes(world);
+    std::uint32_t touched = 0;
+    while (simulation.time() < 10) {
+        ASSERT_TRUE(simulation.step().finite);
+        const auto sizes = momentum_sizes(world);
+        linear = std::max(linear, sizes.first), angular = std::max(angular, sizes.second);
+        for (const Contact& c : world.particle_contacts.found) touched += c.gap < 0;
+    }
+    const double linear_error = (linear_momentum(world) - p0).norm() / linear,
+                 angular_error = (angular_momentum(world) - l0).norm() / angular;
+    std::cout << s.settings.dt << " s x " << s.settings.substeps << " x ("
+              << s.settings.velocity_iterations << " + " << s.settings.position_iterations
+              << "): linear " << linear_error << ", angular " << angular_error << "\n";
+    EXPECT_LT(linear_error, bound);
+    EXPECT_LT(angular_error, angular_bound);
+    EXPECT_GT(touched, 10u) << "they must have met";
+}
+
+TEST_P(Deformables, KeepMomentumAmongBodies) {
+    Random random(17);
+    const double bound = GetParam() == Precision::single ? 1e-5 : 1e-10;
+    for (int draw = 0; draw < 4; ++draw)
+        expect_momentum_kept(free_mix(GetParam(), false, random), bound, bound);
+}
+
+/// What hangs on links keeps its angular momentum too, unless a substep is so long that a light
+/// particle would swing by more than a radian in it.
+TEST_P(Deformables, KeepMomentumOnLinks) {
+    Random random(18);
+    const double bound = GetParam() == Precision::single ? 1e-5 : 1e-10;
+    for (int draw = 0; draw < 3; ++draw) {
+        Scene s = free_mix(GetParam(), true, random);
+        s.settings.dt = random.number(0.008, 0.02), s.settings.position_iterations = 1 + draw;
+        if (draw % 2 == 0) s.settings.substeps += 3;
+        const bool resolved = s.settings.dt / s.settings.substeps < 0.003;
+        expect_momentum_kept(s, bound, resolved ? bound : 0.01);
+    }
+}
+
+/// Nothing moves by itself: each kind, free and without gravity, turned at random. Substeps are
+/// those in which a solid's waves do not cross more than a cell.
+TEST_P(Deformables, StayAtRest) {
+    Random random(5);
+    Scene s;
+    s.settings.precision = GetParam();
+    s.settings.gravity.setZero();
+    s.settings.forbid = {"contacts"};
+    s.settings.substeps = 20;
+    for (DeformableSpec spec :
+         {sheet({6, 6}, {0.6, 0.6}), balloon(0.3, 4), block({0.2, 0.3, 0.2}, {3, 4, 3}),
+          rope({-0.5, 0, 0}, {0.5, 0, 0}, 9)}) {
+        const Rotation turn = random.rotation();
+        const Vector away = random.vector(3);
+        for (Vector& p : spec.points) p = turn * p + away;
+        spec.elasticity.youngs_modulus = 1e6;
+        add_soft(s, std::move(spec));
+    }
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 2);
+    double furthest = 0, fastest = 0;
+    const World& world = simulation.world();
+    for (const Deformable& d : world.deformables)
+        for (std::uint32_t i = 0; i < d.count; ++i) {
+            furthest = std::max(furthest,
+                                (world.particles.position[d.first + i] - d.spec.points[i]).norm());
+            fastest = std::max(fastest, world.particles.velocity[d.first + i].norm());
+        }
+    std::cout << "moved by " << furthest << " m, at " << fastest << " m/s\n";
+    EXPECT_LT(furthest, GetParam() == Precision::single ? 1e-4 : 1e-9);
+}
+
+/// Steps of a given fineness: substeps x position iterations.
+struct Fineness {
+    std::uint32_t substeps, iterations;
+};
+
+/// Elongation of a hanging strip of n rows, whose last row has half a mass; `strain` is that of
+/// the middle by Hooke's law. A rope's strain is the force over E A: all in all a m g n²/2 with the
+/// compliance a of a segment. A sheet's force is E A (λ² − 1) λ/2 of the stretch λ.
+double elongation(bool is_cloth, std::uint32_t n, double strain) {
+    double sum = 0;
+    for (std::uint32_t row = 1; row <= n; ++row) {
+        const double force = 2 * strain * (row - 0.5) / n;
+        double stretch = 1 + force;
+        for (int i = 0; is_cloth && i < 10; ++i)
+            stretch -=
+                ((stretch * stretch - 1) * stretch / 2 - force) / ((3 * stretch * stretch - 1) / 2);
+        sum += (stretch - 1) / n;
+    }
+    return sum;
+}
+
+/// A hanging rope or strip of 1 m and n segments after 1.5 s: its elongation over the law's.
+double relative_elongation(Precision precision, bool is_cloth, std::uint32_t n, Fineness fine) {
+    Scene s;
+    s.settings.precision = precision;
+    s.settings.forbid = {"contacts"};
+    s.settings.substeps = fine.substeps, s.settings.position_iterations = fine.iterations;
+    const double width = 0.2, mass = 0.3, strain = 0.01;
+    DeformableSpec spec = is_cloth ? sheet({2, n}, {width, 1}) : rope({0, 0, 0}, {0, -1, 0}, n);
+    if (is_cloth)
+        for (Vector& p : spec.points) p = {p.x(), p.z() - 0.5, 0};
+    const double section = is_cloth ? width * spec.thickness : rope_section(spec);
+    spec.mass = mass;
+    spec.elasticity.poissons_ratio = spec.elasticity.bending_stiffness.emplace(0);
+    spec.elasticity.youngs_modulus = mass * 9.81 / (2 * strain * section);
+    spec.elasticity.damping = 0.05;
+    const std::uint32_t low = is_cloth ? 1 : n, high = is_cloth ? 3 * n + 1 : 0;
+    add_soft(s, spec);
+    hold(s, 0, is_cloth ? std::vector{high - 1, high, high + 1} : std::vector{high});
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 1.5);
+    const std::vector<Vector>& p = simulation.world().particles.position;
+    return ((p[high] - p[low]).norm() - 1) / elongation(is_cloth, n, strain);
+}
+
+TEST_P(Deformables, HangingRopesAndStripsStretchAsHookeSays) {
+    const std::pair<std::uint32_t, Fineness> cases[] = {
+        {5, {10, 20}}, {5, {60, 5}}, {10, {20, 25}}, {10, {100, 6}}, {20, {40, 50}}};
+    for (const bool is_cloth : {false, true})
+        for (const auto& [n, fine] : cases) {
+            const double is = relative_elongation(GetParam(), is_cloth, n, fine);
+            std::cout << (is_cloth ? "cloth " : "rope ") << n << ", " << fine.substeps << " x "
+                      << fine.iterations << ": " << is << "\n";
+            EXPECT_NEAR(is, 1, 0.01) << (is_cloth ? "cloth " : "rope ") << n;
+        }
+}
+
+double volume(const World& world, std::uint32_t deformable) {
+    const Deformable& d = world.deformables[deformable];
+    return volume_of(d.spec.triangles,
+                     [&](std::uint32_t i) { return world.particles.position[d.first + i]; });
+}
+
+TEST_P(Deformables, BalloonsKeepTheirVolume) {
+    for (const double ratio : {0.8, 1.0, 1.3}) {
+        Scene s;
+        s.settings.precision = GetParam();
+        add_ground(s);
+        DeformableSpec& ball = add_soft(s, balloon(0.3, 5, {0, 0.35, 0}));
+        ball.volume_ratio = ratio, ball.radius = 0.01, ball.mass = 0.5;
+        ball.elasticity.youngs_modulus = 1e5, ball.elasticity.damping = 0.02;
+        Simulation simulation(s, colliders(), "reference");
+        const double rest = volume(simulation.world(), 0);
+        run_for(simulation, 0.5);
+        double worst = 0;
+        while (simulation.time() < 3) {
+            simulation.step();
+            worst = std::max(worst, std::abs(volume(simulation.world(), 0) / (ratio * rest) - 1));
+        }
+        std::cout << ratio << ": off by " << worst << "\n";
+        EXPECT_LT(worst, 0.01) << ratio;
+    }
+}
+
+/// p = 2 N / r. Of a sheet whose energy is that of Green's strain, the force per length is
+/// N = E t (λ² − 1) / 2 (1 − ν) of the stretch λ = r / R, where it is told by lengths as they are
+/// now: p R = E t (λ − 1/λ) / (1 − ν).
+TEST_P(Deformables, APressureBlowsABalloonUpToLaplacesRadius) {
+    for (const double stretch : {1.02, 1.05, 1.15}) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.gravity.setZero();
+        s.settings.forbid = {"contacts"};
+        s.settings.substeps = 20, s.settings.position_iterations = 15;
+        const double radius = 0.5, thickness = 0.001, young = 1e6, nu = 0.3;
+        DeformableSpec& ball = add_soft(s, balloon(radius, 4));
+        ball.thickness = thickness, ball.mass = 1;
+        ball.elasticity.youngs_modulus = young, ball.elasticity.poissons_ratio = nu;
+        ball.elasticity.bending_stiffness = 0;
+        ball.elasticity.damping = 0.01;
+        ball.pressure = young * thickness * (stretch - 1 / stretch) / ((1 - nu) * radius);
+        Simulation simulation(s, colliders(), "reference");
+        const double rest = volume(simulation.world(), 0);
+        run_for(simulation, 0.5);
+        const World& world = simulation.world();
+        const double is = std::cbrt(volume(world, 0) / rest);
+        std::cout << stretch << ": " << is << ", momentum " << linear_momentum(world).norm()
+                  << "\n";
+        EXPECT_NEAR((is - 1) / (stretch - 1), 1, 0.02) << stretch;
+        EXPECT_LT(linear_momentum(world).norm(), GetParam() == Precision::single ? 1e-5 : 1e-12);
+        EXPECT_LT(angular_momentum(world).norm(), GetParam() == Precision::single ? 1e-5 : 1e-12);
+    }
+}
+
+}  // namespace
+}  // namespace plumb::test
