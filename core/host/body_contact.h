@@ -31,7 +31,8 @@ struct BodyContact {
     Eigen::Vector3d force() const { return normal_force * normal + friction_force; }
 };
 
-/// A point at which a particle touches a body, or nearly does.
+/// A point at which a particle touches a body, or nearly does. Points near surfaces that deform
+/// (World::surface_contacts) are not among them.
 struct ParticleContact {
     std::uint32_t particle, body;          ///< particle: index into Frame::particles
     std::uint32_t deformable;              ///< of which the particle is a point
