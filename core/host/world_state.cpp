@@ -41,7 +41,7 @@ void each_number_of_joints(Io& io, Table& table) {
     }
     for (auto& turn : table.turn) io(turn);
     for (auto& drive : table.drives) {
-        io(drive.impulse), io(drive.impulse_before);
+        io(drive.impulse), io(drive.impulse_before), io(drive.axis_impulse);
         auto& motor = drive.spec.motor;
         io(motor.target), io.count(motor.keys);
         for (auto& key : motor.keys) io(key.time), io(key.value);

@@ -9,6 +9,9 @@
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
 
+#include <Eigen/LU>
+
+#include <array>
 #include <vector>
 
 namespace plumb {
@@ -54,6 +57,8 @@ public:
             }
             row.gap = c.normal.dot(place) - c.distance;
             row.mass = response > 0 ? 1 / response : 0;
+            row.offset = place;
+            prepare_couple(p, c.triangle, row);
         }
     }
 
@@ -66,15 +71,47 @@ public:
     }
 
 private:
+    /// Determinant of a triangle's inertia over that of a ball's of the same trace, from which on
+    /// it counts as flat.
+    static constexpr double kLeastExtent = 1e-6;
+
     struct Row {
         std::int32_t point = 0, corner[3] = {0, 0, 0};
         InverseMass<double> inverse{0, {0, 0, 0, 0, 0, 0}};
         Vector3d arm = Vector3d::Zero(), normal = Vector3d::Zero();
         double weight[3] = {0, 0, 0}, corner_mass[3] = {0, 0, 0};
+        Vector3d offset = Vector3d::Zero();  ///< of the point from the triangle's [m]
+        Vector3d lever[3] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
+        Matrix3d inverse_inertia = Matrix3d::Zero();  ///< of the triangle's particles
         double gap = 0, mass = 0, friction = 0;
         double push = 0;                     ///< summed along the normal [N s]
         Vector3d rubbed = Vector3d::Zero();  ///< summed across it [N s]
     };
+
+    /// Opposite impulses at two points a thickness apart are a couple. The triangle bears it, as a
+    /// sheet does that is rubbed on one side, so that angular momentum stays.
+    static void prepare_couple(const Particles& p, const std::array<std::uint32_t, 3>& triangle,
+                               Row& row) {
+        double whole = 0;
+        Vector3d centre = Vector3d::Zero();
+        for (int k = 0; k < 3; ++k) {
+            if (row.corner_mass[k] == 0) return;
+            const double m = p.mass[triangle[k]];
+            whole += m, centre += m * (p.position[triangle[k]] - p.position[triangle[0]]);
+        }
+        centre = p.position[triangle[0]] + centre / whole;
+        Matrix3d inertia = Matrix3d::Zero();
+        for (int k = 0; k < 3; ++k) {
+            const Vector3d r = p.position[triangle[k]] - centre;
+            row.lever[k] = r;
+            inertia +=
+                p.mass[triangle[k]] * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
+        }
+        // a triangle without extent turns about nothing
+        const double size = inertia.trace() / 3;
+        if (inertia.determinant() > kLeastExtent * size * size * size)
+            row.inverse_inertia = inertia.inverse();
+    }
 
     static Velocity<double> velocity(const BodyRows<Real>& rows, std::int32_t row) {
         const auto at = static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
@@ -104,9 +141,12 @@ private:
         Velocity<double> change{Vector3d::Zero(), Vector3d::Zero()};
         apply_impulse<double>(change, row.inverse, row.arm, impulse);
         add(rows, row.point, change);
+        const Vector3d turn = -(row.inverse_inertia * row.offset.cross(impulse));
         for (int k = 0; k < 3; ++k)
             add(rows, row.corner[k],
-                {Vector3d(impulse * (-row.weight[k] * row.corner_mass[k])), Vector3d::Zero()});
+                {Vector3d(impulse * (-row.weight[k] * row.corner_mass[k]) +
+                          turn.cross(row.lever[k])),
+                 Vector3d::Zero()});
     }
 
     static void add(const BodyRows<Real>& rows, std::int32_t row, const Velocity<double>& change) {

@@ -24,7 +24,7 @@ void push(BodyBlock<double>& body, const Vector3d& along, const Vector3d& turn, 
 
 DrivenAxis::DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last)
     : first_(first), last_(last) {
-    for (std::uint32_t i = first; i < last; ++i) impulse_ += joints.drives[i].impulse;
+    if (first < last) impulse_ = joints.drives[first].axis_impulse;
 }
 
 void DrivenAxis::begin(const World& world, double h) {
@@ -97,9 +97,8 @@ void DrivenAxis::store_impulses(JointTable& joints) {
     AxisAnswer last = answer_;
     last.impulse = impulse_;
     share_impulse(drive_, last, shares);
-    impulse_ = 0;  // as one that is made from the table begins
     for (std::uint32_t i = first_, row = 0; i < last_; ++i)
-        impulse_ += joints.drives[i].impulse = shares[row++];
+        joints.drives[i].impulse = shares[row++], joints.drives[i].axis_impulse = impulse_;
 }
 
 }  // namespace plumb

