@@ -135,6 +135,10 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
         {Effect::exact_islands, {Stage::islands}},
         {Effect::joints, {Stage::joints}},
         {Effect::joint_trees, {Stage::trees}},
+        {Effect::deformables, {Stage::particles}},
+        {Effect::links, {Stage::links}},
+        {Effect::particle_contacts, {Stage::particle_contacts}},
+        {Effect::surface_contacts, {Stage::surface_contacts}},
         {Effect::kinematics, {Stage::kinematics}},
         {Effect::shock_propagation, {Stage::shock}}};
     return stages;

@@ -219,13 +219,18 @@ Plan make_plan(const World& world) {
         d.why = "forbidden" + (d.runs ? ", although: " + d.why : std::string());
         d.runs = false;
     }
-    Decision& exact = plan.decisions[static_cast<std::size_t>(Effect::exact_islands)];
-    if (exact.runs && !exact_islands(world).wanted) {
-        plan.warnings.push_back("\"exact_islands\" is required, but cannot run: " +
-                                exact_islands(world).why);
-        exact.why = exact_islands(world).why;
-        exact.runs = false;
-    }
+    const auto drop = [&](Effect effect, const Wish& wish) {
+        Decision& d = plan.decisions[static_cast<std::size_t>(effect)];
+        if (!d.runs || wish.wanted) return;
+        std::string said(1, '"');
+        said.append(d.name).append("\" is required, but cannot run: ").append(wish.why);
+        plan.warnings.push_back(said);
+        d.why = wish.why, d.runs = false;
+    };
+    drop(Effect::exact_islands, exact_islands(world));
+    drop(Effect::particle_contacts, plan.runs(Effect::contacts)
+                                        ? particle_contacts(world)
+                                        : Wish{false, "contacts do not run"});
     return plan;
 }
 

@@ -35,14 +35,15 @@ struct Stepper {
 
     /// After a change of the world that calls for other effects, or of its joints or rows. What a
     /// step leaves for the next is in the world's tables, so that nothing is lost. A solver without
-    /// joints holds nothing of the world, and its memory serves on.
+    /// joints, deformables and links holds nothing of the world, and its memory serves on.
     void renew(const World& world) {
         const Plan before = std::exchange(plan, make_plan(world));
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         turning = turning_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
-        if (plan.runs(Effect::joints) || !plan.runs_as(before))
-            solver = make_row_solver(world, plan, workers);
+        const bool holds =
+            plan.runs(Effect::joints) || plan.runs(Effect::deformables) || plan.runs(Effect::links);
+        if (holds || !plan.runs_as(before)) solver = make_row_solver(world, plan, workers);
     }
 
     Plan plan;

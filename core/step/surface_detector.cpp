@@ -110,6 +110,7 @@ void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
         const auto w = nearest_weights(place, corners[0], corners[1], corners[2]);
         const Vector3d apart = place - (w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2]);
         const double distance = apart.norm();
+        if (!std::isfinite(distance)) return;
         const Vector3d face = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
         const double facing =
             distance > 1e-9 ? apart.dot(face) / (distance * std::max(face.norm(), 1e-300)) : 1;

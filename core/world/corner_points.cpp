@@ -23,9 +23,9 @@ void add_rim(std::vector<CornerPoint>& points, double radius, double y) {
     }
 }
 
-/// Balls along a capsule's core, no further apart than its radius.
+/// Balls along a capsule's core, no further apart than its radius unless it is very long.
 void add_core(std::vector<CornerPoint>& points, const Shape& s) {
-    const int spaces = std::max(1, std::min(64, int(std::ceil(2 * s.half_height / s.radius))));
+    const int spaces = std::max(1, int(std::min(64.0, std::ceil(2 * s.half_height / s.radius))));
     for (int i = 0; i <= spaces; ++i)
         points.push_back({{0, s.half_height * (2.0 * i / spaces - 1), 0}, s.radius});
 }

@@ -27,6 +27,9 @@ void erase_body(World& world, std::uint32_t place) {
     std::erase_if(world.excluded, [place](std::uint64_t key) {
         return key >> 32 == place || std::uint32_t(key) == place;
     });
+    std::erase_if(world.links, [place](const Link& link) {
+        return link.a.body == place || link.b.body == place;
+    });
     count(world, world.bodies.motion[place], -1);
     world.places.remove(world.bodies.id[place]);
     put_body(world.bodies, place, BodyRow{});
@@ -46,6 +49,8 @@ void forget_contacts(World& world, std::uint32_t place) {
     c.memory_before.resize(kept);
     c.found.clear(), c.memory.clear();
     std::erase_if(c.kept.pairs, is_of_body);
+    world.particle_contacts = {};
+    world.surface_contacts.clear();
 }
 
 std::uint32_t insert_joint(World& world, JointDraft draft) {
