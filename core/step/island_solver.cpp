@@ -155,7 +155,6 @@ void IslandSolver::begin_round(double softness) {
     for (std::size_t k = 0; k < work_.size(); ++k) {
         const IslandPoint& p = island_.points[k];
         PointWork& w = work_[k];
-        w.softness = softness;
         w.stiffness = p.mass / softness;
         Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
         lack[0] -= slip_shift(p.impulse, lack, slack_, p.cone);
@@ -168,21 +167,15 @@ bool IslandSolver::minimise(double enough, std::uint32_t& factorisations) {
     for (int i = 0; i < kNewtonSteps; ++i) {
         const double off = find_downhill();
         if (off <= enough) return true;
-        direction_ = downhill_;
-        if (i == 0)
-            assemble_from_start();
-        else
-            assemble();
+        assemble();
         ++factorisations;
         if (!system_->factor()) return false;
+        direction_ = downhill_;
         system_->solve(direction_);
         double decrease = 0;
         for (std::size_t b = 0; b < direction_.size(); ++b)
             decrease += direction_[b].dot(downhill_[b]);
-        if (!(decrease > 0)) {
-            if (i == 0) continue;
-            return true;
-        }
+        if (!(decrease > 0)) return true;
         for (std::size_t k = 0; k < work_.size(); ++k)
             work_[k].direction = velocity_of(island_.points[k], direction_);
         const double step = step_length(decrease);
@@ -208,66 +201,42 @@ double IslandSolver::find_downhill() {
     return off;
 }
 
-/// Second derivatives at the velocities now.
+/// Second derivatives, block by block: M, and of each point [E, −[r]ₓ]ᵀ K [E, −[r]ₓ].
 void IslandSolver::assemble() {
-    clear_system();
-    for (std::size_t k = 0; k < work_.size(); ++k) {
-        const PointWork& w = work_[k];
-        add_to_system(island_.points[k], w, w.z, nearest_on_cone(w.z, island_.points[k].cone));
-    }
-}
-
-/// Second derivatives where each contact is as a step of γ = 1 says, and into direction_ the force
-/// that the round starts from if contacts stay so.
-void IslandSolver::assemble_from_start() {
-    clear_system();
-    std::fill(direction_.begin(), direction_.end(), Vector6d::Zero());
-    for (std::size_t k = 0; k < work_.size(); ++k) {
-        const IslandPoint& p = island_.points[k];
-        const PointWork& w = work_[k];
-        const Vector6d z = p.impulse + w.softness * (w.z - p.impulse);
-        const ConePoint at = nearest_on_cone(z, p.cone);
-        const Vector6d impulse = at.impulse + cone_derivative(z, at, p.cone) * (w.z - z);
-        add_impulse(p, impulse - p.impulse, direction_);
-        add_to_system(p, w, z, at);
-    }
-}
-
-void IslandSolver::clear_system() {
     system_->clear();
     for (std::size_t b = 0; b < island_.bodies.size(); ++b)
         system_->add(static_cast<std::uint32_t>(b), mass_matrix(island_.bodies[b]));
-}
-
-/// A point's part of the second derivatives, block by block: [E, −[r]ₓ]ᵀ K [E, −[r]ₓ], where K is
-/// that of the cone at z, whose nearest point is `at`.
-void IslandSolver::add_to_system(const IslandPoint& p, const PointWork& w, const Vector6d& z,
-                                 const ConePoint& at) {
-    if (!at.pushes) return;
-    // K in the world's frame: of forces to velocities, and between those and torques
-    Matrix3d along = w.stiffness * Matrix3d::Identity(), mixed = Matrix3d::Zero(), about = mixed;
-    if (!at.inside()) {
-        const Matrix6d d = w.stiffness * cone_derivative(z, at, p.cone);
-        along = p.frame * d.topLeftCorner<3, 3>() * p.frame.transpose();
-        if (p.cone.turns()) {
-            mixed = p.length * p.frame * d.topRightCorner<3, 3>() * p.frame.transpose();
-            about =
-                p.length * p.length * p.frame * d.bottomRightCorner<3, 3>() * p.frame.transpose();
+    for (std::size_t k = 0; k < work_.size(); ++k) {
+        const IslandPoint& p = island_.points[k];
+        const PointWork& w = work_[k];
+        const ConePoint at = nearest_on_cone(w.z, p.cone);
+        if (!at.pushes) continue;
+        // K in the world's frame: of forces to velocities, and between those and torques
+        Matrix3d along = w.stiffness * Matrix3d::Identity(), mixed = Matrix3d::Zero(),
+                 about = mixed;
+        if (!at.inside()) {
+            const Matrix6d d = w.stiffness * cone_derivative(w.z, at, p.cone);
+            along = p.frame * d.topLeftCorner<3, 3>() * p.frame.transpose();
+            if (p.cone.turns()) {
+                mixed = p.length * p.frame * d.topRightCorner<3, 3>() * p.frame.transpose();
+                about = p.length * p.length * p.frame * d.bottomRightCorner<3, 3>() *
+                        p.frame.transpose();
+            }
+        } else if (p.cone.turns()) {
+            about = w.stiffness * p.length * p.length * Matrix3d::Identity();
         }
-    } else if (p.cone.turns()) {
-        about = w.stiffness * p.length * p.length * Matrix3d::Identity();
+        const Matrix3d ra = skew(p.arm_a), rb = skew(p.arm_b);
+        const auto block = [&](const Matrix3d& left, const Matrix3d& right, double sign) {
+            const Matrix3d upper = mixed - along * right, lower = mixed.transpose() + left * along;
+            Matrix6d m;
+            m << sign * along, sign * upper, sign * lower,
+                sign * (about + left * upper - mixed.transpose() * right);
+            return m;
+        };
+        if (p.a != kImmovable) system_->add(p.a, block(ra, ra, 1));
+        if (p.b != kImmovable) system_->add(p.b, block(rb, rb, 1));
+        if (p.a != kImmovable && p.b != kImmovable) system_->add(p.a, p.b, block(ra, rb, -1));
     }
-    const Matrix3d ra = skew(p.arm_a), rb = skew(p.arm_b);
-    const auto block = [&](const Matrix3d& left, const Matrix3d& right, double sign) {
-        const Matrix3d upper = mixed - along * right, lower = mixed.transpose() + left * along;
-        Matrix6d m;
-        m << sign * along, sign * upper, sign * lower,
-            sign * (about + left * upper - mixed.transpose() * right);
-        return m;
-    };
-    if (p.a != kImmovable) system_->add(p.a, block(ra, ra, 1));
-    if (p.b != kImmovable) system_->add(p.b, block(rb, rb, 1));
-    if (p.a != kImmovable && p.b != kImmovable) system_->add(p.a, p.b, block(ra, rb, -1));
 }
 
 /// Derivative of what is minimised along the direction; rises with the step.

@@ -13,11 +13,6 @@
 /// end (the proximal point method), and corrects the normal velocity of what slides (de Saxcé's
 /// shift).
 ///
-/// With a small γ a velocity that is a little off looks as if it would break the grip of all
-/// contacts around it. So the first step of a round takes for what sticks, slides and is open what
-/// a step of γ = 1 says, which is what λ₀ says but at the edge of the cone: where a body rocks in a
-/// heap that rests, that is about the answer.
-///
 /// Sources: convex contact of Anitescu (2006) and Castro et al. (2022), proximal rounds after
 /// Rockafellar (1976), the shift as a fixed point after Acary and Cadoux (2013).
 #pragma once
@@ -45,7 +40,6 @@ public:
 
 private:
     struct PointWork {
-        double softness;     ///< γ
         double stiffness;    ///< m/γ [kg]
         Vector6d z;          ///< λ₀ + m/γ (w − u) at the velocities now
         Vector6d direction;  ///< of u, along which the line is searched
@@ -61,10 +55,6 @@ private:
     bool minimise(double enough, std::uint32_t& factorisations);
     double find_downhill();
     void assemble();
-    void assemble_from_start();
-    void clear_system();
-    void add_to_system(const IslandPoint& p, const PointWork& w, const Vector6d& z,
-                       const ConePoint& at);
     double slope(double step) const;
     double step_length(double decrease) const;
     void take_impulses();
