@@ -145,6 +145,8 @@ Wish particle_contacts(const World& w) {
                    "no body has a shape that particles may meet");
 }
 Wish surface_contacts(const World& w) {
+    if (std::count(w.settings.forbid.begin(), w.settings.forbid.end(), "contacts") > 0)
+        return {false, "contacts are forbidden"};
     const auto surfaces =
         std::count_if(w.deformables.begin(), w.deformables.end(),
                       [](const Deformable& d) { return !d.spec.triangles.empty(); });

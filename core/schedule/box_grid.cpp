@@ -31,6 +31,8 @@ void BoxGrid::build(const std::vector<Vector3d>& low, const std::vector<Vector3d
         if (!each_cell(low[i], high[i], [&](std::uint32_t b) { ++first_[b + 1]; }))
             large_.push_back(i), is_large_[i] = 1;
     for (std::uint32_t b = 0; b < buckets; ++b) first_[b + 1] += first_[b];
+    if (boxes_.capacity() < first_[buckets]) boxes_.reserve(2 * std::size_t(first_[buckets]));
+    large_.reserve(n);
     boxes_.resize(first_[buckets]);
     // each bucket's end moves down to its beginning while it fills
     for (std::uint32_t i = n; i-- > 0;)

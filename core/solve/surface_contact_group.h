@@ -25,7 +25,10 @@ public:
     Stage stage() const override { return Stage::surface_contacts; }
     bool empty() const override { return rows_.empty(); }
 
-    void load(const World& world) override { rows_.resize(world.surface_contacts.size()); }
+    void load(const World& world) override {
+        rows_.reserve(world.surface_contacts.capacity());
+        rows_.resize(world.surface_contacts.size());
+    }
 
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double) override {
@@ -43,7 +46,9 @@ public:
             } else {
                 place = in_world(world.bodies, c.point.body, c.point.position);
                 row.point = world.bodies.row[c.point.body];
-                row.arm = place - world.bodies.position[c.point.body];
+                // at the triangle's point, which is where both touch
+                for (int k = 0; k < 3; ++k) row.arm += c.weights[k] * p.position[c.triangle[k]];
+                row.arm -= world.bodies.position[c.point.body];
                 row.inverse = {world.bodies.inverse_mass[c.point.body],
                                world.bodies.world_inverse_inertia[c.point.body]};
             }
@@ -57,6 +62,7 @@ public:
             }
             row.gap = c.normal.dot(place) - c.distance;
             row.mass = response > 0 ? 1 / response : 0;
+            if (c.point.particle == kNoIndex) continue;
             row.offset = place;
             prepare_couple(p, c.triangle, row);
         }
@@ -73,7 +79,7 @@ public:
 private:
     /// Determinant of a triangle's inertia over that of a ball's of the same trace, from which on
     /// it counts as flat.
-    static constexpr double kLeastExtent = 1e-6;
+    static constexpr double kLeastExtent = 1e-3;
 
     struct Row {
         std::int32_t point = 0, corner[3] = {0, 0, 0};

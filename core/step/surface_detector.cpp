@@ -14,6 +14,8 @@ namespace {
 constexpr double kShareAtRest = 0.9;
 /// Two triangles whose directions differ by more than this cosine both hold a point off.
 constexpr double kSameSide = 0.7;
+/// Room for triangles near one point.
+constexpr std::size_t kUsuallyNear = 1024;
 /// From this cosine on, a point faces a triangle and not only its rim.
 constexpr double kFaceOn = 0.99;
 
@@ -81,6 +83,8 @@ void SurfaceDetector::detect(World& world, double dt) {
         low_[i] = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]) - by;
         high_[i] = p.position[a].cwiseMax(p.position[b]).cwiseMax(p.position[c]) + by;
     }
+    world.surface_contacts.reserve(2 * probes_.size());
+    near_.reserve(kUsuallyNear);
     grid_.build(low_, high_);
     bounds_low_ = low_[0], bounds_high_ = high_[0];
     for (std::size_t i = 1; i < triangles_.size(); ++i) {
