@@ -4,6 +4,7 @@
 #include "math/bytes.h"
 #include "output/palette.h"
 #include "output/smooth_surface.h"
+#include "scene/deformable_faults.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,20 +12,6 @@ namespace plumb {
 namespace {
 
 using nlohmann::json;
-
-const char* name_of(DeformableKind kind) {
-    switch (kind) {
-        case DeformableKind::rope:
-            return "rope";
-        case DeformableKind::cloth:
-            return "cloth";
-        case DeformableKind::balloon:
-            return "balloon";
-        case DeformableKind::solid:
-            return "solid";
-    }
-    return "";
-}
 
 json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 

@@ -7,6 +7,8 @@
 #include "math/rotation.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/particle_rows.h"
+#include "world/point_place.h"
 
 #include <cmath>
 #include <vector>
@@ -20,7 +22,6 @@ public:
         for (const Link& link : world.links) {
             Row row;
             row.link = link;
-            row.impulse = link.impulse;
             row.row_a = row_of(world, link.a), row.row_b = row_of(world, link.b);
             rows_.push_back(row);
         }
@@ -77,12 +78,10 @@ private:
         const Symmetric3<double> none{0, 0, 0, 0, 0, 0};
         to.arm.setZero();
         to.inverse = {0, none};
-        to.start = p.position;
+        to.start = place_of(world, p);
         if (p.particle != kNoIndex) {
-            to.start = world.particles.position[p.particle];
             to.inverse.mass = world.particles.inverse_mass[p.particle];
         } else if (p.body != kNoIndex) {
-            to.start = in_world(world.bodies, p.body, p.position);
             to.arm = to.start - world.bodies.position[p.body];
             to.inverse = {world.bodies.inverse_mass[p.body],
                           world.bodies.world_inverse_inertia[p.body]};
@@ -91,14 +90,8 @@ private:
 
     /// Where a point is at the end of the substep as things stand, against its start [m].
     Vector3d moved(const BodyRows<Real>& rows, std::int32_t row, const LinkedPoint& p) const {
-        const auto at = static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        const auto part = [&](int first) {
-            return Vector3d(
-                double(rows.start[at + first]) + double(rows.change[at + first]),
-                double(rows.start[at + first + 1]) + double(rows.change[at + first + 1]),
-                double(rows.start[at + first + 2]) + double(rows.change[at + first + 2]));
-        };
-        return h_ * part(0) + Turn<double>(Vector3d(h_ * part(4))).change(p.arm);
+        const Velocity<double> velocity = velocity_of(rows, row);
+        return h_ * velocity.v + Turn<double>(Vector3d(h_ * velocity.w)).change(p.arm);
     }
 
     void push(const BodyRows<Real>& rows, Row& row, const Vector3d& impulse) const {
@@ -108,14 +101,9 @@ private:
     }
     static void push(const BodyRows<Real>& rows, std::int32_t row, const LinkedPoint& p,
                      const Vector3d& impulse) {
-        if (row >= rows.dynamic_count) return;
         Velocity<double> change{Vector3d::Zero(), Vector3d::Zero()};
         apply_impulse<double>(change, p.inverse, p.arm, impulse);
-        Real* x = rows.change + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        for (int k = 0; k < 3; ++k) {
-            x[k] = static_cast<Real>(double(x[k]) + change.v[k]);
-            x[4 + k] = static_cast<Real>(double(x[4 + k]) + change.w[k]);
-        }
+        add_change(rows, row, change);
     }
 
     void keep_length(const BodyRows<Real>& rows, Row& row) const {

@@ -8,6 +8,7 @@
 #include "effects/plan.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/particle_rows.h"
 
 #include <Eigen/LU>
 
@@ -119,19 +120,11 @@ private:
             row.inverse_inertia = inertia.inverse();
     }
 
-    static Velocity<double> velocity(const BodyRows<Real>& rows, std::int32_t row) {
-        const auto at = static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        const auto sum = [&](int k) {
-            return double(rows.start[at + k]) + double(rows.change[at + k]);
-        };
-        return {{sum(0), sum(1), sum(2)}, {sum(4), sum(5), sum(6)}};
-    }
-
     static void solve(const BodyRows<Real>& rows, const PassSettings<Real>& pass, Row& row) {
         if (row.mass == 0) return;
         const double h = double(pass.h), s = double(pass.stiffness);
-        Vector3d u = velocity_at(velocity(rows, row.point), row.arm);
-        for (int k = 0; k < 3; ++k) u -= row.weight[k] * velocity(rows, row.corner[k]).v;
+        Vector3d u = velocity_at(velocity_of(rows, row.point), row.arm);
+        for (int k = 0; k < 3; ++k) u -= row.weight[k] * velocity_of(rows, row.corner[k]).v;
         const double left = overlap_left(row.gap, double(pass.recovery));
         const double c = row.gap + h * row.normal.dot(u) - left, d = std::min(row.gap, 0.0) - left;
         const double pushed = plumb::push(row.push, -gap_below(c, d, s) * row.mass / h, 0.0);
@@ -146,22 +139,13 @@ private:
         }
         Velocity<double> change{Vector3d::Zero(), Vector3d::Zero()};
         apply_impulse<double>(change, row.inverse, row.arm, impulse);
-        add(rows, row.point, change);
+        add_change(rows, row.point, change);
         const Vector3d turn = -(row.inverse_inertia * row.offset.cross(impulse));
         for (int k = 0; k < 3; ++k)
-            add(rows, row.corner[k],
-                {Vector3d(impulse * (-row.weight[k] * row.corner_mass[k]) +
-                          turn.cross(row.lever[k])),
-                 Vector3d::Zero()});
-    }
-
-    static void add(const BodyRows<Real>& rows, std::int32_t row, const Velocity<double>& change) {
-        if (row >= rows.dynamic_count) return;
-        Real* x = rows.change + static_cast<std::ptrdiff_t>(row) * kBodyRowSize;
-        for (int k = 0; k < 3; ++k) {
-            x[k] = static_cast<Real>(double(x[k]) + change.v[k]);
-            x[4 + k] = static_cast<Real>(double(x[4 + k]) + change.w[k]);
-        }
+            add_change(rows, row.corner[k],
+                       Velocity<double>{Vector3d(impulse * (-row.weight[k] * row.corner_mass[k]) +
+                                                 turn.cross(row.lever[k])),
+                                        Vector3d::Zero()});
     }
 
     bool rubs_;

@@ -2,6 +2,7 @@
 #include "step/surface_detector.h"
 
 #include "math/triangle.h"
+#include "world/point_place.h"
 
 #include <algorithm>
 #include <cmath>
@@ -19,10 +20,6 @@ constexpr std::size_t kUsuallyNear = 1024;
 /// From this cosine on, a point faces a triangle and not only its rim.
 constexpr double kFaceOn = 0.99;
 
-Vector3d place_of(const World& world, const WorldPoint& p) {
-    return p.particle != kNoIndex ? world.particles.position[p.particle]
-                                  : in_world(world.bodies, p.body, p.position);
-}
 double speed_of(const World& world, const WorldPoint& p) {
     if (p.particle != kNoIndex) return world.particles.velocity[p.particle].norm();
     return world.bodies.velocity[p.body].norm() +

@@ -2,6 +2,7 @@
 #include "world/build_links.h"
 
 #include "scene/error.h"
+#include "world/point_place.h"
 
 #include <string>
 
@@ -36,11 +37,6 @@ WorldPoint world_point(const World& world, const ScenePoint& p, const std::strin
     WorldPoint point;
     point.particle = particle_of(world, p.deformable, p.point, place);
     return point;
-}
-
-Vector3d place_of(const World& world, const WorldPoint& p) {
-    if (p.particle != kNoIndex) return world.particles.position[p.particle];
-    return p.body == kNoIndex ? p.position : in_world(world.bodies, p.body, p.position);
 }
 
 void attach(World& world, const AttachmentSpec& spec, const std::string& place) {
