@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+/// Sparse symmetric systems of 3 × 3 blocks, A = L D Lᵀ, by elimination of dense fronts (Duff and
+/// Reid 1983).
+///
+/// Two kinds of block rows: `order` takes those whose pattern stays (the particles), and chooses
+/// the order in which they are eliminated; `attach` takes those that come and go (bodies that
+/// touch them), which are eliminated last. Then any number of times: `clear`, add to blocks,
+/// `factor`, `solve`. Definite or quasi-definite systems need no pivoting.
+#pragma once
+
+#include "math/types.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace plumb {
+
+class SparseLdlt {
+public:
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+
+    /// A block below the diagonal, and whether A(i, j) of the asking pair is its transpose.
+    struct Slot {
+        std::uint32_t index = 0;
+        bool transposed = false;
+    };
+
+    /// `rows` block rows, and the pairs of them that have blocks; a pair may come more than once,
+    /// in either order.
+    void order(std::uint32_t rows, const std::vector<Pair>& pattern);
+
+    /// `more` block rows, numbered from `rows` on, and which of the others each has blocks with,
+    /// (row below `rows`, row from it on), sorted. Pairs among themselves need not be told.
+    void attach(std::uint32_t more, const std::vector<Pair>& pairs);
+
+    std::uint32_t rows() const { return rows_; }
+    std::uint32_t more() const { return more_; }
+    /// Multiplications that `factor` takes, about.
+    double work() const { return work_; }
+
+    /// The block of a pair below `rows`, of which neither is the other.
+    Slot slot(std::uint32_t i, std::uint32_t j) const;
+
+    void clear();
+    void add(std::uint32_t row, const Matrix3d& block) {
+        if (row < rows_)
+            diagonal_[place_[row]] += block;
+        else
+            add_more(row, row, block);
+    }
+    /// Adds to A(i, j), as the slot of that pair was found.
+    void add(Slot slot, const Matrix3d& block) {
+        if (slot.transposed)
+            below_[slot.index] += block.transpose();
+        else
+            below_[slot.index] += block;
+    }
+    /// Adds to A(row, more), of the pair told to `attach` at this index.
+    void add_pair(std::size_t index, const Matrix3d& block) {
+        between_[index] += block.transpose();
+    }
+    /// Adds to A(i, j) and, unless they are the same, its transpose to A(j, i); both from `rows`
+    /// on.
+    void add_more(std::uint32_t i, std::uint32_t j, const Matrix3d& block);
+
+    bool factor();
+
+    /// x ← A⁻¹ x, with the factors of the last `factor`.
+    void solve(std::vector<Vector3d>& x);
+
+private:
+    /// Columns that are eliminated together: places [first, last), and their rows below, first
+    /// those of `row_`, then those of `more_row_`.
+    struct Front {
+        std::uint32_t first, last;
+        std::uint32_t row, row_end;    ///< in row_
+        std::uint32_t more, more_end;  ///< in more_row_
+        std::uint32_t parent;
+        std::uint32_t size;   ///< numbers in a column
+        std::size_t factors;  ///< in factors_
+    };
+    struct AttachedPair {
+        std::uint32_t place, more, told;  ///< of the row; attached row; index as told
+    };
+    using Lists = std::vector<std::vector<std::uint32_t>>;
+
+    void find_columns(const std::vector<Pair>& pattern);
+    void find_fronts(const Lists& structure);
+    void find_attached_rows();
+    void place_numbers();
+    std::size_t gather(const Front& front, std::size_t pair);
+    void add_child(const Front& child, std::size_t left_at, std::uint32_t parent);
+    template <class Visit>
+    void each_row_below(const Front& front, Visit visit) const;
+
+    std::uint32_t root() const { return static_cast<std::uint32_t>(fronts_.size()) - 1; }
+    std::uint32_t width(std::uint32_t i) const {
+        return i == root() ? 3 * more_ : 3 * (fronts_[i].last - fronts_[i].first);
+    }
+
+    std::uint32_t rows_ = 0, more_ = 0;
+    double work_ = 0;
+    std::vector<std::uint32_t> order_, place_;             // [place] row; [row] place
+    std::vector<std::uint32_t> column_first_, below_row_;  // [place] in below_; place of a block
+    std::vector<Front> fronts_;  // children before parents; the last is that of attached rows
+    std::vector<std::uint32_t> row_, more_row_;
+    Lists children_;                   // [front]
+    std::vector<AttachedPair> pairs_;  // by place
+
+    std::vector<Matrix3d> diagonal_, below_;  // [place], [slot]
+    std::vector<Matrix3d> between_;           // [told pair], rows of what is attached
+    std::vector<double> more_block_;          // of attached rows, the lower triangle
+    std::vector<double> factors_, stack_, front_, memory_, x_;
+    std::vector<std::size_t> left_;        // [front] in stack_: what it leaves to its parent
+    std::vector<std::uint32_t> position_;  // memory
+};
+
+}  // namespace plumb
