@@ -6,6 +6,7 @@ set(PLUMB_CORE_SOURCES
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/meetings.cpp effects/plan.cpp
+  solve/elastic_system.cpp
   step/choose_rebounds.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp step/detect_particles.cpp
   step/break_joints.cpp step/driven_axis.cpp step/follow_contacts.cpp step/impacts.cpp step/integrate.cpp
   step/island_group.cpp step/island_solver.cpp step/joint_state.cpp step/match_contacts.cpp step/move_particles.cpp step/move_scripted.cpp

@@ -35,6 +35,17 @@ struct Membrane {
         return r;
     }
 
+    /// The stress as far as it pulls: what is pressed buckles, and is not made stiffer by it.
+    static Matrix3d tension(const Vector3d (&)[3], const double (&inverse)[kNumbers],
+                            const double (&force)[kRows]) {
+        const Eigen::Matrix2d stress =
+            (Eigen::Matrix2d() << force[0] + force[1], force[2], force[2], force[0] - force[1])
+                .finished();
+        Eigen::Matrix<double, 2, 3> map;  // of the corners to u and w
+        map << -inverse[0], inverse[0], 0, -inverse[1] - inverse[2], inverse[1], inverse[2];
+        return map.transpose() * pulling_part<2>(stress) * map;
+    }
+
     /// Calls visit(points, numbers, compliances) for each triangle of cloth and balloons.
     template <class Visit>
     static void each(const Deformable& d, Visit visit) {

@@ -15,6 +15,8 @@
 #include "math/dense.h"
 #include "math/types.h"
 
+#include <Eigen/Eigenvalues>
+
 namespace plumb {
 
 /// C of R rows among N points, and its gradient.
@@ -36,6 +38,15 @@ inline double point_softness(double compliance, double damping, double h) {
 }
 /// The share of C at the start of the substep that damping takes off C at its end: τ / (h + τ).
 inline double point_lag(double damping, double h) { return damping / (h + damping); }
+
+/// A stress without its negative principal values.
+template <int N>
+inline Eigen::Matrix<double, N, N> pulling_part(const Eigen::Matrix<double, N, N>& stress) {
+    Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, N, N>> principal;
+    principal.computeDirect(stress);
+    return principal.eigenvectors() * principal.eigenvalues().cwiseMax(0).asDiagonal() *
+           principal.eigenvectors().transpose();
+}
 
 /// Solves all rows as one block. Adds to the points' velocities and to the impulses.
 template <class T, int N, int R>

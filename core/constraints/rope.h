@@ -5,6 +5,7 @@
 #include "constraints/points.h"
 #include "world/particles.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumb {
@@ -23,6 +24,13 @@ struct Stretch {
         r.gradient[0][1] = e * (T(1) / max(length, T(1e-12)));
         r.gradient[0][0] = -r.gradient[0][1];
         return r;
+    }
+
+    /// A pull stiffens the segment across it.
+    static Eigen::Matrix2d tension(const Vector3d (&p)[2], const double (&)[kNumbers],
+                                   const double (&force)[1]) {
+        const double pull = std::max(0.0, force[0]) / std::max((p[1] - p[0]).norm(), 1e-12);
+        return (Eigen::Matrix2d() << pull, -pull, -pull, pull).finished();
     }
 
     template <class Visit>

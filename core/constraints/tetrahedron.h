@@ -61,6 +61,24 @@ struct Tetrahedron {
         return r;
     }
 
+    /// The stress of the rows of strain as far as it pulls.
+    static Eigen::Matrix4d tension(const Vector3d (&)[4], const double (&inverse)[kNumbers],
+                                   const double (&force)[kRows]) {
+        Matrix3d stress;
+        stress << force[0] + force[1], force[4], force[3],  //
+            force[4], force[1] - force[0], force[2],        //
+            force[3], force[2], -2 * force[1];
+        Eigen::Matrix<double, 3, 4> map;  // of the corners to the axes at rest
+        for (int axis = 0; axis < 3; ++axis) {
+            map(axis, 0) = 0;
+            for (int i = 0; i < 3; ++i) {
+                map(axis, i + 1) = inverse[3 * i + axis];
+                map(axis, 0) -= inverse[3 * i + axis];
+            }
+        }
+        return map.transpose() * pulling_part<3>(stress) * map;
+    }
+
     /// Calls visit(points, numbers, compliances) for each tetrahedron of a solid.
     template <class Visit>
     static void each(const Deformable& d, Visit visit) {

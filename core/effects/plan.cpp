@@ -135,6 +135,19 @@ Wish joint_trees(const World& w) {
 Wish deformables(const World& w) {
     return counted(w.particles.size(), "particles", "no deformables");
 }
+Wish exact_deformables(const World& w) {
+    const std::size_t n = w.particles.size();
+    if (n == 0) return {false, "no deformables"};
+    if (w.settings.exact_deformables == 0) return {false, "exact_deformables is 0"};
+    if (!w.settings.shared_push)
+        return {false, "the passes' pushes are apart, as in the paper (shared_push)"};
+    if (w.settings.position_iterations == 0) return {false, "there are no position iterations"};
+    const std::string most = std::to_string(w.settings.exact_deformables);
+    if (n > w.settings.exact_deformables)
+        return {false, "more than " + most + " particles (exact_deformables) are swept"};
+    return {true, std::to_string(n) + " particles, at most " + most +
+                      ", are solved as one system (exact_deformables)"};
+}
 Wish links(const World& w) {
     return counted(w.links.size(), "links and attachments", "no links or attachments");
 }
@@ -183,6 +196,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"joints", joints},
     {"joint_trees", joint_trees},
     {"deformables", deformables},
+    {"exact_deformables", exact_deformables},
     {"links", links},
     {"particle_contacts", particle_contacts},
     {"surface_contacts", surface_contacts},
@@ -230,6 +244,9 @@ Plan make_plan(const World& world) {
         d.why = wish.why, d.runs = false;
     };
     drop(Effect::exact_islands, exact_islands(world));
+    drop(Effect::exact_deformables, plan.runs(Effect::deformables)
+                                        ? exact_deformables(world)
+                                        : Wish{false, "deformables do not run"});
     drop(Effect::particle_contacts, plan.runs(Effect::contacts)
                                         ? particle_contacts(world)
                                         : Wish{false, "contacts do not run"});

@@ -62,7 +62,7 @@ void add_settings(Hash& hash, const Settings& s) {
     hash << s.gravity << s.dt << s.substeps << s.velocity_iterations << s.position_iterations
          << s.method << s.precision << s.contacts << s.margin << s.reuse_distance << s.stiffness
          << s.recovery_speed << s.collision_depth << s.anchor_stiffness << s.gyroscopic
-         << s.leapfrog_start << s.joints << s.exact_islands << s.joint_tolerance << s.warm_start
+         << s.leapfrog_start << s.joints << s.exact_islands << s.exact_deformables << s.joint_tolerance << s.warm_start
          << s.alternate_sweeps << s.shared_push << s.shared_cone << s.require << s.forbid;
 }
 

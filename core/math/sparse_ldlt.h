@@ -31,7 +31,7 @@ public:
     void order(std::uint32_t rows, const std::vector<Pair>& pattern);
 
     /// `more` block rows, numbered from `rows` on, and which of the others each has blocks with,
-    /// (row below `rows`, row from it on), sorted. Pairs among themselves need not be told.
+    /// (row below `rows`, row from it on), each once. Pairs among themselves need not be told.
     void attach(std::uint32_t more, const std::vector<Pair>& pairs);
 
     std::uint32_t rows() const { return rows_; }
@@ -64,6 +64,7 @@ public:
     /// on.
     void add_more(std::uint32_t i, std::uint32_t j, const Matrix3d& block);
 
+    /// Returns whether all pivots were finite and not 0.
     bool factor();
 
     /// x ← A⁻¹ x, with the factors of the last `factor`.

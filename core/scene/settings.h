@@ -53,7 +53,9 @@ struct Settings {
     JointMethod joints = JointMethod::auto_;
     std::uint32_t exact_islands = 400;  ///< islands of at most so many bodies that touch are solved
                                         ///< exactly, whatever the iterations; 0 = all are swept
-    double joint_tolerance = 5e-7;      ///< up to which trees of joints are closed [m], [rad]
+    std::uint32_t exact_deformables = 6000;  ///< deformables of at most so many particles together
+                                             ///< are solved exactly; 0 = all are swept
+    double joint_tolerance = 5e-7;           ///< up to which trees of joints are closed [m], [rad]
 
     bool warm_start = true;        ///< begin from the impulses of the step before
     bool alternate_sweeps = true;  ///< forwards and backwards in turn
@@ -73,7 +75,7 @@ inline void apply_paper_preset(Settings& s) {
     s.anchor_stiffness = s.reuse_distance = 0;
     s.gyroscopic = Gyroscopic::explicit_;
     s.joints = JointMethod::iterate;
-    s.exact_islands = 0;
+    s.exact_islands = s.exact_deformables = 0;
 }
 
 }  // namespace plumb

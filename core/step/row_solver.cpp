@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
 #include "solve/deformable_group.h"
+#include "solve/exact_deformable_group.h"
 #include "solve/link_group.h"
 #include "solve/particle_contact_group.h"
 #include "solve/surface_contact_group.h"
@@ -224,7 +225,10 @@ private:
                 workers_);
             if (grows) trees_ = add<JointTreeGroup<Real, W>>(world, forest, workers_);
         }
-        if (plan.runs(Effect::deformables)) add<DeformableGroup<Real, W>>(world, workers_);
+        if (plan.runs(Effect::exact_deformables))
+            add<ExactDeformableGroup<Real>>(world, workers_);
+        else if (plan.runs(Effect::deformables))
+            add<DeformableGroup<Real, W>>(world, workers_);
         if (plan.runs(Effect::links)) add<LinkGroup<Real>>(world, workers_);
         if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);

@@ -113,10 +113,10 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                                   position_iterations, method, precision, threads, lanes, contacts,
                                   margin, reuse_distance, stiffness, recovery_speed,
                                   collision_depth, anchor_stiffness, gyroscopic, leapfrog_start,
-                                  joints, exact_islands, joint_tolerance, warm_start,
-                                  alternate_sweeps, shared_push, shared_cone, require, forbid] =
-        settings;
-    constexpr std::size_t kMembers = 28, kPreset = 1;
+                                  joints, exact_islands, exact_deformables, joint_tolerance,
+                                  warm_start, alternate_sweeps, shared_push, shared_cone, require,
+                                  forbid] = settings;
+    constexpr std::size_t kMembers = 29, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "dt",
@@ -138,6 +138,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "leapfrog_start",
                              "joints",
                              "exact_islands",
+                             "exact_deformables",
                              "joint_tolerance",
                              "warm_start",
                              "alternate_sweeps",

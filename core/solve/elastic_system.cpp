@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: MIT
+#include "solve/elastic_system.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumb {
+namespace {
+
+/// A kept volume resists as if this were the bulk modulus of what fills it [Pa].
+constexpr double kFilling = 1e8;
+
+/// The end is reached where a step changes velocities by no more than this share of what gravity
+/// does in a substep, or of the greatest velocity.
+constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6;
+
+/// Factors are kept as long as each step is at most this share of the one before.
+constexpr double kQuick = 0.3;
+
+/// Steps and factorisations of a substep's first call, and steps of later ones.
+constexpr int kFirstSteps = 4, kMostFactors = 1, kLaterSteps = 1;
+
+/// A line is searched until the slope is this share of that at its start.
+constexpr double kFlat = 0.2;
+constexpr int kCuts = 6;
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+ElasticSystem::ElasticSystem(const World& world)
+    : elements_(make_elements(world, world.settings.dt / world.settings.substeps, Formulas())) {
+    const Particles& p = world.particles;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
+    for (auto* column : {&start_, &x_, &v_, &target_, &own_, &elastic_})
+        column->assign(p.size(), Vector3d::Zero());
+    std::vector<SparseLdlt::Pair> pairs;
+    for (const auto& elements : elements_) elements->add_pairs(pairs);
+    system_.order(particles(), pairs);
+    for (const auto& elements : elements_) elements->find_slots(system_);
+    make_balloons(world);
+    attach_balloons();
+    for (auto* rows : {&force_, &direction_, &way_})
+        rows->assign(particles() + balloons_.size(), Vector3d::Zero());
+}
+
+void ElasticSystem::make_balloons(const World& world) {
+    for (const Deformable& d : world.deformables) {
+        if (d.spec.kind != DeformableKind::balloon) continue;
+        const auto rest = [&](std::uint32_t i) -> Vector3d {
+            return d.spec.points[i] - d.spec.points[0];
+        };
+        const double volume = d.spec.volume_ratio * volume_of(d.spec.triangles, rest);
+        balloons_.push_back({&d.spec.triangles, d.first, d.count, volume,
+                             d.spec.pressure.value_or(0), d.spec.pressure ? 0 : kFilling / volume,
+                             std::vector<Vector3d>(d.count)});
+    }
+}
+
+/// The pressure in a balloon is an unknown of its own, for it acts on all its particles.
+void ElasticSystem::attach_balloons() {
+    std::vector<SparseLdlt::Pair> pairs;
+    for (std::uint32_t b = 0; b < balloons_.size(); ++b)
+        for (std::uint32_t i = 0; i < balloons_[b].count; ++i)
+            pairs.emplace_back(balloons_[b].first + i, particles() + b);
+    system_.attach(static_cast<std::uint32_t>(balloons_.size()), pairs);
+}
+
+void ElasticSystem::begin(const World& world, double h) {
+    h_ = h;
+    const Particles& p = world.particles;
+    double fastest = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        start_[i] = p.position[i] - p.position[0];
+        own_[i].setZero();
+        fastest = std::max(fastest, p.velocity[i].squaredNorm());
+    }
+    enough_ =
+        kEnoughOfGravity * world.settings.gravity.norm() * h + kEnoughOfSpeed * std::sqrt(fastest);
+    for (const auto& elements : elements_) elements->begin(start_, h);
+}
+
+/// What pulls at each row at the velocities now, which is 0 at the minimum; and the energy.
+void ElasticSystem::find_forces() {
+    for (std::size_t i = 0; i < v_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
+    std::fill(elastic_.begin(), elastic_.end(), Vector3d::Zero());
+    energy_ = 0;
+    for (const auto& elements : elements_) energy_ += elements->add_forces(x_, elastic_);
+    for (Balloon& balloon : balloons_) {
+        std::fill(balloon.gradient.begin(), balloon.gradient.end(), Vector3d::Zero());
+        const Vector3d origin = x_[balloon.first];
+        const double volume = volume_of(
+            *balloon.triangles,
+            [&](std::uint32_t i) -> Vector3d { return x_[balloon.first + i] - origin; },
+            &balloon.gradient);
+        const double missing = balloon.volume - volume;
+        const double push = balloon.pressure + balloon.stiffness * missing;
+        energy_ += 0.5 * (balloon.pressure + push) * missing;
+        for (std::uint32_t i = 0; i < balloon.count; ++i)
+            elastic_[balloon.first + i] += push * balloon.gradient[i];
+    }
+    for (std::size_t i = 0; i < v_.size(); ++i) {
+        if (mass_[i] == 0) continue;
+        const Vector3d missing = target_[i] - v_[i];
+        force_[i] = mass_[i] * missing + h_ * elastic_[i];
+        energy_ += 0.5 * mass_[i] * missing.squaredNorm();
+    }
+}
+
+/// Second derivatives at the velocities now, without what would make them indefinite.
+void ElasticSystem::assemble() {
+    system_.clear();
+    for (std::uint32_t i = 0; i < particles(); ++i)
+        system_.add(i, (mass_[i] > 0 ? mass_[i] : 1) * Matrix3d::Identity());
+    for (const auto& elements : elements_) elements->add_stiffness(x_, h_ * h_, system_);
+    assemble_balloons();
+}
+
+void ElasticSystem::assemble_balloons() {
+    std::size_t pair = 0;
+    for (std::uint32_t b = 0; b < balloons_.size(); ++b) {
+        const Balloon& balloon = balloons_[b];
+        const bool keeps = balloon.stiffness > 0;
+        Matrix3d block = Matrix3d::Identity();  // two of three numbers mean nothing
+        if (keeps) block(0, 0) = -1 / balloon.stiffness;
+        system_.add(particles() + b, block);
+        for (std::uint32_t i = 0; i < balloon.count; ++i, ++pair) {
+            if (!keeps || mass_[balloon.first + i] == 0) continue;
+            block.setZero();
+            block.col(0) = h_ * balloon.gradient[i];
+            system_.add_pair(pair, block);
+        }
+    }
+}
+
+bool ElasticSystem::factor() {
+    assemble();
+    stale_ = false;
+    return has_factors_ = system_.factor();
+}
+
+/// Where the factors lead from here.
+ElasticSystem::Move ElasticSystem::find_direction() {
+    direction_ = force_;
+    system_.solve(direction_);
+    double greatest = 0, energy = 0;
+    for (std::size_t i = 0; i < v_.size(); ++i) {
+        const double square = direction_[i].squaredNorm();
+        greatest = std::max(greatest, square), energy += mass_[i] * square;
+    }
+    return {std::sqrt(greatest), std::sqrt(energy)};
+}
+
+/// Along `way_`.
+void ElasticSystem::advance(double step) {
+    for (std::size_t i = 0; i < v_.size(); ++i) v_[i] += step * way_[i];
+}
+
+/// A step along `direction_`, to where there is less energy; returns whether a whole one led there.
+///
+/// What moves across a stiff sheet stretches it in second order, and the next step takes that back:
+/// so a whole step that gains energy gets this second chance before it is shortened.
+bool ElasticSystem::improve() {
+    const double before = energy_;
+    way_ = direction_;
+    advance(1);
+    find_forces();
+    if (energy_ <= before) return true;
+    find_direction();
+    std::swap(way_, direction_);
+    advance(1);
+    find_forces();
+    if (energy_ <= before) return false;
+    advance(-1);
+    std::swap(way_, direction_);
+    search_line();
+    return false;
+}
+
+/// From the end of a whole step to where the energy along it is least, about.
+void ElasticSystem::search_line() {
+    const auto slope = [&] {
+        double sum = 0;
+        for (std::size_t i = 0; i < v_.size(); ++i) sum -= way_[i].dot(force_[i]);
+        return sum;
+    };
+    find_forces();
+    double low = 0, high = 1, at_high = slope();
+    advance(-1);
+    find_forces();
+    double at_low = slope(), at = 0;
+    const double enough = kFlat * std::abs(at_low), before = energy_;
+    for (int i = 0; i < kCuts; ++i) {
+        const double guess = low - at_low * (high - low) / (at_high - at_low);
+        const double inset = 0.05 * (high - low);
+        const double step = std::clamp(guess, low + inset, high - inset);
+        advance(step - at);
+        at = step;
+        find_forces();
+        const double here = slope();
+        if (std::abs(here) <= enough && energy_ <= before) return;
+        if (here > 0 || energy_ > before)
+            high = step, at_high = std::max(here, 0.0);
+        else
+            low = step, at_low = here;
+    }
+    if (energy_ <= before) return;
+    advance(-at);
+    find_forces();
+}
+
+void ElasticSystem::solve(std::vector<Vector3d>& velocity, bool first) {
+    for (std::size_t i = 0; i < v_.size(); ++i) {
+        v_[i] = target_[i] = velocity[i];
+        if (mass_[i] > 0) target_[i] -= own_[i] / mass_[i];
+    }
+    find_forces();
+    double before = kInfinite;
+    int factors = 0;
+    for (int i = 0; i < (first ? kFirstSteps : kLaterSteps); ++i) {
+        if (!has_factors_ || (first && stale_ && factors < kMostFactors)) {
+            if (!factor()) break;
+            ++factors;
+        }
+        const Move move = find_direction();
+        if (!std::isfinite(move.size)) {
+            has_factors_ = false;
+            break;
+        }
+        const bool whole = improve();
+        if (move.greatest <= enough_) break;
+        stale_ |= !whole || move.size > kQuick * before;
+        before = move.size;
+    }
+    for (std::size_t i = 0; i < v_.size(); ++i) {
+        own_[i] = mass_[i] * (v_[i] - target_[i]);
+        velocity[i] = v_[i];
+    }
+}
+
+}  // namespace plumb
