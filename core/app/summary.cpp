@@ -136,6 +136,7 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
         {Effect::joints, {Stage::joints}},
         {Effect::joint_trees, {Stage::trees}},
         {Effect::deformables, {Stage::particles}},
+        {Effect::air_drag, {Stage::air_drag}},
         {Effect::links, {Stage::links}},
         {Effect::particle_contacts, {Stage::particle_contacts}},
         {Effect::surface_contacts, {Stage::surface_contacts}},

@@ -135,6 +135,16 @@ Wish joint_trees(const World& w) {
 Wish deformables(const World& w) {
     return counted(w.particles.size(), "particles", "no deformables");
 }
+Wish air_drag(const World& w) {
+    if (!w.settings.wind) return {false, "there is no wind"};
+    if (!(w.settings.air_density > 0)) return {false, "the air weighs nothing"};
+    const auto feels =
+        std::count_if(w.deformables.begin(), w.deformables.end(), [](const Deformable& d) {
+            return !d.spec.triangles.empty() && d.spec.drag + d.spec.skin_drag > 0;
+        });
+    return counted(static_cast<std::size_t>(feels), "surfaces feel the air",
+                   "nothing that deforms has a surface that feels the air");
+}
 Wish links(const World& w) {
     return counted(w.links.size(), "links and attachments", "no links or attachments");
 }
@@ -183,6 +193,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"joints", joints},
     {"joint_trees", joint_trees},
     {"deformables", deformables},
+    {"air_drag", air_drag},
     {"links", links},
     {"particle_contacts", particle_contacts},
     {"surface_contacts", surface_contacts},
@@ -230,6 +241,7 @@ Plan make_plan(const World& world) {
         d.why = wish.why, d.runs = false;
     };
     drop(Effect::exact_islands, exact_islands(world));
+    drop(Effect::air_drag, air_drag(world));
     drop(Effect::particle_contacts, plan.runs(Effect::contacts)
                                         ? particle_contacts(world)
                                         : Wish{false, "contacts do not run"});

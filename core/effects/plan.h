@@ -32,13 +32,14 @@ enum class Effect : std::uint32_t {
     joints,
     joint_trees,
     deformables,
+    air_drag,
     links,
     particle_contacts,
     surface_contacts,
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 19;
+inline constexpr std::size_t kEffectCount = 20;
 
 struct Decision {
     std::string_view name;

@@ -6,6 +6,7 @@
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
+#include "step/air.h"
 #include "step/contact_sums.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
@@ -31,6 +32,7 @@ struct Stepper {
           motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
           turning(turning_joints(world)),
           surfaces(world),
+          air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints or rows. What a
@@ -41,6 +43,7 @@ struct Stepper {
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         turning = turning_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
+        if (plan.runs(Effect::air_drag)) air = Air(world);
         const bool holds =
             plan.runs(Effect::joints) || plan.runs(Effect::deformables) || plan.runs(Effect::links);
         if (holds || !plan.runs_as(before)) solver = make_row_solver(world, plan, workers);
@@ -51,6 +54,7 @@ struct Stepper {
     MotionLists motion;
     std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
     SurfaceDetector surfaces;
+    Air air;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     StillGround still_ground;

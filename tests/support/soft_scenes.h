@@ -7,11 +7,12 @@
 
 namespace plumb::test {
 
-/// On the ground, a kinematic plate and boxes: a cloth that is held at one side, a balloon, a
-/// balloon with a pressure, a solid, a rope between two bodies, and links of all kinds.
+/// In a wind, on the ground, a kinematic plate and boxes: a cloth that is held at one side, a
+/// balloon, a balloon with a pressure, a solid, a rope between two bodies, and links of all kinds.
 inline Scene soft_scene() {
     Scene s;
     s.settings.substeps = 4;
+    s.settings.wind = Eigen::Vector3d(0.5, 0, -0.3), s.settings.gusts = {0.5, 0.1, 0.5};
     add_ground(s);
     add_body(s, box(1.5, 0.1, 1.5), {0, 0.4, 0}, Motion::kinematic).angular_velocity = {0, 0.5, 0};
     for (int i = 0; i < 12; ++i)
