@@ -32,15 +32,16 @@ enum class Stage : std::uint32_t {
     islands,            ///< islands solved exactly
     shock,              ///< shock propagation
     move,               ///< new poses
+    tearing,            ///< elements that are strained too far
     still_ground,       ///< energy that the ground gave, taken back
     remember,           ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 23;
+inline constexpr std::size_t kStageCount = 24;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect",  "reuse",     "match",     "schedule",     "kinematics",        "restitution",
-    "impacts", "integrate", "air_drag",  "begin",        "velocities",        "positions",
-    "joints",  "trees",     "particles", "links",        "particle_contacts", "surface_contacts",
-    "islands", "shock",     "move",      "still_ground", "remember"};
+    "detect",  "reuse",     "match",     "schedule", "kinematics",        "restitution",
+    "impacts", "integrate", "air_drag",  "begin",    "velocities",        "positions",
+    "joints",  "trees",     "particles", "links",    "particle_contacts", "surface_contacts",
+    "islands", "shock",     "move",      "tearing",  "still_ground",      "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

@@ -145,6 +145,12 @@ Wish air_drag(const World& w) {
     return counted(static_cast<std::size_t>(feels), "surfaces feel the air",
                    "nothing that deforms has a surface that feels the air");
 }
+Wish tearing(const World& w) {
+    const auto able = std::count_if(w.deformables.begin(), w.deformables.end(),
+                                    [](const Deformable& d) { return d.can_tear(); });
+    return counted(static_cast<std::size_t>(able), "deformables tear (tearing_strain)",
+                   "nothing tears");
+}
 Wish links(const World& w) {
     return counted(w.links.size(), "links and attachments", "no links or attachments");
 }
@@ -194,6 +200,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"joint_trees", joint_trees},
     {"deformables", deformables},
     {"air_drag", air_drag},
+    {"tearing", tearing},
     {"links", links},
     {"particle_contacts", particle_contacts},
     {"surface_contacts", surface_contacts},

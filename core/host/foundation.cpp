@@ -98,11 +98,11 @@ void add_particles(Hash& hash, const World& world) {
     const Particles& p = world.particles;
     hash << p.mass << p.inverse_mass << p.radius << p.material << p.deformable;
     for (const Deformable& d : world.deformables) {
-        const DeformableSpec& s = d.spec;
+        const DeformableSpec& s = d.at_start();
         hash << s.kind << s.points << s.segments << s.triangles << s.tetrahedra << s.thickness
              << s.elasticity.youngs_modulus << s.elasticity.poissons_ratio << s.elasticity.damping
              << s.elasticity.bending_stiffness << s.volume_ratio << s.pressure << s.drag
-             << s.skin_drag << s.group << s.mask;
+             << s.skin_drag << s.tearing_strain << s.group << s.mask;
     }
     hash << world.links.size();
     for (const Link& l : world.links)

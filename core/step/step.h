@@ -35,7 +35,8 @@ struct Stepper {
           air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           solver(make_row_solver(world, plan, workers)) {}
 
-    /// After a change of the world that calls for other effects, or of its joints or rows. What a
+    /// After a change of the world that calls for other effects, or of its joints, rows or elements
+    /// of deformables. What a
     /// step leaves for the next is in the world's tables, so that nothing is lost. A solver without
     /// joints, deformables and links holds nothing of the world, and its memory serves on.
     void renew(const World& world) {
@@ -62,7 +63,8 @@ struct Stepper {
     Ledger ledger;                    ///< of the last step
 };
 
-/// Advances the world by Settings::dt.
+/// Advances the world by Settings::dt. Where StepReport::torn_elements is not 0, the stepper must
+/// be renewed before the next step.
 StepReport step(World& world, Stepper& stepper, Proximity& proximity);
 
 }  // namespace plumb

@@ -5,6 +5,7 @@
 #include "math/types.h"
 #include "scene/deformable.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -23,8 +24,14 @@ struct Particles {
 
 /// What a deformable has of the particles: [first, first + count).
 struct Deformable {
-    DeformableSpec spec;
+    DeformableSpec spec;  ///< as it is now: without the elements that are torn
     std::uint32_t first = 0, count = 0;
+    DeformableSpec whole{};             ///< as it was at the start, where it can tear
+    std::vector<std::uint32_t> torn{};  ///< elements of `whole`, sorted: segments of a rope,
+                                        ///< triangles of a sheet, tetrahedra of a solid
+
+    bool can_tear() const { return std::isfinite(spec.tearing_strain); }
+    const DeformableSpec& at_start() const { return can_tear() ? whole : spec; }
 };
 
 /// Cross section of a rope [m²].

@@ -41,4 +41,15 @@ inline Scene soft_scene() {
     return s;
 }
 
+/// A heavy ball that flies through a free sheet.
+inline Scene shot_through_a_sheet() {
+    Scene s;
+    s.settings.gravity.setZero();
+    DeformableSpec& spec = add_soft(s, sheet({10, 10}, {1, 1}));
+    spec.mass = 0.1, spec.tearing_strain = 0.05, spec.elasticity.youngs_modulus = 1e4;
+    BodySpec& ball = add_body(s, sphere(0.1), {0.03, 0.3, 0.02});
+    ball.velocity = {0, -20, 0}, ball.mass = 5;
+    return s;
+}
+
 }  // namespace plumb::test
