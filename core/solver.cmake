@@ -2,16 +2,16 @@
 set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp math/sparse_ldlt.cpp
   world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/corner_points.cpp world/derived.cpp world/edit_world.cpp
-  world/mass_properties.cpp world/shape_store.cpp
+  world/mass_properties.cpp world/shape_store.cpp world/tears.cpp
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/meetings.cpp effects/plan.cpp
   solve/elastic_system.cpp
   step/choose_rebounds.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp step/detect_particles.cpp
-  step/break_joints.cpp step/driven_axis.cpp step/follow_contacts.cpp step/impacts.cpp step/integrate.cpp
+  step/air.cpp step/break_joints.cpp step/driven_axis.cpp step/follow_contacts.cpp step/impacts.cpp step/integrate.cpp
   step/island_group.cpp step/island_solver.cpp step/joint_state.cpp step/match_contacts.cpp step/move_particles.cpp step/move_scripted.cpp
   step/remember_velocities.cpp step/reuse_contacts.cpp step/rims.cpp step/row_solver.cpp step/step.cpp
-  step/still_ground.cpp step/surface_detector.cpp step/tree_nodes.cpp
+  step/still_ground.cpp step/surface_detector.cpp step/tear.cpp step/tree_nodes.cpp
   step/tree_solver.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/shape_support.cpp)

@@ -3,8 +3,8 @@ plumb_add_tests(plumb_unit_tests unit
   math/block_cholesky_test.cpp math/fnv1a_test.cpp math/free_rotation_test.cpp math/lanes_test.cpp math/pivot_test.cpp math/rotation_test.cpp math/root_test.cpp
   math/sparse_ldlt_test.cpp math/symmetric_test.cpp
   scene/deformable_faults_test.cpp scene/joint_faults_test.cpp scene/nearest_test.cpp
-  constraints/axis_drive_test.cpp constraints/bending_test.cpp constraints/contact_cone_test.cpp constraints/connector_test.cpp
-  constraints/elasticity_test.cpp constraints/formulas_test.cpp constraints/joint_rows_test.cpp constraints/rolling_test.cpp
+  constraints/air_drag_test.cpp constraints/axis_drive_test.cpp constraints/bending_test.cpp constraints/contact_cone_test.cpp constraints/connector_test.cpp
+  constraints/elasticity_test.cpp constraints/formulas_test.cpp constraints/joint_rows_test.cpp constraints/rolling_test.cpp constraints/strain_test.cpp
   constraints/tree_block_test.cpp constraints/volume_test.cpp schedule/joint_forest_test.cpp schedule/tree_levels_test.cpp world/places_test.cpp
   effects/meetings_test.cpp effects/plan_test.cpp
   schedule/colouring_test.cpp schedule/contact_batches_test.cpp schedule/contact_islands_test.cpp schedule/workers_test.cpp

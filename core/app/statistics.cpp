@@ -61,6 +61,7 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     clamped_recoveries += report.clamped_recoveries;
     unsolved_islands += report.unsolved_islands;
     unsolved_trees += report.unsolved_trees;
+    torn += report.torn_elements;
     tree_error = std::max(tree_error, report.tree_error);
     rejected_contacts += report.rejected_contacts;
     for (std::size_t i = 0; i < kContactFaultCount; ++i) faults[i] += report.faults[i];

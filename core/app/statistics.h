@@ -57,6 +57,7 @@ public:
     std::uint32_t contact_max = 0;
     std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, unsolved_trees = 0,
                   rejected_contacts = 0, collider_failures = 0;
+    std::uint64_t torn = 0;                                  ///< elements of deformables
     std::array<std::uint64_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::string first_failure;                               ///< what the collider said
 

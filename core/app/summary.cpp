@@ -137,6 +137,8 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
         {Effect::joint_trees, {Stage::trees}},
         {Effect::deformables, {Stage::particles}},
         {Effect::exact_deformables, {Stage::particles}},
+        {Effect::air_drag, {Stage::air_drag}},
+        {Effect::tearing, {Stage::tearing}},
         {Effect::links, {Stage::links}},
         {Effect::particle_contacts, {Stage::particle_contacts}},
         {Effect::surface_contacts, {Stage::surface_contacts}},
@@ -227,12 +229,11 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["final_height"] = {
         {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
     j["fallen_through"] = fallen_through(scene, world);
-    j["clamps"] = {{"recovery", s.clamped_recoveries},
-                   {"unsolved_islands", s.unsolved_islands},
-                   {"unsolved_trees", s.unsolved_trees},
-                   {"tree_error_m", s.tree_error},
-                   {"rejected_contacts", s.rejected_contacts},
-                   {"collider_failures", s.collider_failures}};
+    j["torn"] = s.torn;
+    j["clamps"] = {
+        {"recovery", s.clamped_recoveries},         {"unsolved_islands", s.unsolved_islands},
+        {"unsolved_trees", s.unsolved_trees},       {"tree_error_m", s.tree_error},
+        {"rejected_contacts", s.rejected_contacts}, {"collider_failures", s.collider_failures}};
     j["state_hash"] = hex(state_hash(world));
     j["effects"] = effects_summary(simulation, s);
     j["build"] = build_json();

@@ -19,6 +19,7 @@ enum class Stage : std::uint32_t {
     restitution,        ///< which contacts bounce
     impacts,            ///< collisions, before forces
     integrate,          ///< forces and gyroscopic term
+    air_drag,           ///< drag of the air
     begin,              ///< gaps, drifts and velocities at the start of the substep
     velocities,         ///< velocity pass
     positions,          ///< position pass over contacts
@@ -31,15 +32,16 @@ enum class Stage : std::uint32_t {
     islands,            ///< islands solved exactly
     shock,              ///< shock propagation
     move,               ///< new poses
+    tearing,            ///< elements that are strained too far
     still_ground,       ///< energy that the ground gave, taken back
     remember,           ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 22;
+inline constexpr std::size_t kStageCount = 24;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect",  "reuse",     "match",        "schedule",          "kinematics",       "restitution",
-    "impacts", "integrate", "begin",        "velocities",        "positions",        "joints",
-    "trees",   "particles", "links",        "particle_contacts", "surface_contacts", "islands",
-    "shock",   "move",      "still_ground", "remember"};
+    "detect",  "reuse",     "match",     "schedule", "kinematics",        "restitution",
+    "impacts", "integrate", "air_drag",  "begin",    "velocities",        "positions",
+    "joints",  "trees",     "particles", "links",    "particle_contacts", "surface_contacts",
+    "islands", "shock",     "move",      "tearing",  "still_ground",      "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

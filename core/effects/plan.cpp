@@ -148,6 +148,22 @@ Wish exact_deformables(const World& w) {
     return {true, std::to_string(n) + " particles, at most " + most +
                       ", are solved as one system (exact_deformables)"};
 }
+Wish air_drag(const World& w) {
+    if (!w.settings.wind) return {false, "there is no wind"};
+    if (!(w.settings.air_density > 0)) return {false, "the air weighs nothing"};
+    const auto feels =
+        std::count_if(w.deformables.begin(), w.deformables.end(), [](const Deformable& d) {
+            return !d.spec.triangles.empty() && d.spec.drag + d.spec.skin_drag > 0;
+        });
+    return counted(static_cast<std::size_t>(feels), "surfaces feel the air",
+                   "nothing that deforms has a surface that feels the air");
+}
+Wish tearing(const World& w) {
+    const auto able = std::count_if(w.deformables.begin(), w.deformables.end(),
+                                    [](const Deformable& d) { return d.can_tear(); });
+    return counted(static_cast<std::size_t>(able), "deformables tear (tearing_strain)",
+                   "nothing tears");
+}
 Wish links(const World& w) {
     return counted(w.links.size(), "links and attachments", "no links or attachments");
 }
@@ -197,6 +213,8 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"joint_trees", joint_trees},
     {"deformables", deformables},
     {"exact_deformables", exact_deformables},
+    {"air_drag", air_drag},
+    {"tearing", tearing},
     {"links", links},
     {"particle_contacts", particle_contacts},
     {"surface_contacts", surface_contacts},
@@ -247,6 +265,7 @@ Plan make_plan(const World& world) {
     drop(Effect::exact_deformables, plan.runs(Effect::deformables)
                                         ? exact_deformables(world)
                                         : Wish{false, "deformables do not run"});
+    drop(Effect::air_drag, air_drag(world));
     drop(Effect::particle_contacts, plan.runs(Effect::contacts)
                                         ? particle_contacts(world)
                                         : Wish{false, "contacts do not run"});

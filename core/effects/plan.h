@@ -33,13 +33,15 @@ enum class Effect : std::uint32_t {
     joint_trees,
     deformables,
     exact_deformables,
+    air_drag,
+    tearing,
     links,
     particle_contacts,
     surface_contacts,
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 20;
+inline constexpr std::size_t kEffectCount = 22;
 
 struct Decision {
     std::string_view name;

@@ -36,9 +36,10 @@ struct StepReport {
     std::uint32_t rejected_contacts = 0;  ///< left out for one of the faults
     std::array<std::uint32_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::uint32_t broken_joints = 0;                         ///< joints that gave way in this step
-    bool finite = true;              ///< no position or velocity is NaN or infinite
-    bool collider_failed = false;    ///< the collider reported trouble: see `message`
-    bool collider_unusable = false;  ///< it wrote where it must not: it should not be called again
+    std::uint32_t torn_elements = 0;  ///< of deformables, that gave way in this step
+    bool finite = true;               ///< no position or velocity is NaN or infinite
+    bool collider_failed = false;     ///< the collider reported trouble: see `message`
+    bool collider_unusable = false;   ///< it wrote where it must not: it should not be called again
     std::string message;
 };
 

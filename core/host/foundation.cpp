@@ -59,11 +59,12 @@ private:
 };
 
 void add_settings(Hash& hash, const Settings& s) {
-    hash << s.gravity << s.dt << s.substeps << s.velocity_iterations << s.position_iterations
-         << s.method << s.precision << s.contacts << s.margin << s.reuse_distance << s.stiffness
-         << s.recovery_speed << s.collision_depth << s.anchor_stiffness << s.gyroscopic
-         << s.leapfrog_start << s.joints << s.exact_islands << s.exact_deformables << s.joint_tolerance << s.warm_start
-         << s.alternate_sweeps << s.shared_push << s.shared_cone << s.require << s.forbid;
+    hash << s.gravity << s.wind << s.gusts << s.gust_period << s.air_density << s.dt << s.substeps
+         << s.velocity_iterations << s.position_iterations << s.method << s.precision << s.contacts
+         << s.margin << s.reuse_distance << s.stiffness << s.recovery_speed << s.collision_depth
+         << s.anchor_stiffness << s.gyroscopic << s.leapfrog_start << s.joints << s.exact_islands
+         << s.exact_deformables << s.joint_tolerance << s.warm_start << s.alternate_sweeps
+         << s.shared_push << s.shared_cone << s.require << s.forbid;
 }
 
 void add_bodies(Hash& hash, const World& world) {
@@ -97,10 +98,11 @@ void add_particles(Hash& hash, const World& world) {
     const Particles& p = world.particles;
     hash << p.mass << p.inverse_mass << p.radius << p.material << p.deformable;
     for (const Deformable& d : world.deformables) {
-        const DeformableSpec& s = d.spec;
+        const DeformableSpec& s = d.at_start();
         hash << s.kind << s.points << s.segments << s.triangles << s.tetrahedra << s.thickness
              << s.elasticity.youngs_modulus << s.elasticity.poissons_ratio << s.elasticity.damping
-             << s.elasticity.bending_stiffness << s.volume_ratio << s.pressure << s.group << s.mask;
+             << s.elasticity.bending_stiffness << s.volume_ratio << s.pressure << s.drag
+             << s.skin_drag << s.tearing_strain << s.group << s.mask;
     }
     hash << world.links.size();
     for (const Link& l : world.links)

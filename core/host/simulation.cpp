@@ -128,6 +128,7 @@ StepReport Simulation::step() {
     parts_->renew();
     StepReport report = plumb::step(parts_->world, parts_->stepper, parts_->proximity);
     parts_->placed = false;
+    parts_->outdated = report.torn_elements > 0;
     parts_->stats = parts_->proximity.stats();
     if (parts_->record) parts_->record->take(parts_->world, parts_->stepper);
     return report;

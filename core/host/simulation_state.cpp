@@ -52,11 +52,6 @@ std::string_view state_in(std::string_view bytes, std::uint64_t wanted) {
 }
 
 template <class Io, class List>
-void each_number_of_list(Io& io, List& list) {
-    io.count(list);
-    for (auto& x : list) io(x);
-}
-template <class Io, class List>
 void each_number_of_pairs(Io& io, List& pairs) {
     io.count(pairs);
     for (auto& pair : pairs) io(pair.first), io(pair.second);

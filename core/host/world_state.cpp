@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/world_state.h"
 
+#include "world/tears.h"
+
 namespace plumb {
 namespace {
 
@@ -83,7 +85,11 @@ template <class Io, class W>
 void each_number_of_particles(Io& io, W& world) {
     for (std::size_t i = 0; i < world.particles.size(); ++i)
         vector(io, world.particles.position[i]), vector(io, world.particles.velocity[i]);
+    io.count(world.particles.factored);
+    for (auto& place : world.particles.factored) vector(io, place);
+    io(world.particles.factors_stale);
     for (auto& link : world.links) vector(io, link.impulse);
+    for (auto& d : world.deformables) each_number_of_list(io, d.torn);
 }
 
 template <class Io, class W>
@@ -102,6 +108,8 @@ void write_state(const World& world, StateWriter& to) { each_number(to, world); 
 void read_state(World& world, StateReader& from) {
     each_number(from, world);
     world.contacts.found.clear(), world.contacts.memory.clear();
+    for (Deformable& d : world.deformables)
+        if (d.can_tear()) leave_out_torn(d);
 }
 
 }  // namespace plumb

@@ -15,7 +15,7 @@
 
 namespace plumb {
 
-inline constexpr std::uint32_t kStateVersion = 1;
+inline constexpr std::uint32_t kStateVersion = 2;
 
 /// Appends all that it is called with to a string of bytes.
 class StateWriter {
@@ -61,6 +61,13 @@ public:
 private:
     ByteReader bytes_;
 };
+
+/// The length of a list and its numbers.
+template <class Io, class List>
+void each_number_of_list(Io& io, List& list) {
+    io.count(list);
+    for (auto& x : list) io(x);
+}
 
 /// What of a world outlives a step, besides World::excluded: into bytes, or back into a world of
 /// the same `foundation`.

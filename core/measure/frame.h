@@ -6,6 +6,7 @@
 #include "scene/geometry.h"
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -26,10 +27,12 @@ struct Frame {
                                      ///< start: a body's identifier, kNoIndex of a vacant place
     std::vector<Eigen::Vector3d> particles;  ///< places of the points of Scene::deformables, one
                                              ///< deformable after another [m]
-    std::uint32_t contacts = 0;      ///< contact points
-    double kinetic_energy = 0;       ///< [J]
-    double potential_energy = 0;     ///< of gravity, against the origin [J]
-    double deepest_penetration = 0;  ///< [m], ≥ 0
+    std::vector<std::array<std::uint32_t, 2>> torn;  ///< (deformable, element of it) that have
+                                                     ///< torn since the start, sorted
+    std::uint32_t contacts = 0;                      ///< contact points
+    double kinetic_energy = 0;                       ///< [J]
+    double potential_energy = 0;                     ///< of gravity, against the origin [J]
+    double deepest_penetration = 0;                  ///< [m], ≥ 0
 };
 
 }  // namespace plumb

@@ -132,6 +132,10 @@ void capture(const World& world, Frame& frame) {
                            world.bodies.angular_velocity[i]};
     frame.ids = world.bodies.id;
     frame.particles.assign(world.particles.position.begin(), world.particles.position.end());
+    frame.torn.clear();
+    for (std::uint32_t i = 0; i < world.deformables.size(); ++i)
+        for (const std::uint32_t element : world.deformables[i].torn)
+            frame.torn.push_back({i, element});
     frame.contacts = static_cast<std::uint32_t>(last_contacts(world).size());
     frame.kinetic_energy = kinetic_energy(world);
     frame.potential_energy = potential_energy(world);

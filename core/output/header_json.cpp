@@ -106,9 +106,7 @@ json deformable_to_json(const RecordedDeformable& d) {
            {"triangles", d.triangles}, {"thickness", d.thickness},
            {"radius", d.radius},       {"size", d.size},
            {"color", d.color}};
-    if (d.rest.empty()) return j;
-    j["tearing_strain"] = d.tearing_strain;
-    j["rest"] = flat(d.rest);
+    if (d.tears) j["tears"] = true, j["tetrahedra"] = d.tetrahedra;
     return j;
 }
 
@@ -137,9 +135,8 @@ RecordedDeformable deformable_from_json(const json& j, std::uint32_t first) {
     d.radius = number(j.at("radius"));
     d.size = number(j.at("size"));
     d.color = j.at("color");
-    if (!j.contains("rest")) return d;
-    d.tearing_strain = number(j.at("tearing_strain"));
-    d.rest = unflat(j.at("rest"));
+    d.tears = j.contains("tears");
+    if (d.tears) take_elements(j.at("tetrahedra"), d.tetrahedra, d.count);
     return d;
 }
 
@@ -157,6 +154,7 @@ void take_deformables(const json& j, RecordingHeader& header) {
     std::uint32_t first = 0;
     for (const json& d : j.at("deformables")) {
         header.deformables.push_back(deformable_from_json(d, first));
+        header.deformables.back().index = static_cast<std::uint32_t>(header.deformables.size()) - 1;
         const std::uint32_t count = header.deformables.back().count;
         if (count > kNoIndex - first) throw std::runtime_error("there are too many particles");
         first += count;

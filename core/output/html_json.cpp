@@ -133,11 +133,11 @@ void put_motion(json& scene, std::string& stream, const RecordingHeader& header,
 
 /// The same for deformables, and the links.
 void put_deformables(json& scene, ReplayParts& parts, const RecordingHeader& header,
-                     const std::vector<ParticleMotion>& motions) {
+                     const std::vector<Frame>& notes, const std::vector<ParticleMotion>& motions) {
     std::vector<ParticleGrid> grids;
     for (std::size_t i = 0; i < motions.size(); ++i)
         grids.push_back(particle_grid(header.deformables[i], motions[i]));
-    scene["deformables"] = deformables_json(header, grids, parts.meshes);
+    scene["deformables"] = deformables_json(header, notes, grids, parts.meshes);
     scene["links"] = links_json(header);
     parts.particles = encode_particles(motions, grids);
 }
@@ -188,7 +188,7 @@ ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>
     scene["bodies"] = bodies_to_json(header);
     scene["frames"] = frames_to_json(notes);
     put_motion(scene, parts.motion, header, motions.bodies);
-    put_deformables(scene, parts, header, motions.deformables);
+    put_deformables(scene, parts, header, notes, motions.deformables);
     parts.scene = safe_text(scene);
     return parts;
 }

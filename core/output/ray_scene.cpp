@@ -145,8 +145,7 @@ void RayScene::add_deformables(const RecordingHeader& header, const Frame& frame
         Item item{{Drawn::Kind::deformable, i}};
         if (deformable.kind == DeformableKind::rope) {
             std::vector<Piece> rope;
-            for (const auto& segment : deformable.segments) {
-                if (is_torn(deformable, segment, frame)) continue;
+            for (const auto& segment : segments_in(deformable, frame)) {
                 const auto end = [&](std::size_t k) -> Eigen::Vector3f {
                     return (frame.particles[deformable.first + segment[k]] - middle_).cast<float>();
                 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "output/recorded_deformable.h"
 
+#include "scene/elements_left.h"
 #include "scene/outer_faces.h"
 
 #include <algorithm>
@@ -27,6 +28,13 @@ double size_of(const std::vector<Eigen::Vector3d>& points) {
     return box.isEmpty() ? 0 : box.sizes().maxCoeff();
 }
 
+std::vector<std::uint32_t> torn_of(const RecordedDeformable& deformable, const Frame& frame) {
+    std::vector<std::uint32_t> torn;
+    for (const auto& [owner, element] : frame.torn)
+        if (owner == deformable.index) torn.push_back(element);
+    return torn;
+}
+
 RecordedPoint recorded_point(const Scene& scene, const std::vector<RecordedDeformable>& deformables,
                              const ScenePoint& point) {
     RecordedPoint result;
@@ -51,6 +59,7 @@ std::vector<RecordedDeformable> recorded_deformables(const Scene& scene) {
         RecordedDeformable deformable;
         deformable.name = spec.name;
         deformable.kind = spec.kind;
+        deformable.index = static_cast<std::uint32_t>(result.size());
         deformable.first = first;
         deformable.count = static_cast<std::uint32_t>(spec.points.size());
         if (spec.kind == DeformableKind::rope)
@@ -63,8 +72,8 @@ std::vector<RecordedDeformable> recorded_deformables(const Scene& scene) {
         deformable.radius = spec.radius;
         deformable.size = size_of(spec.points);
         deformable.color = spec.color;
-        deformable.tearing_strain = spec.tearing_strain;
-        if (std::isfinite(spec.tearing_strain)) deformable.rest = spec.points;
+        deformable.tears = std::isfinite(spec.tearing_strain);
+        if (deformable.tears) deformable.tetrahedra = sound(spec.tetrahedra, spec.points.size());
         first += deformable.count;
         result.push_back(std::move(deformable));
     }
@@ -86,18 +95,29 @@ std::size_t particle_count(const std::vector<RecordedDeformable>& deformables) {
     return count;
 }
 
-bool is_torn(const RecordedDeformable& deformable, std::span<const std::uint32_t> element,
-             const Frame& frame) {
-    if (deformable.rest.size() != deformable.count) return false;
-    const std::size_t n = element.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        const std::uint32_t a = element[k], b = element[(k + 1) % n];
-        const double now =
-            (frame.particles[deformable.first + a] - frame.particles[deformable.first + b]).norm();
-        const double rest = (deformable.rest[a] - deformable.rest[b]).norm();
-        if (now > (1 + deformable.tearing_strain) * rest) return true;
+std::size_t element_count(const RecordedDeformable& deformable) {
+    switch (deformable.kind) {
+        case DeformableKind::rope:
+            return deformable.segments.size();
+        case DeformableKind::solid:
+            return deformable.tetrahedra.size();
+        default:
+            return deformable.triangles.size();
     }
-    return false;
+}
+
+std::vector<std::array<std::uint32_t, 2>> segments_in(const RecordedDeformable& deformable,
+                                                      const Frame& frame) {
+    return elements_left(deformable.segments, torn_of(deformable, frame));
+}
+
+std::vector<std::array<std::uint32_t, 3>> triangles_in(const RecordedDeformable& deformable,
+                                                       const Frame& frame) {
+    const std::vector<std::uint32_t> torn = torn_of(deformable, frame);
+    if (torn.empty()) return deformable.triangles;
+    return deformable.kind == DeformableKind::solid
+               ? outer_faces(elements_left(deformable.tetrahedra, torn))
+               : elements_left(deformable.triangles, torn);
 }
 
 Eigen::Vector3d place_of(const RecordedPoint& point, const Frame& frame) {

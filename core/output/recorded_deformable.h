@@ -8,8 +8,6 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -18,13 +16,14 @@ namespace plumb {
 struct RecordedDeformable {
     std::string name;
     DeformableKind kind = DeformableKind::cloth;
+    std::uint32_t index = 0;                              ///< of Scene::deformables
     std::uint32_t first = 0, count = 0;                   ///< of Frame::particles
     std::vector<std::array<std::uint32_t, 2>> segments;   ///< of a rope, by points of it
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< of all others: the surface
     double thickness = 0;                                 ///< of cloth; a rope's diameter [m]
     double radius = 0;                                    ///< of the particles [m]
-    double tearing_strain = std::numeric_limits<double>::infinity();
-    std::vector<Eigen::Vector3d> rest;  ///< the points at the start, where it can tear [m]
+    bool tears = false;
+    std::vector<std::array<std::uint32_t, 4>> tetrahedra;  ///< of a solid that tears
     double size = 0;          ///< longest side of the box about the points at the start [m]
     std::uint32_t color = 0;  ///< 0xRRGGBB, 0 = chosen by the viewer
 };
@@ -51,9 +50,14 @@ inline double rope_radius(const RecordedDeformable& rope) {
     return rope.thickness > 0 ? 0.5 * rope.thickness : rope.radius;
 }
 
-/// Whether a segment or a triangle has an edge that is stretched so far that it must have torn.
-bool is_torn(const RecordedDeformable& deformable, std::span<const std::uint32_t> element,
-             const Frame& frame);
+/// How many elements there are that may tear: segments, triangles or tetrahedra.
+std::size_t element_count(const RecordedDeformable& deformable);
+
+/// The segments, and the triangles of the surface, that are not torn in a frame.
+std::vector<std::array<std::uint32_t, 2>> segments_in(const RecordedDeformable& deformable,
+                                                      const Frame& frame);
+std::vector<std::array<std::uint32_t, 3>> triangles_in(const RecordedDeformable& deformable,
+                                                       const Frame& frame);
 
 /// Where a point of a link is in a frame, which has the header's bodies and particles.
 Eigen::Vector3d place_of(const RecordedPoint& point, const Frame& frame);

@@ -9,6 +9,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <exception>
 #include <span>
 
@@ -16,7 +17,7 @@ namespace plumb {
 namespace {
 
 constexpr std::string_view kMagic = "PLUMBREC";
-constexpr std::uint32_t kVersion = 2, kVersionWithoutDeformables = 1;
+constexpr std::uint32_t kVersion = 3, kVersionWithoutTears = 2, kVersionWithoutDeformables = 1;
 constexpr std::size_t kFrameBytes = 48;  // of a payload, without its bodies and deformables
 constexpr std::size_t kBodyBytes = 44;
 constexpr std::size_t kParticleBytes = 6;  // at the least
@@ -74,6 +75,32 @@ RotationCode unpacked(std::uint64_t bits) {
     return code;
 }
 
+bool tears(const RecordingHeader& header) {
+    return std::any_of(header.deformables.begin(), header.deformables.end(),
+                       [](const RecordedDeformable& d) { return d.tears; });
+}
+
+void put_torn(std::string& bytes, const std::vector<std::array<std::uint32_t, 2>>& torn) {
+    put(bytes, static_cast<std::uint32_t>(torn.size()));
+    for (const auto& [deformable, element] : torn) put(bytes, deformable), put(bytes, element);
+}
+
+/// False where they are not elements of the header's deformables.
+bool take_torn(ByteReader& reader, const RecordingHeader& header, Frame& frame) {
+    if (reader.left() < 4) return false;
+    const auto count = reader.take<std::uint32_t>();
+    if (reader.left() / 8 < count) return false;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const auto deformable = reader.take<std::uint32_t>(),
+                   element = reader.take<std::uint32_t>();
+        if (deformable >= header.deformables.size() ||
+            element >= element_count(header.deformables[deformable]))
+            return false;
+        frame.torn.push_back({deformable, element});
+    }
+    return std::is_sorted(frame.torn.begin(), frame.torn.end());
+}
+
 std::string frame_payload(const Frame& frame, const RecordingHeader& header) {
     std::string bytes;
     bytes.reserve(kFrameBytes + kBodyBytes * frame.bodies.size() + 8 * frame.particles.size());
@@ -93,6 +120,7 @@ std::string frame_payload(const Frame& frame, const RecordingHeader& header) {
     const std::span<const Eigen::Vector3d> places(frame.particles);
     for (const RecordedDeformable& d : header.deformables)
         put_places(bytes, places.subspan(d.first, d.count), header.origin, d.size);
+    if (tears(header)) put_torn(bytes, frame.torn);
     return bytes;
 }
 
@@ -125,6 +153,7 @@ std::optional<Frame> frame_from_payload(std::string_view payload, const Recordin
     for (const RecordedDeformable& d : header.deformables)
         if (!take_places(reader, places.subspan(d.first, d.count), header.origin))
             return std::nullopt;
+    if (tears(header) && !take_torn(reader, header, frame)) return std::nullopt;
     if (reader.left() > 0) return std::nullopt;
     return frame;
 }
@@ -203,7 +232,9 @@ RecordingWriter::RecordingWriter(std::string path, RecordingHeader header)
     : header_(std::move(header)), file_(std::move(path)) {
     std::string bytes(kMagic);
     const bool plain = header_.deformables.empty() && header_.links.empty();
-    put(bytes, plain ? kVersionWithoutDeformables : kVersion);
+    put(bytes, plain            ? kVersionWithoutDeformables
+               : tears(header_) ? kVersion
+                                : kVersionWithoutTears);
     file_.append(bytes + framed(header_to_json(header_)));
 }
 

@@ -9,16 +9,18 @@
 ///         header (JSON)
 ///     then, for each frame: u32 length of payload  u32 checksum of length and payload  payload
 ///     payload: u64 step  f64 time  u32 contacts  f64 kinetic, potential, penetration
-///         u32 bodies  bodies  deformables
+///         u32 bodies  bodies  deformables  torn
 ///     body, 44 bytes: 3 × f32 position less origin  u64 rotation  3 × f32 velocity
 ///         3 × f32 angular velocity
 ///     rotation: 2 bits index of the largest component, then three times 20 bits (rotation_code.h)
 ///     deformable, 16 bytes and 6 for each of its points: places in the box about them, to 1e-4 of
 ///         its size or better (particle_code.h)
+///     torn, where a deformable of the header tears: u32 count, and so often u32 deformable
+///         u32 element, of those that have torn since the start, sorted
 ///
 /// The checksum is the CRC-32 of zlib. The origin, in the header, is a point near the bodies and
-/// deformables at the start. Files with deformables or links are of version 2; those without have
-/// nothing that version 1 had not, and are of version 1.
+/// deformables at the start. Files with deformables or links are of version 2, with some that tear
+/// of version 3; those without have nothing that version 1 had not, and are of version 1.
 #pragma once
 
 #include "measure/frame.h"

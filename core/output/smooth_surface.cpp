@@ -61,11 +61,11 @@ std::optional<SmoothSurface> surface_of(const RecordedDeformable& deformable, co
     TriangleMesh mesh;
     for (std::uint32_t i = 0; i < deformable.count; ++i)
         mesh.vertices.push_back((frame.particles[deformable.first + i] - middle).cast<float>());
-    for (const auto& triangle : deformable.triangles) {
+    for (const auto& triangle : triangles_in(deformable, frame)) {
         const bool finite = std::all_of(
             triangle.begin(), triangle.end(),
             [&mesh](std::uint32_t corner) { return mesh.vertices[corner].allFinite(); });
-        if (finite && !is_torn(deformable, triangle, frame)) mesh.triangles.push_back(triangle);
+        if (finite) mesh.triangles.push_back(triangle);
     }
     if (mesh.triangles.empty()) return std::nullopt;
     return SmoothSurface(std::move(mesh), crease_cosine(deformable.kind));

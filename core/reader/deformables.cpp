@@ -72,6 +72,13 @@ const Table<D>& elasticity_table() {
         field<D>(
             "pressure", within(kPressureBounds), [](D & d) -> auto& { return d.spec.pressure; },
             "in a balloon, over that outside, in place of a volume to keep [Pa]"),
+        field<D>(
+            "drag", within(kDragBounds), [](D & d) -> auto& { return d.spec.drag; },
+            "coefficient of drag of a surface across the wind: 1.2, of a flat plate, is the "
+            "default"),
+        field<D>(
+            "skin_drag", within(kDragBounds), [](D & d) -> auto& { return d.spec.skin_drag; },
+            "coefficient of drag of each side of a surface along the wind; 0.01 is the default"),
         field<D>("radius", within(kParticleRadiusBounds), &D::radius,
                  "of its points, for contacts; left out: half the thickness, but at least a tenth "
                  "of the mean length of an edge [m]"),
@@ -130,6 +137,8 @@ void check_keys(const D& draft, const Node& node) {
         {"thickness", {Kind::cloth, Kind::balloon, Kind::rope}},
         {"bending", {Kind::cloth, Kind::balloon, Kind::rope}},
         {"poisson", {Kind::cloth, Kind::balloon, Kind::solid}},
+        {"drag", {Kind::cloth, Kind::balloon, Kind::solid}},
+        {"skin_drag", {Kind::cloth, Kind::balloon, Kind::solid}},
         {"volume_ratio", {Kind::balloon}},
         {"pressure", {Kind::balloon}}};
     for (const auto& [key, kinds] : special_keys) {

@@ -12,6 +12,7 @@ namespace {
 
 using S = Settings;
 constexpr Range kIterations{0, 100000};
+constexpr Range kSpeeds{-1e4, 1e4};  // of the air [m/s]
 
 /// Names of ready-made settings.
 enum class Preset { paper };
@@ -48,6 +49,16 @@ const Table<Settings>& settings_table() {
     static const Table<S> table = {
         preset_field(),
         field<S>("gravity", Vector3{{-1e6, 1e6}}, &S::gravity, "acceleration of gravity [m/s²]"),
+        field<S>("wind", Vector3{kSpeeds}, &S::wind,
+                 "velocity of the air, which drags at the surfaces of what deforms; left out: "
+                 "there is no air [m/s]"),
+        field<S>("gusts", Vector3{kSpeeds}, &S::gusts,
+                 "by how much the wind swings along each axis; nothing is the default [m/s]"),
+        field<S>(
+            "gust_period", Number{{1e-3, 1e9}}, &S::gust_period,
+            "of the swing along x; along y it is faster by √2, along z by √3; 3 is the default "
+            "[s]"),
+        field<S>("air_density", Number{{0, 1e6}}, &S::air_density, "1.2 is the default [kg/m³]"),
         field<S>("dt", Number{{1e-9, 10}}, &S::dt, "step [s]"),
         field<S>("duration", Number{{0, 1e9}}, &S::duration, "simulated time [s]"),
         field<S>("substeps", W{{1, 100000}}, &S::substeps,

@@ -43,6 +43,8 @@ struct DeformableSpec {
     Elasticity elasticity;
     double volume_ratio = 1;         ///< k: a balloon keeps k times the volume of its points
     std::optional<double> pressure;  ///< over that outside [Pa], in place of a kept volume
+    double drag = 1.2;               ///< coefficient of a plate across the wind
+    double skin_drag = 0.01;         ///< coefficient of each side of a plate along the wind
     double radius = 0.005;           ///< of the particles, for contacts [m]
     Eigen::Vector3d velocity = Eigen::Vector3d::Zero();  ///< [m/s]
     double tearing_strain = std::numeric_limits<double>::infinity();

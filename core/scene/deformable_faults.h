@@ -25,6 +25,7 @@ inline constexpr DeformableBounds kStrainDampingBounds{0, 1e9};        ///< [s]
 inline constexpr DeformableBounds kBendingBounds{0, 1e15};             ///< [N m], [N m²]
 inline constexpr DeformableBounds kVolumeRatioBounds{1e-3, 1e3};       ///< [1]
 inline constexpr DeformableBounds kPressureBounds{-1e12, 1e12};        ///< [Pa]
+inline constexpr DeformableBounds kDragBounds{0, 1e6};                 ///< [1]
 inline constexpr DeformableBounds kParticleRadiusBounds{1e-6, 1e6};    ///< [m]
 inline constexpr DeformableBounds kDeformableMassBounds{1e-12, 1e15};  ///< [kg]
 inline constexpr double kLeastTearingStrain = 1e-6;
@@ -75,6 +76,8 @@ inline std::optional<DeformableFault> numbers_fault(const DeformableSpec& spec,
     within("/bending", spec.elasticity.bending_stiffness.value_or(0), kBendingBounds);
     within("/volume_ratio", spec.volume_ratio, kVolumeRatioBounds);
     within("/pressure", spec.pressure.value_or(0), kPressureBounds);
+    within("/drag", spec.drag, kDragBounds);
+    within("/skin_drag", spec.skin_drag, kDragBounds);
     within("/radius", spec.radius, kParticleRadiusBounds);
     if (spec.mass) within("/mass", *spec.mass, kDeformableMassBounds);
     if (!fault) fault = poisson_fault(spec);

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,10 @@ enum class Gyroscopic : std::uint32_t { conserving, implicit, explicit_ };
 
 struct Settings {
     Eigen::Vector3d gravity{0, -9.81, 0};  ///< [m/s²]
+    std::optional<Eigen::Vector3d> wind;   ///< velocity of the air; none: there is no air [m/s]
+    Eigen::Vector3d gusts{0, 0, 0};        ///< by how much the wind swings about that [m/s]
+    double gust_period = 3;                ///< of the swing along x, see scene/wind.h [s]
+    double air_density = 1.2;              ///< [kg/m³]
     double dt = 0.01;                      ///< step [s]
     double duration = 10;                  ///< [s]
     std::uint32_t substeps = 1;            ///< small steps to one detection

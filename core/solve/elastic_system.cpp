@@ -34,6 +34,7 @@ ElasticSystem::ElasticSystem(const World& world)
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
+    h_ = world.settings.dt / world.settings.substeps;
     for (auto* column : {&start_, &x_, &v_, &target_, &own_, &elastic_})
         column->assign(p.size(), Vector3d::Zero());
     std::vector<SparseLdlt::Pair> pairs;
@@ -68,6 +69,23 @@ void ElasticSystem::attach_balloons() {
     system_.attach(static_cast<std::uint32_t>(balloons_.size()), pairs);
 }
 
+void ElasticSystem::load(const World& world) {
+    const Particles& p = world.particles;
+    stale_ = p.factors_stale;
+    if (p.factored == factored_) return;
+    has_factors_ = false;
+    if (p.factored.size() != p.size()) return;
+    x_ = p.factored;
+    for (const auto& elements : elements_) elements->begin(x_, h_);
+    factor();
+    stale_ = p.factors_stale;
+}
+
+void ElasticSystem::store(Particles& particles) const {
+    particles.factors_stale = stale_;
+    if (particles.factored != factored_) particles.factored = factored_;
+}
+
 void ElasticSystem::begin(const World& world, double h) {
     h_ = h;
     const Particles& p = world.particles;
@@ -82,6 +100,16 @@ void ElasticSystem::begin(const World& world, double h) {
     for (const auto& elements : elements_) elements->begin(start_, h);
 }
 
+/// Volume of a balloon at the places now, and its gradient.
+double ElasticSystem::measure(Balloon& balloon) const {
+    std::fill(balloon.gradient.begin(), balloon.gradient.end(), Vector3d::Zero());
+    const Vector3d& origin = x_[balloon.first];
+    return volume_of(
+        *balloon.triangles,
+        [&](std::uint32_t i) -> Vector3d { return x_[balloon.first + i] - origin; },
+        &balloon.gradient);
+}
+
 /// What pulls at each row at the velocities now, which is 0 at the minimum; and the energy.
 void ElasticSystem::find_forces() {
     for (std::size_t i = 0; i < v_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
@@ -89,13 +117,7 @@ void ElasticSystem::find_forces() {
     energy_ = 0;
     for (const auto& elements : elements_) energy_ += elements->add_forces(x_, elastic_);
     for (Balloon& balloon : balloons_) {
-        std::fill(balloon.gradient.begin(), balloon.gradient.end(), Vector3d::Zero());
-        const Vector3d origin = x_[balloon.first];
-        const double volume = volume_of(
-            *balloon.triangles,
-            [&](std::uint32_t i) -> Vector3d { return x_[balloon.first + i] - origin; },
-            &balloon.gradient);
-        const double missing = balloon.volume - volume;
+        const double missing = balloon.volume - measure(balloon);
         const double push = balloon.pressure + balloon.stiffness * missing;
         energy_ += 0.5 * (balloon.pressure + push) * missing;
         for (std::uint32_t i = 0; i < balloon.count; ++i)
@@ -121,7 +143,8 @@ void ElasticSystem::assemble() {
 void ElasticSystem::assemble_balloons() {
     std::size_t pair = 0;
     for (std::uint32_t b = 0; b < balloons_.size(); ++b) {
-        const Balloon& balloon = balloons_[b];
+        Balloon& balloon = balloons_[b];
+        measure(balloon);
         const bool keeps = balloon.stiffness > 0;
         Matrix3d block = Matrix3d::Identity();  // two of three numbers mean nothing
         if (keeps) block(0, 0) = -1 / balloon.stiffness;
@@ -138,7 +161,12 @@ void ElasticSystem::assemble_balloons() {
 bool ElasticSystem::factor() {
     assemble();
     stale_ = false;
-    return has_factors_ = system_.factor();
+    has_factors_ = system_.factor();
+    if (has_factors_)
+        factored_ = x_;
+    else
+        factored_.clear();
+    return has_factors_;
 }
 
 /// Where the factors lead from here.
@@ -227,6 +255,7 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity, bool first) {
         const Move move = find_direction();
         if (!std::isfinite(move.size)) {
             has_factors_ = false;
+            factored_.clear();
             break;
         }
         const bool whole = improve();

@@ -23,6 +23,10 @@ class ElasticSystem {
 public:
     explicit ElasticSystem(const World& world);
 
+    /// Once a step: the factors that the step before left, and after it those that it leaves.
+    void load(const World& world);
+    void store(Particles& particles) const;
+
     /// Once a substep of length h [s], before any call of `solve`.
     void begin(const World& world, double h);
 
@@ -47,6 +51,7 @@ private:
 
     void make_balloons(const World& world);
     void attach_balloons();
+    double measure(Balloon& balloon) const;
     void find_forces();
     void assemble();
     void assemble_balloons();
@@ -65,7 +70,7 @@ private:
     bool has_factors_ = false, stale_ = false;  ///< stale: they lead on slowly
     double h_ = 0, enough_ = 0;
 
-    ParticlePlaces start_, x_;
+    ParticlePlaces start_, x_, factored_;
     std::vector<Vector3d> v_, target_, own_;         ///< [particle]; v̂ [m/s]; impulses [N s]
     std::vector<Vector3d> elastic_;                  ///< [particle] forces [N]
     std::vector<Vector3d> force_, direction_, way_;  ///< [row of the system]

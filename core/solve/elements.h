@@ -37,7 +37,8 @@ public:
 
     /// Adds −∇E to the forces of the particles [N], and returns E [J].
     virtual double add_forces(const ParticlePlaces& x, std::vector<Vector3d>& force) const = 0;
-    /// `scale` times the stiffness [N/m].
+    /// `scale` times the stiffness [N/m]; it follows from the places and the length of the substep
+    /// alone.
     virtual void add_stiffness(const ParticlePlaces& x, double scale, SparseLdlt& system) const = 0;
 };
 
@@ -133,7 +134,7 @@ public:
                     Eigen::Matrix<double, kPoints, kPoints>::Zero();
                 if constexpr (requires { &F::tension; }) {
                     double force[kRows];
-                    for (int r = 0; r < kRows; ++r) force[r] = here.force(e, r);
+                    for (int r = 0; r < kRows; ++r) force[r] = e.stiffness[r] * here.c[r];
                     across = F::tension(here.place, e.numbers, force);
                 }
                 add(e, system, [&](int i, int j) -> Matrix3d {

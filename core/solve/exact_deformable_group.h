@@ -25,6 +25,8 @@ public:
     Stage stage() const override { return Stage::particles; }
     bool empty() const override { return velocity_.empty(); }
 
+    void load(const World& world) override { system_.load(world); }
+
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
         first_row_ = world.particle_row(0);
@@ -39,6 +41,8 @@ public:
         workers_.barrier();
         keeper_.restore(rows, worker);
     }
+
+    void end_step(World& world) override { system_.store(world.particles); }
 
 private:
     void solve(const BodyRows<Real>& rows, bool first) {

@@ -103,7 +103,8 @@ private:
             const bool is_free = std::all_of(piece.begin(), piece.end(), [&](std::uint32_t i) {
                 return world.particles.inverse_mass[i] > 0;
             });
-            if (piece.empty() || !is_free) continue;
+            // nothing inside of a single point pushes it
+            if (piece.size() < 2 || !is_free) continue;
             const auto first = static_cast<std::uint32_t>(member_.size());
             member_.insert(member_.end(), piece.begin(), piece.end());
             shapes_.push_back({first, static_cast<std::uint32_t>(member_.size())});

@@ -76,6 +76,10 @@ void move_particles(World& world, double h);
 /// may touch from the next step on.
 void break_joints(World& world, const Plan& plan, Proximity& proximity, StepReport& report);
 
+/// Takes elements that are strained too far out of their deformables. The stepper is then of the
+/// world before.
+void tear(World& world, StepReport& report);
+
 /// Keeps contacts and impulses for the next step.
 void remember_contacts(World& world);
 

@@ -2,6 +2,7 @@
 #include "step/step.h"
 
 #include "step/rims.h"
+#include "step/substep_time.h"
 
 #include <cmath>
 
@@ -71,6 +72,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             integrate_velocities(world, plan, stepper.motion, h);
             integrate_particles(world, h);
         });
+        if (plan.runs(Effect::air_drag))
+            timed(Stage::air_drag,
+                  [&] { stepper.air.blow(world, stepper.workers, substep_time(world, h).push()); });
         if (foresees) timed(Stage::begin, [&] { foresee_rims(world, h); });
         if (first) timed(Stage::schedule, [&] { solver.load(world); });
         if (plan.runs(Effect::impacts))
@@ -100,6 +104,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     });
     if (plan.runs(Effect::joints))
         timed(Stage::joints, [&] { break_joints(world, plan, proximity, report); });
+    if (plan.runs(Effect::tearing)) timed(Stage::tearing, [&] { tear(world, report); });
 
     world.time = static_cast<double>(++world.steps) * dt;
     ledger.step_nanoseconds =

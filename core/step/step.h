@@ -6,6 +6,7 @@
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
+#include "step/air.h"
 #include "step/contact_sums.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
@@ -31,9 +32,11 @@ struct Stepper {
           motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
           turning(turning_joints(world)),
           surfaces(world),
+          air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           solver(make_row_solver(world, plan, workers)) {}
 
-    /// After a change of the world that calls for other effects, or of its joints or rows. What a
+    /// After a change of the world that calls for other effects, or of its joints, rows or elements
+    /// of deformables. What a
     /// step leaves for the next is in the world's tables, so that nothing is lost. A solver without
     /// joints, deformables and links holds nothing of the world, and its memory serves on.
     void renew(const World& world) {
@@ -41,6 +44,7 @@ struct Stepper {
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         turning = turning_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
+        if (plan.runs(Effect::air_drag)) air = Air(world);
         const bool holds =
             plan.runs(Effect::joints) || plan.runs(Effect::deformables) || plan.runs(Effect::links);
         if (holds || !plan.runs_as(before)) solver = make_row_solver(world, plan, workers);
@@ -51,6 +55,7 @@ struct Stepper {
     MotionLists motion;
     std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
     SurfaceDetector surfaces;
+    Air air;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     StillGround still_ground;
@@ -58,7 +63,8 @@ struct Stepper {
     Ledger ledger;                    ///< of the last step
 };
 
-/// Advances the world by Settings::dt.
+/// Advances the world by Settings::dt. Where StepReport::torn_elements is not 0, the stepper must
+/// be renewed before the next step.
 StepReport step(World& world, Stepper& stepper, Proximity& proximity);
 
 }  // namespace plumb

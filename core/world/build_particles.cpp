@@ -72,8 +72,11 @@ void build_particles(World& world, const Scene& scene) {
         DeformableSpec spec = scene.deformables[i];
         if (spec.kind == DeformableKind::solid && spec.triangles.empty())
             spec.triangles = outer_faces(spec.tetrahedra);
-        world.deformables.push_back({spec, static_cast<std::uint32_t>(world.particles.size()),
-                                     static_cast<std::uint32_t>(spec.points.size())});
+        Deformable& d = world.deformables.emplace_back();
+        d.spec = spec;
+        d.first = static_cast<std::uint32_t>(world.particles.size());
+        d.count = static_cast<std::uint32_t>(spec.points.size());
+        if (d.can_tear()) d.whole = spec;
         add_particles(world, scene, i);
     }
 }

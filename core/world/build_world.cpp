@@ -33,6 +33,18 @@ void keep_apart(World& world, const Scene& scene) {
     }
 }
 
+void check_air(const Settings& s) {
+    const auto expect = [](bool good, const char* place, const char* sentence) {
+        if (!good) throw SceneError("", place, sentence);
+    };
+    expect(!s.wind || s.wind->allFinite(), "/settings/wind", "must be finite numbers");
+    expect(s.gusts.allFinite(), "/settings/gusts", "must be finite numbers");
+    expect(s.gust_period > 0 && std::isfinite(s.gust_period), "/settings/gust_period",
+           "must be a positive number of seconds");
+    expect(s.air_density >= 0 && std::isfinite(s.air_density), "/settings/air_density",
+           "must be finite and not negative");
+}
+
 }  // namespace
 
 World build_world(const Scene& scene) {
@@ -42,6 +54,7 @@ World build_world(const Scene& scene) {
         throw SceneError("", "/settings/dt", "the step must be a positive number of seconds");
     if (scene.settings.substeps == 0)
         throw SceneError("", "/settings/substeps", "at least one substep is needed");
+    check_air(scene.settings);
     for (const Geometry& g : scene.geometries) world.shapes.add(g);
     make_bodies(world, scene);
     build_particles(world, scene);

@@ -5,6 +5,7 @@
 #include "math/types.h"
 #include "scene/deformable.h"
 
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -18,13 +19,23 @@ struct Particles {
     std::vector<std::uint32_t> material;
     std::vector<std::uint32_t> deformable;  ///< of which it is a point
 
+    // What the solver of elastic energies goes on from.
+    std::vector<Vector3d> factored;  ///< places at which its stiffness was factored, or none [m]
+    bool factors_stale = false;      ///< whether it wants new ones
+
     std::size_t size() const { return position.size(); }
 };
 
 /// What a deformable has of the particles: [first, first + count).
 struct Deformable {
-    DeformableSpec spec;
+    DeformableSpec spec;  ///< as it is now: without the elements that are torn
     std::uint32_t first = 0, count = 0;
+    DeformableSpec whole{};             ///< as it was at the start, where it can tear
+    std::vector<std::uint32_t> torn{};  ///< elements of `whole`, sorted: segments of a rope,
+                                        ///< triangles of a sheet, tetrahedra of a solid
+
+    bool can_tear() const { return std::isfinite(spec.tearing_strain); }
+    const DeformableSpec& at_start() const { return can_tear() ? whole : spec; }
 };
 
 /// Cross section of a rope [m²].

@@ -60,6 +60,24 @@ TEST(Plan, StillGroundRunsWhereSomethingStands) {
     EXPECT_FALSE(runs(s, Effect::still_ground));
 }
 
+TEST(Plan, AirDragRunsWhereAirMeetsASurface) {
+    Scene s = box_on_the_ground();
+    s.settings.wind = Vector(3, 0, 0);
+    EXPECT_FALSE(runs(s, Effect::air_drag));
+    add_soft(s, rope({0.5, 0.1, 0}, {1, 0.1, 0}, 2));
+    EXPECT_FALSE(runs(s, Effect::air_drag)) << "a rope has no surface";
+    add_soft(s, sheet({2, 2}, {1, 1}, {0, 2, 0}));
+    EXPECT_TRUE(runs(s, Effect::air_drag));
+    s.settings.wind = Vector(0, 0, 0);
+    EXPECT_TRUE(runs(s, Effect::air_drag)) << "air that stands still";
+    s.settings.wind.reset();
+    s.settings.require = {"air_drag"};
+    EXPECT_FALSE(runs(s, Effect::air_drag)) << "there is no air";
+    Simulation simulation(s, colliders(), "reference");
+    run_for(simulation, 0.1);
+    EXPECT_EQ(simulation.ledger().calls[static_cast<std::size_t>(Stage::air_drag)], 0u);
+}
+
 TEST(Plan, ParticlesTouchNothingWhereContactsAreForbidden) {
     Scene s = box_on_the_ground();
     EXPECT_FALSE(runs(s, Effect::particle_contacts));

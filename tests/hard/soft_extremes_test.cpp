@@ -154,5 +154,35 @@ TEST_P(SoftExtremes, APlatePressesABalloon) {
     expect_bounded(simulation, 4, 20, 20);
 }
 
+/// Of each kind all there is tears, down to single points, which fall on: over any steps, in wind.
+TEST_P(SoftExtremes, WhatTearsMayTearUntilNothingIsLeft) {
+    Random random(21);
+    std::size_t all = 0;
+    for (int draw = 0; draw < 16; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.dt = random.number(0.002, 0.03), s.settings.substeps = 1 + random.below(4);
+        s.settings.wind = random.vector(10);
+        add_ground(s);
+        DeformableSpec spec = draw % 4 == 0   ? sheet({3, 3}, {0.6, 0.6})
+                              : draw % 4 == 1 ? balloon(0.3, 2)
+                              : draw % 4 == 2 ? block({0.2, 0.2, 0.2}, {2, 2, 2})
+                                              : rope({-0.5, 0, 0}, {0.5, 0, 0}, 6);
+        const Rotation turn = random.rotation();
+        for (Vector& p : spec.points) p = turn * p + Vector(0, 0.7, 0);
+        spec.mass = random.number(0.01, 2), spec.radius = 0.02;
+        spec.elasticity.youngs_modulus = std::pow(10, random.number(3, 6));
+        spec.tearing_strain = draw < 8 ? 1e-6 : random.number(0.01, 0.3);
+        add_soft(s, std::move(spec));
+        add_body(s, box(0.2, 0.2, 0.2), {0.03, 1.5, 0.05}).mass = 20;
+        SCOPED_TRACE(draw);
+        Simulation simulation(s, colliders(), "reference");
+        expect_bounded(simulation, 3, 10, 200);
+        const Deformable& d = simulation.world().deformables[0];
+        all += d.spec.segments.empty() && d.spec.triangles.empty() && d.spec.tetrahedra.empty();
+    }
+    EXPECT_GE(all, 4u) << "so often nothing is left";
+}
+
 }  // namespace
 }  // namespace plumb::test

@@ -3,6 +3,7 @@
 /// no such state are refused.
 #include "host/editing.h"
 #include "scene/error.h"
+#include "support/soft_scenes.h"
 
 #include <cstring>
 #include <utility>
@@ -160,6 +161,19 @@ Scene sheet() {
 }
 
 TEST(SavedState, OfClothGoesOn) { expect_continuation(sheet(), "reference", 40, 80); }
+
+/// Also back to when less was torn.
+TEST(SavedState, KnowsWhatIsTorn) {
+    expect_continuation(shot_through_a_sheet(), "reference", 4, 40);
+    Simulation simulation(shot_through_a_sheet(), colliders(), "reference");
+    const std::string whole = simulation.save();
+    run_for(simulation, 0.3);
+    EXPECT_FALSE(simulation.world().deformables[0].torn.empty());
+    simulation.restore(whole);
+    const Deformable& d = simulation.world().deformables[0];
+    EXPECT_TRUE(d.torn.empty());
+    EXPECT_EQ(d.spec.triangles, d.whole.triangles);
+}
 
 TEST(SavedState, GoesOnOnAnyNumberOfThreadsAndLanes) {
     Scene s = noisy_heap();

@@ -212,13 +212,13 @@ TEST_F(RecordingTest, OtherFilesAndVersionsAreRefused) {
     EXPECT_THROW(read_recording(path("other.plumb")), OutputError);
     record(falling_scene(1), 1);
     std::string newer = content_of(path("run.plumb"));
-    newer[8] = 3;
+    newer[8] = 4;
     write("newer.plumb", newer);
     try {
         read_recording(path("newer.plumb"));
         FAIL() << "nothing was thrown";
     } catch (const OutputError& error) {
-        EXPECT_NE(std::string(error.what()).find("version 3"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("version 4"), std::string::npos);
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
 #include <random>
 
 namespace plumb::test {
@@ -126,6 +127,30 @@ TEST_F(SoftHtmlTest, PlaceThatIsNotFiniteDoesNotHurtTheOthers) {
     const Eigen::Vector3d wanted = frames[2].particles[8] - recording_header(scene, {}).origin;
     EXPECT_LT((replay.place(0, 8, 2) - wanted).norm(), 1e-3);
     EXPECT_TRUE(replay.place(0, 7, 2).allFinite());
+}
+
+/// Each element with the first frame that shows it and the one after the last.
+TEST_F(SoftHtmlTest, WhatTearsIsShownUntilThen) {
+    Scene scene = soft_scene(2);
+    for (DeformableSpec& spec : scene.deformables) spec.tearing_strain = 0.5;
+    std::vector<Frame> frames = soft_frames(scene, 5);
+    for (std::size_t f = 2; f < 5; ++f) frames[f].torn = {{0, 3}, {2, 1}};
+    for (std::size_t f = 3; f < 5; ++f) frames[f].torn = {{0, 3}, {2, 1}, {3, 6}};
+    const SoftReplay replay(page(scene, frames));
+    const nlohmann::json& list = replay.scene["deformables"];
+    using Shown = std::vector<std::array<std::size_t, 2>>;
+    Shown sheet(scene.deformables[0].triangles.size(), {0, 5}), rope(20, {0, 5});
+    sheet[3] = {0, 2}, rope[6] = {0, 3};
+    EXPECT_EQ(list[0]["shown"].get<Shown>(), sheet);
+    EXPECT_FALSE(list[1].contains("shown")) << "it did not tear";
+    EXPECT_EQ(list[3]["shown"].get<Shown>(), rope);
+    // a tetrahedron's faces are gone where they were outside, and its neighbours' are there now
+    const Shown solid = list[2]["shown"].get<Shown>();
+    EXPECT_EQ(list[2]["mesh"]["triangles"], solid.size());
+    const auto gone = std::count(solid.begin(), solid.end(), std::array<std::size_t, 2>{0, 2}),
+               bared = std::count(solid.begin(), solid.end(), std::array<std::size_t, 2>{2, 5});
+    EXPECT_EQ(gone + bared, 4);
+    EXPECT_EQ(solid.size(), 48u + static_cast<std::size_t>(bared));
 }
 
 TEST_F(SoftHtmlTest, PageSaysWhatThePlayerDraws) {

@@ -3,6 +3,7 @@
 
 #include "output/smooth_surface.h"
 #include "output/view.h"
+#include "scene/outer_faces.h"
 #include "soft.h"
 
 #include <gtest/gtest.h>
@@ -82,26 +83,29 @@ TEST(SoftPicture, PointThatIsNotFiniteTakesItsTrianglesAlone) {
     EXPECT_FALSE(draw_picture(header, frame, {64, 48, 2, 1}).rgb.empty());
 }
 
-/// A sheet that is pulled apart in the middle loses the row of triangles that are stretched too
-/// far, and a rope its piece.
+/// What is torn is left out of a sheet and a rope; a solid shows what its tear lays open.
 TEST(SoftPicture, WhatIsTornIsLeftOut) {
-    for (const bool tears : {false, true}) {
-        Scene scene = scene_of(sheet(11, 1), {0, 0, kDistance});
-        if (tears) scene.deformables[0].tearing_strain = 0.5;
-        Frame frame = soft_frame(scene, 0, 0);
-        for (Eigen::Vector3d& place : frame.particles) place.x() += place.x() > 0.05 ? 0.3 : 0;
-        const auto surface =
-            surface_of(recording_header(scene, {}).deformables[0], frame, Eigen::Vector3d::Zero());
-        ASSERT_TRUE(surface.has_value());
-        EXPECT_EQ(surface->mesh().triangles.size(), tears ? 180u : 200u);
-    }
-    Scene scene = scene_of(rope(10, 2, 0.12), {0, 0, kDistance});
-    scene.deformables[0].tearing_strain = 0.5;
+    Scene scene = scene_of(sheet(11, 1), {0, 0, kDistance});
+    scene.deformables.push_back(rope(10, 2, 0.12));
+    scene.deformables.push_back(jelly(2, 0.6));
+    for (DeformableSpec& spec : scene.deformables) spec.tearing_strain = 0.5;
     const RecordingHeader header = recording_header(scene, {});
+    const auto& deformables = header.deformables;
     Frame frame = soft_frame(scene, 0, 0);
-    for (std::size_t i = 6; i < 11; ++i) frame.particles[i].x() += 0.2;
-    for (std::size_t i = 0; i < 10; ++i)
-        EXPECT_EQ(is_torn(header.deformables[0], scene.deformables[0].segments[i], frame), i == 5);
+    const auto triangles = [&](std::size_t i) {
+        return surface_of(deformables[i], frame, Eigen::Vector3d::Zero())->mesh().triangles;
+    };
+    EXPECT_EQ(triangles(0).size(), 200u);
+    const auto closed = triangles(2);
+    frame.torn = {{0, 7}, {0, 30}, {1, 5}, {2, 0}};
+    EXPECT_EQ(triangles(0).size(), 198u);
+    EXPECT_EQ(triangles(0)[7], scene.deformables[0].triangles[8]);
+    EXPECT_EQ(segments_in(deformables[1], frame).size(), 9u);
+    EXPECT_EQ(segments_in(deformables[1], frame)[5], scene.deformables[1].segments[6]);
+    auto left = scene.deformables[2].tetrahedra;
+    left.erase(left.begin());
+    EXPECT_EQ(triangles(2), outer_faces(left));
+    EXPECT_NE(triangles(2), closed);
 }
 
 /// On a ball, blended normals are almost those of the ball. Rays start above it, by little more

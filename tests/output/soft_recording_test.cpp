@@ -85,10 +85,26 @@ TEST_F(SoftRecordingTest, WhatFliesApartOrIsNotFiniteLeavesTheOthersExact) {
     }
 }
 
+TEST_F(SoftRecordingTest, WhatIsTornComesBack) {
+    Scene scene = soft_scene(2);
+    Frame frame = soft_frame(scene, 0, 0.4);
+    frame.torn = {{1, 3}, {2, 0}, {2, 7}};
+    EXPECT_TRUE(there_and_back(scene, {frame}).frames[0].torn.empty()) << "none of them tears";
+    scene.deformables[1].tearing_strain = scene.deformables[2].tearing_strain = 0.5;
+    const Frame whole = soft_frame(scene, 1, 0.4);
+    const Recording recording = there_and_back(scene, {whole, frame});
+    ASSERT_EQ(recording.frames.size(), 2u);
+    EXPECT_TRUE(recording.frames[0].torn.empty());
+    EXPECT_EQ(recording.frames[1].torn, frame.torn);
+    EXPECT_EQ(recording.dropped_bytes, 0u);
+    frame.torn.push_back({3, 100});  // an element that there is not
+    EXPECT_EQ(there_and_back(scene, {whole, frame}).frames.size(), 1u);
+}
+
 TEST_F(SoftRecordingTest, HeaderComesBackWhole) {
     Scene scene = soft_scene(2);
     scene.deformables[0].color = 0x123456;
-    scene.deformables[3].tearing_strain = 0.25;
+    scene.deformables[2].tearing_strain = scene.deformables[3].tearing_strain = 0.25;
     const RecordingHeader wanted = recording_header(scene, {});
     const RecordingHeader got = there_and_back(scene, {}).header;
     ASSERT_EQ(got.deformables.size(), 4u);
@@ -111,10 +127,10 @@ TEST_F(SoftRecordingTest, HeaderComesBackWhole) {
     EXPECT_DOUBLE_EQ(got.deformables[1].size, 1);
     EXPECT_EQ(got.deformables[0].triangles, scene.deformables[0].triangles);
 
-    EXPECT_TRUE(std::isinf(got.deformables[0].tearing_strain));
-    EXPECT_TRUE(got.deformables[0].rest.empty());
-    EXPECT_EQ(got.deformables[3].tearing_strain, 0.25);
-    EXPECT_EQ(got.deformables[3].rest, scene.deformables[3].points);
+    EXPECT_FALSE(got.deformables[0].tears);
+    EXPECT_TRUE(got.deformables[3].tears);
+    EXPECT_TRUE(got.deformables[2].tears);
+    EXPECT_EQ(got.deformables[2].tetrahedra, scene.deformables[2].tetrahedra);
 
     ASSERT_EQ(got.links.size(), 2u);
     const Frame frame = soft_frame(scene, 0, 0);  // where all is as at the start

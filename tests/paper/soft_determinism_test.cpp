@@ -38,5 +38,21 @@ TEST_P(SoftDeterminism, SameBitsForAnyThreadsAndLanes) {
             }
 }
 
+/// What tears, and when, does not depend on threads and lanes either.
+TEST_P(SoftDeterminism, SameTearsForAnyThreadsAndLanes) {
+    const auto run = [&](std::uint32_t threads, std::uint32_t lanes) {
+        Scene s = shot_through_a_sheet();
+        s.settings.precision = GetParam();
+        s.settings.threads = threads, s.settings.lanes = lanes;
+        Simulation simulation(s, colliders(), "reference");
+        run_for(simulation, 0.4);
+        return std::pair(state_hash(simulation.world()), simulation.world().deformables[0].torn);
+    };
+    const auto first = run(1, 1);
+    EXPECT_GT(first.second.size(), 10u);
+    EXPECT_EQ(run(2, 4), first);
+    EXPECT_EQ(run(4, 0), first);
+}
+
 }  // namespace
 }  // namespace plumb::test

@@ -41,7 +41,7 @@ TEST(Deformables, HaveAllTheirKeys) {
     const Scene scene = scene_of(with(kCloth + R"(, "position": [0, 5, 0],
         "rotation": {"axis": [1, 0, 0], "degrees": 90}, "velocity": [1, 2, 3], "material": "silk",
         "mass": 0.5, "thickness": 0.002, "young": 2e7, "poisson": 0.2, "bending": 0.01, "damping": 0.003,
-        "radius": 0.02, "tearing_strain": 0.4, "group": 2, "mask": 5, "color": "#102030")"));
+        "radius": 0.02, "drag": 1.5, "skin_drag": 0.02, "tearing_strain": 0.4, "group": 2, "mask": 5, "color": "#102030")"));
     ASSERT_EQ(scene.deformables.size(), 1u);
     const DeformableSpec& d = scene.deformables[0];
     EXPECT_EQ(d.name, "sheet");
@@ -59,6 +59,8 @@ TEST(Deformables, HaveAllTheirKeys) {
     EXPECT_EQ(d.elasticity.bending_stiffness, 0.01);
     EXPECT_EQ(d.elasticity.damping, 0.003);
     EXPECT_EQ(d.radius, 0.02);
+    EXPECT_EQ(d.drag, 1.5);
+    EXPECT_EQ(d.skin_drag, 0.02);
     EXPECT_EQ(d.tearing_strain, 0.4);
     EXPECT_EQ(d.group, 2u);
     EXPECT_EQ(d.mask, 5u);
@@ -133,6 +135,8 @@ TEST(Deformables, RefuseNumbersOutOfRange) {
     refused(kBalloon + R"(, "volume_ratio": 0)", "volume_ratio");
     refused(kBalloon + R"(, "pressure": 1e13)", "pressure");
     refused(kCloth + R"(, "radius": 0)", "radius");
+    refused(kCloth + R"(, "drag": -1)", "drag");
+    refused(kCloth + R"(, "skin_drag": -1)", "skin_drag");
     refused(kCloth + R"(, "mass": 0)", "mass");
     refused(kCloth + R"(, "tearing_strain": 0)", "tearing_strain");
     refused(kCloth + R"(, "velocity": [0, 1e10, 0])", "velocity/1");
@@ -145,6 +149,7 @@ TEST(Deformables, RefuseKeysOfOtherKinds) {
     };
     refused(kSolid + R"(, "thickness": 1)", "thickness", "a solid has no \"thickness\"");
     refused(kSolid + R"(, "bending": 1)", "bending", "a solid has no \"bending\"");
+    refused(kRope + R"(, "drag": 1)", "drag", "a rope has no \"drag\"");
     refused(kRope + R"(, "poisson": 0.1)", "poisson", "a rope has no \"poisson\"");
     refused(kCloth + R"(, "pressure": 1)", "pressure", "a cloth has no \"pressure\"");
     refused(kRope + R"(, "volume_ratio": 1)", "volume_ratio", "a rope has no \"volume_ratio\"");

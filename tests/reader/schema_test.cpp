@@ -109,16 +109,20 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
     // This does not compile when Settings has members that are not listed here. Add them, and give
     // them a field in core/reader/settings.cpp.
     const Settings settings;
-    [[maybe_unused]] const auto& [gravity, dt, duration, substeps, velocity_iterations,
-                                  position_iterations, method, precision, threads, lanes, contacts,
-                                  margin, reuse_distance, stiffness, recovery_speed,
-                                  collision_depth, anchor_stiffness, gyroscopic, leapfrog_start,
-                                  joints, exact_islands, exact_deformables, joint_tolerance,
-                                  warm_start, alternate_sweeps, shared_push, shared_cone, require,
-                                  forbid] = settings;
-    constexpr std::size_t kMembers = 29, kPreset = 1;
+    [[maybe_unused]] const auto& [gravity, wind, gusts, gust_period, air_density, dt, duration,
+                                  substeps, velocity_iterations, position_iterations, method,
+                                  precision, threads, lanes, contacts, margin, reuse_distance,
+                                  stiffness, recovery_speed, collision_depth, anchor_stiffness,
+                                  gyroscopic, leapfrog_start, joints, exact_islands,
+                                  exact_deformables, joint_tolerance, warm_start, alternate_sweeps,
+                                  shared_push, shared_cone, require, forbid] = settings;
+    constexpr std::size_t kMembers = 33, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
+                             "wind",
+                             "gusts",
+                             "gust_period",
+                             "air_density",
                              "dt",
                              "duration",
                              "substeps",

@@ -24,13 +24,18 @@ std::string set_error(const std::string& setting) {
 
 TEST(Settings, FillsEveryMember) {
     const Settings s =
-        settings_of(R"("gravity": [1, 2, 3], "dt": 0.02, "duration": 3, "substeps": 4,
+        settings_of(R"("gravity": [1, 2, 3], "wind": [4, 0, -1], "gusts": [0.5, 0, 2],
+        "gust_period": 2.5, "air_density": 1.1, "dt": 0.02, "duration": 3, "substeps": 4,
         "velocity_iterations": 0, "position_iterations": 7, "method": "pbd", "precision": "double", "threads": 8,
         "lanes": 16, "margin": 0.1, "stiffness": 0.3, "recovery_speed": 2, "collision_depth": 0.001,
         "anchor_stiffness": 0.5, "gyroscopic": "implicit", "warm_start": false, "alternate_sweeps": false,
         "shared_cone": false, "leapfrog_start": true, "shared_push": false, "joints": "tree",
         "exact_islands": 12, "exact_deformables": 30, "contacts": "raw", "joint_tolerance": 1e-6, "require": ["a", "b"], "forbid": ["c"])");
     EXPECT_EQ(s.gravity, Eigen::Vector3d(1, 2, 3));
+    EXPECT_EQ(s.wind, Eigen::Vector3d(4, 0, -1));
+    EXPECT_EQ(s.gusts, Eigen::Vector3d(0.5, 0, 2));
+    EXPECT_EQ(s.gust_period, 2.5);
+    EXPECT_EQ(s.air_density, 1.1);
     EXPECT_EQ(s.dt, 0.02);
     EXPECT_EQ(s.duration, 3);
     EXPECT_EQ(s.substeps, 4u);
@@ -77,7 +82,9 @@ TEST(Settings, RefusesWhatIsOutOfRange) {
         {"margin", "-1"},     {"stiffness", "2"},
         {"duration", "-1"},   {"velocity_iterations", "100001"},
         {"gravity", "[0,1]"}, {"require", "\"a\""},
-        {"dt", "null"},       {"position_iterations", "-1"}};
+        {"dt", "null"},       {"position_iterations", "-1"},
+        {"wind", "3"},        {"wind", "[0, 1e5]"},
+        {"gust_period", "0"}, {"air_density", "-1"}};
     for (const auto& [key, value] : bad) {
         expect_error("{\"settings\": {\"" + key + "\": " + value + "}}", "/settings/" + key,
                      "must be");
@@ -96,8 +103,17 @@ TEST(Settings, KnowsItsWords) {
     expect_error(R"({"settings": {"method": "pdb"}})", "/settings/method", "did you mean \"pbd\"?");
 }
 
+TEST(Settings, NamesTheKeyThatWasMeant) {
+    expect_error(R"({"settings": {"wnid": [1, 0, 0]}})", "/settings/wnid",
+                 "did you mean \"wind\"?");
+    expect_error(R"({"settings": {"wind": [1, "2", 0]}})", "/settings/wind/1", "must be");
+    EXPECT_FALSE(settings_of("").wind.has_value()) << "no air unless there is a wind";
+}
+
 TEST(ApplySetting, TakesLooseValues) {
     Settings s;
+    apply_setting(s, "wind=3,0,1");
+    EXPECT_EQ(s.wind, Eigen::Vector3d(3, 0, 1));
     apply_setting(s, "dt=0.005");
     apply_setting(s, "precision=double");
     apply_setting(s, "warm_start=false");

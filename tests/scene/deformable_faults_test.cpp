@@ -83,6 +83,8 @@ TEST(DeformableFaults, OfNumbers) {
     wrong("/damping", [](D& d) { d.elasticity.damping = kNan; });
     wrong("/volume_ratio", [](D& d) { d.volume_ratio = 0; });
     wrong("/pressure", [](D& d) { d.pressure = kNan; });
+    wrong("/drag", [](D& d) { d.drag = -1; });
+    wrong("/skin_drag", [](D& d) { d.skin_drag = kNan; });
     wrong("/radius", [](D& d) { d.radius = -1; });
     wrong("/mass", [](D& d) { d.mass = 0; });
     wrong("/tearing_strain", [](D& d) { d.tearing_strain = kNan; });

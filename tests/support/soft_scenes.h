@@ -7,11 +7,12 @@
 
 namespace plumb::test {
 
-/// On the ground, a kinematic plate and boxes: a cloth that is held at one side, a balloon, a
-/// balloon with a pressure, a solid, a rope between two bodies, and links of all kinds.
+/// In a wind, on the ground, a kinematic plate and boxes: a cloth that is held at one side, a
+/// balloon, a balloon with a pressure, a solid, a rope between two bodies, and links of all kinds.
 inline Scene soft_scene() {
     Scene s;
     s.settings.substeps = 4;
+    s.settings.wind = Eigen::Vector3d(0.5, 0, -0.3), s.settings.gusts = {0.5, 0.1, 0.5};
     add_ground(s);
     add_body(s, box(1.5, 0.1, 1.5), {0, 0.4, 0}, Motion::kinematic).angular_velocity = {0, 0.5, 0};
     for (int i = 0; i < 12; ++i)
@@ -37,6 +38,17 @@ inline Scene soft_scene() {
     add_link(s, on_body(3, {-0.2, 2.2, -0.1}), on_body(4, {0.2, 2.2, 0}));
     add_link(s, on_body(6, {-0.6, 2.5, 0}), in_the_world({-0.6, 3, 0})).compliance = 1e-3;
     s.links.back().damping = 10;
+    return s;
+}
+
+/// A heavy ball that flies through a free sheet.
+inline Scene shot_through_a_sheet() {
+    Scene s;
+    s.settings.gravity.setZero();
+    DeformableSpec& spec = add_soft(s, sheet({10, 10}, {1, 1}));
+    spec.mass = 0.1, spec.tearing_strain = 0.05, spec.elasticity.youngs_modulus = 1e4;
+    BodySpec& ball = add_body(s, sphere(0.1), {0.03, 0.3, 0.02});
+    ball.velocity = {0, -20, 0}, ball.mass = 5;
     return s;
 }
 

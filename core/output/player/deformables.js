@@ -2,7 +2,7 @@
 // What is made of particles, and the links between things: surfaces, and rods for ropes and links.
 import * as THREE from 'three';
 import { meshArrays, ParticleMotion } from './data.js';
-import { limitOf, SmoothSurface, squaredDistance } from './smooth_surface.js';
+import { isShown, SmoothSurface } from './smooth_surface.js';
 
 const kThinnest = 8e-4;  // radius of a rope or link at the least, of the view's distance
 const kLinkColor = 0x4a5560;
@@ -80,9 +80,9 @@ export class Deformables {
 
     /// Each side of a surface is a mesh of its own, so that each is lit and shaded as what it is: the near side.
     addSurface(deformable, bytes) {
-        const { first, count, kind, color, mesh, crease, tearing_strain: strain } = deformable;
+        const { first, count, kind, color, mesh, crease, shown } = deformable;
         const places = this.places.subarray(3 * first, 3 * (first + count));
-        const surface = new SmoothSurface(places, meshArrays(bytes, mesh).corners, crease, strain);
+        const surface = new SmoothSurface(places, meshArrays(bytes, mesh).corners, crease, shown);
         for (const side of [THREE.FrontSide, THREE.BackSide]) {
             const material = new THREE.MeshStandardMaterial({ ...kLooks[kind], color, side, shadowSide: THREE.DoubleSide,
                 emissive: kind === 'cloth' ? color : 0 });
@@ -102,9 +102,6 @@ export class Deformables {
             this.objects.push(...rods.objects);
             return rods;
         }
-        const { first, segments, tearing_strain: strain } = deformable;
-        rods.limits = strain === undefined ? null
-            : segments.map(([a, b]) => limitOf(this.places, first + a, first + b, strain));
         const [pieces, ends] = rods.objects;
         pieces.userData = { deformable, point: ({ instanceId }) => deformable.segments[instanceId][0] };
         ends.userData = { deformable, point: ({ instanceId }) => deformable.segments[instanceId >> 1][instanceId & 1] };
@@ -128,14 +125,14 @@ export class Deformables {
         this.fraction = fraction;
         const a = new THREE.Vector3(), b = new THREE.Vector3();
         this.motion.fill(this.places, frame, fraction);
-        this.deformables.forEach(({ first, segments }, i) => {
+        this.deformables.forEach(({ first, segments, shown }, i) => {
             const part = this.parts[i];
             if (!segments) {
-                part.update();
+                part.update(frame);
                 return;
             }
             segments.forEach(([from, to], k) => {
-                if (part.limits && squaredDistance(this.places, first + from, first + to) > part.limits[k]) part.hide(k);
+                if (shown && !isShown(shown[k], frame)) part.hide(k);
                 else part.place(k, this.particle(a, first + from), this.particle(b, first + to));
             });
             part.finish();

@@ -14,15 +14,9 @@ function areaNormals(result, places, corners) {
     }
 }
 
-/// Longest that an edge between two points can be without tearing, squared [m²].
-export function limitOf(places, a, b, strain) {
-    return (1 + strain) ** 2 * squaredDistance(places, a, b);
-}
-
-export function squaredDistance(places, a, b) {
-    let sum = 0;
-    for (let i = 0; i < 3; ++i) sum += (places[3 * a + i] - places[3 * b + i]) ** 2;
-    return sum;
+/// Whether a frame shows what is there from one frame on until before another.
+export function isShown([first, end], frame) {
+    return first <= frame && frame < end;
 }
 
 /// Cosine of the angle between the normals of two triangles, given by their first corners.
@@ -58,14 +52,13 @@ class Vertices {
 }
 
 export class SmoothSurface {
-    /// `places`: those of the surface's points, which are followed from then on. `strain`: beyond which its edges tear,
-    /// or undefined.
-    constructor(places, corners, crease, strain) {
+    /// `places`: those of the surface's points, which are followed from then on. `shown`: [triangle] which frames
+    /// show it, or undefined: all do.
+    constructor(places, corners, crease, shown) {
         this.places = places;
         this.corners = corners;
         this.flat = new Float32Array(corners.length);
-        this.limits = strain === undefined ? null
-            : Float32Array.from(corners, (point, k) => limitOf(places, point, corners[this.following(k)], strain));
+        this.shown = shown;
         this.vertices = new Vertices(places, corners, crease);
         this.geometry = new THREE.BufferGeometry();
         for (const name of ['position', 'normal']) {
@@ -81,29 +74,23 @@ export class SmoothSurface {
         return this.vertices.points[vertex];
     }
 
-    /// The next corner of the same triangle.
-    following(k) {
-        return k % 3 === 2 ? k - 2 : k + 1;
-    }
-
-    /// Triangles with a torn edge shrink to a point.
-    tear() {
+    /// Triangles that a frame does not show shrink to a point.
+    tear(frame) {
         const { index } = this.geometry, whole = this.vertices.index;
         for (let t = 0; t < this.corners.length; t += 3) {
-            const torn = [t, t + 1, t + 2].some((k) => squaredDistance(this.places, this.corners[k],
-                this.corners[this.following(k)]) > this.limits[k]);
+            const gone = !isShown(this.shown[t / 3], frame);
             for (let k = t; k < t + 3; ++k) {
-                index.array[k] = whole[torn ? t : k];
-                if (torn) this.flat[k] = 0;
+                index.array[k] = whole[gone ? t : k];
+                if (gone) this.flat[k] = 0;
             }
         }
         index.needsUpdate = true;
     }
 
-    update() {
+    update(frame) {
         const { position, normal } = this.geometry.attributes, { points, starts, triangles } = this.vertices;
         areaNormals(this.flat, this.places, this.corners);
-        if (this.limits) this.tear();
+        if (this.shown) this.tear(frame);
         for (let i = 0; i < points.length; ++i) {
             let x = 0, y = 0, z = 0;
             for (let k = starts[i]; k < starts[i + 1]; ++k) {
