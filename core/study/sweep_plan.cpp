@@ -198,8 +198,10 @@ std::string number_text(double value) {
 
 double work_of(const Subject& subject, const Settings& s) {
     const double substeps = s.duration / s.dt * s.substeps;
-    return substeps * static_cast<double>(subject.scene.bodies.size()) *
-           (2.0 + s.velocity_iterations + s.position_iterations);
+    double moving = static_cast<double>(subject.scene.bodies.size());
+    for (const DeformableSpec& d : subject.scene.deformables)
+        moving += static_cast<double>(d.points.size());
+    return substeps * moving * (2.0 + s.velocity_iterations + s.position_iterations);
 }
 
 }  // namespace plumb::study
