@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// What deformables keep and where they come to rest: momentum, elongations, volumes, pressures.
-#include "constraints/volume.h"
+#include "measure/deformation.h"
+#include "study/elastic_laws.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/soft.h"
@@ -180,22 +181,6 @@ struct Fineness {
     std::uint32_t substeps, iterations;
 };
 
-/// Elongation of a hanging strip of n rows, whose last row has half a mass; `strain` is that of
-/// the middle by Hooke's law. A rope's strain is the force over E A: all in all a m g n²/2 with the
-/// compliance a of a segment. A sheet's force is E A (λ² − 1) λ/2 of the stretch λ.
-double elongation(bool is_cloth, std::uint32_t n, double strain) {
-    double sum = 0;
-    for (std::uint32_t row = 1; row <= n; ++row) {
-        const double force = 2 * strain * (row - 0.5) / n;
-        double stretch = 1 + force;
-        for (int i = 0; is_cloth && i < 10; ++i)
-            stretch -=
-                ((stretch * stretch - 1) * stretch / 2 - force) / ((3 * stretch * stretch - 1) / 2);
-        sum += (stretch - 1) / n;
-    }
-    return sum;
-}
-
 /// A hanging rope or strip of 1 m and n segments after 1.5 s: its elongation over the law's.
 double relative_elongation(Precision precision, bool is_cloth, std::uint32_t n, Fineness fine) {
     Scene s;
@@ -217,7 +202,8 @@ double relative_elongation(Precision precision, bool is_cloth, std::uint32_t n, 
     Simulation simulation(s, colliders(), "reference");
     run_for(simulation, 1.5);
     const std::vector<Vector>& p = simulation.world().particles.position;
-    return ((p[high] - p[low]).norm() - 1) / elongation(is_cloth, n, strain);
+    const double law = is_cloth ? study::hanging_elongation(n, strain) : strain;
+    return ((p[high] - p[low]).norm() - 1) / law;
 }
 
 TEST_P(Deformables, HangingRopesAndStripsStretchAsHookeSays) {
@@ -233,9 +219,7 @@ TEST_P(Deformables, HangingRopesAndStripsStretchAsHookeSays) {
 }
 
 double volume(const World& world, std::uint32_t deformable) {
-    const Deformable& d = world.deformables[deformable];
-    return volume_of(d.spec.triangles,
-                     [&](std::uint32_t i) { return world.particles.position[d.first + i]; });
+    return volume_inside(world, world.deformables[deformable]);
 }
 
 TEST_P(Deformables, BalloonsKeepTheirVolume) {
@@ -259,9 +243,6 @@ TEST_P(Deformables, BalloonsKeepTheirVolume) {
     }
 }
 
-/// p = 2 N / r. Of a sheet whose energy is that of Green's strain, the force per length is
-/// N = E t (λ² − 1) / 2 (1 − ν) of the stretch λ = r / R, where it is told by lengths as they are
-/// now: p R = E t (λ − 1/λ) / (1 − ν).
 TEST_P(Deformables, APressureBlowsABalloonUpToLaplacesRadius) {
     for (const double stretch : {1.02, 1.05, 1.15}) {
         Scene s;
@@ -275,7 +256,7 @@ TEST_P(Deformables, APressureBlowsABalloonUpToLaplacesRadius) {
         ball.elasticity.youngs_modulus = young, ball.elasticity.poissons_ratio = nu;
         ball.elasticity.bending_stiffness = 0;
         ball.elasticity.damping = 0.01;
-        ball.pressure = young * thickness * (stretch - 1 / stretch) / ((1 - nu) * radius);
+        ball.pressure = study::pressure_in_skin(stretch, radius, young * thickness, nu);
         Simulation simulation(s, colliders(), "reference");
         const double rest = volume(simulation.world(), 0);
         run_for(simulation, 0.5);
