@@ -59,9 +59,9 @@ struct Meeting {
     double edges = 1;              ///< share_at_rest, the least since the elk is a metre ahead
 };
 
-Meeting meet(const std::string& collider, std::uint32_t substeps, double duration) {
+Meeting meet(const std::string& collider, std::uint32_t substeps, std::uint32_t iterations) {
     Scene scene = read_scene(PLUMB_SAMPLES "/scenes/elk.json");
-    scene.settings.substeps = substeps;
+    scene.settings.substeps = substeps, scene.settings.position_iterations = iterations;
     Simulation simulation(scene, colliders(), collider);
     simulation.watch_contacts();
     const World& w = simulation.world();
@@ -74,7 +74,7 @@ Meeting meet(const std::string& collider, std::uint32_t substeps, double duratio
     const double place = duck();
     Vector taken = Vector::Zero();
     Meeting m;
-    while (simulation.time() < duration - 1e-9) {
+    while (simulation.time() < 3) {
         simulation.step();
         taken += taken_by_ground(simulation);
         m.worst_volume = std::max(m.worst_volume, std::abs(volume_errors(w)[0]));
@@ -87,29 +87,29 @@ Meeting meet(const std::string& collider, std::uint32_t substeps, double duratio
     m.pushed = duck() - place;
     m.lost = 1 - momentum_of_elk(w).x() / start.x();
     m.given = (momentum_of_duck(w) + taken).x() / start.x();
-    std::cout << substeps << " substeps: volume off by " << m.worst_volume << ", duck pushed by "
-              << m.pushed << " m, elk ahead by " << m.ahead << " m, lost " << m.lost
-              << " of its momentum, edges at rest " << m.edges << ", unbalanced " << m.unbalanced
-              << "\n";
+    std::cout << substeps << " x " << iterations << ": volume off by " << m.worst_volume
+              << ", duck pushed by " << m.pushed << " m, elk ahead by " << m.ahead << " m, lost "
+              << m.lost << " of its momentum, edges at rest " << m.edges << ", unbalanced "
+              << m.unbalanced << "\n";
     return m;
 }
 
+/// At the sample's own settings the duck is too soft, and the elk stays in it.
 TEST_P(Elk, GivesItsMomentumToTheDuckAndTheGround) {
-    const Meeting m = meet(GetParam(), 2, 3);
+    const Meeting m = meet(GetParam(), 2, 5);
     EXPECT_LT(m.worst_volume, 0.02);
     EXPECT_LT(m.unbalanced, 1e-6);
     EXPECT_GT(m.lost, 0.1);
     EXPECT_NEAR(m.given, m.lost, 1e-6);
 }
 
-/// The skin is stretched by 3 % on the mean, where it keeps 1.1 times its volume. Solved better, at
-/// 20 substeps of 20 sweeps, 94 to 97 % of its edges are within 5 %.
-TEST_P(Elk, PassesADuckThatKeepsItsShape) {
-    const Meeting m = meet(GetParam(), 10, 3);
+/// Its skin, which keeps 1.1 times the volume, is stretched by 3 % on the mean.
+TEST(ElkInADuckOfRubber, PassesItAndLeavesItInShape) {
+    const Meeting m = meet("ode", 20, 20);
     EXPECT_LT(m.worst_volume, 0.02);
     EXPECT_GT(m.pushed, 1);
     EXPECT_GT(m.ahead, 1);
-    EXPECT_GT(m.edges, 0.87);
+    EXPECT_GE(m.edges, 0.95);
     EXPECT_NEAR(m.given, m.lost, 1e-6);
 }
 
