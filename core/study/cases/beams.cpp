@@ -12,7 +12,7 @@
 namespace plumb::study {
 
 /// Let go straight, it swings about where it would rest. Tetrahedra of constant strain are too
-/// stiff: with four across by 8 %, with these by 4 %; of a Poisson's ratio of 0.3 more.
+/// stiff: in cubes of four across by 8 %, in these by 4 %; of a Poisson's ratio of 0.3 more.
 Subject cantilever() {
     Subject s =
         begin_subject("cantilever", "A beam of tetrahedra, six across, bends under its own weight",
@@ -22,7 +22,7 @@ Subject cantilever() {
     Cantilever law;
     law.length = 2, law.height = 0.4, law.width = 0.1;
     law.young = 5e6, law.nu = 0, law.density = 1000;
-    s.scene.settings.substeps = 200;  // a wave crosses less than a cell in one
+    s.scene.settings.substeps = 200;  // a wave crosses a seventh of a cell in one
     s.scene.settings.gravity = {0, -kWeak, 0};
     DeformableSpec& beam =
         reader::add_soft(s.scene, reader::block({law.length / 2, law.height / 2, law.width / 2},
