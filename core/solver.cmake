@@ -13,7 +13,7 @@ set(PLUMB_CORE_SOURCES
   step/remember_velocities.cpp step/reuse_contacts.cpp step/rims.cpp step/row_solver.cpp step/step.cpp
   step/still_ground.cpp step/surface_detector.cpp step/tear.cpp step/tree_nodes.cpp
   step/tree_solver.cpp
-  measure/contact_comparison.cpp measure/contact_patch.cpp measure/measure.cpp measure/mesh_resolution.cpp
+  measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/shape_support.cpp)
 
 # One unit an instruction set; what a processor cannot run is never called (kernels/dispatch.cpp).

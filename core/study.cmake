@@ -3,6 +3,7 @@ add_library(plumb_study STATIC
   study/cases.cpp study/two_rods.cpp study/cases/bounces.cpp study/cases/chains.cpp study/cases/double_pendulum.cpp
   study/cases/friction.cpp study/cases/gears.cpp study/cases/parabola.cpp study/cases/pendulum.cpp study/cases/rolling.cpp
   study/cases/springs.cpp study/cases/stack.cpp study/cases/tops.cpp
+  study/cases/balloons.cpp study/cases/beams.cpp study/cases/cloth.cpp study/cases/ropes.cpp
   study/findings.cpp study/gauges.cpp study/journal.cpp study/point.cpp study/run_point.cpp study/self_reference.cpp
   study/study_charts.cpp study/study_json.cpp study/sweep.cpp study/sweep_plan.cpp study/trajectory.cpp study/tune.cpp)
 add_library(plumb::study ALIAS plumb_study)

@@ -127,7 +127,10 @@ void climb(const study::Subject& subject, const Engine& engine, const char* way,
 }
 
 void sweep(const study::Subject& subject, const Engine& engine, double limit) {
-    if (const std::string reason = engine.unable(subject.scene); !reason.empty()) {
+    const std::string reason = subject.scene.deformables.empty()
+                                   ? engine.unable(subject.scene)
+                                   : "deformables are not handed on to it";
+    if (!reason.empty()) {
         std::printf("%s,%s,,,,,,,,,unable,\"%s\"\n", subject.name.c_str(), engine.name.c_str(),
                     reason.c_str());
         return;

@@ -24,7 +24,8 @@ struct AblatedEffect {
     bool timed = false;     ///< whether the times are known
     bool compared = false;  ///< whether both runs came to their end, so that there are errors
     double with_ms = 0, without_ms = 0;  ///< a step
-    double error = 0;          ///< largest distance between the places of a body in both runs [m]
+    double error = 0;  ///< largest distance between the places of a body, or of a deformable's
+                       ///< particles (rms, by mass), in both runs [m]
     double energy_change = 0;  ///< energy without it less energy with it [J]
     std::string trouble;       ///< why there are no figures, or no errors; empty: all is well
 

@@ -141,7 +141,8 @@ void print(const Json& j, const Options& o) {
         std::printf(
             "an effect costs the median step with it less that without it (negative: it saves "
             "time), %u runs of\neach, step by step in turn; the error without it is the farthest "
-            "that a body ends from where it ends with it\n",
+            "that a body, or a deformable's particles\n(rms, by mass), end from where they end "
+            "with it\n",
             static_cast<unsigned>(AblationPlan().repeats));
 }
 

@@ -4,11 +4,12 @@
 #include "app/interrupt.h"
 #include "app/within_reach.h"
 #include "host/source_proximity.h"
-#include "measure/measure.h"
 #include "scene/error.h"
+#include "study/trajectory.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace plumb::app {
 namespace {
@@ -53,39 +54,23 @@ bool advance(Run& run, std::uint32_t& contacts) {
     return report.finite && within_reach(run.simulation->world());
 }
 
-/// Mean height of the dynamic bodies, against gravity [m].
-double mean_height(const World& world) {
-    const Vector3d& g = world.settings.gravity;
-    const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
-    double sum = 0;
-    for (std::size_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies.motion[i] == Motion::dynamic) sum += up.dot(world.bodies.position[i]);
-    return sum / std::max(1, world.dynamic_count);
-}
-
-void add_drift(Drift& drift, const Bodies& first, const Bodies& second) {
-    double sum = 0, largest = 0;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < first.size(); ++i) {
-        if (first.motion[i] != Motion::dynamic) continue;
-        const double distance = (first.position[i] - second.position[i]).norm();
-        sum += distance, ++count;
-        largest = std::max(largest, distance);
-    }
-    drift.mean.push_back(count > 0 ? sum / static_cast<double>(count) : 0);
-    drift.largest.push_back(largest);
+void add_drift(Drift& drift, const study::Moment& first, const study::Moment& second) {
+    const std::vector<double> apart = study::distances(first, second);
+    const double sum = std::accumulate(apart.begin(), apart.end(), 0.0);
+    drift.mean.push_back(apart.empty() ? 0 : sum / static_cast<double>(apart.size()));
+    drift.largest.push_back(study::largest_distance(first, second));
 }
 
 void take_sample(FreeRuns& result, const std::vector<Run>& runs) {
     result.times.push_back(runs.front().simulation->time());
+    std::vector<study::Moment> moments;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        const World& world = runs[i].simulation->world();
-        result.height[i].push_back(mean_height(world));
-        result.energy[i].push_back(kinetic_energy(world) + potential_energy(world));
+        moments.push_back(study::moment_of(runs[i].simulation->world()));
+        result.height[i].push_back(moments[i].height);
+        result.energy[i].push_back(moments[i].energy);
     }
     for (Drift& drift : result.drifts)
-        add_drift(drift, runs[drift.first].simulation->world().bodies,
-                  runs[drift.second].simulation->world().bodies);
+        add_drift(drift, moments[drift.first], moments[drift.second]);
 }
 
 }  // namespace

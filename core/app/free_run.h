@@ -9,7 +9,8 @@
 
 namespace plumb::app {
 
-/// Two runs against each other, [sample]: distances between the same moving bodies [m].
+/// Two runs against each other, [sample]: distances between the same moving bodies and deformables
+/// (study/trajectory.h) [m].
 struct Drift {
     std::size_t first, second;  ///< indices into the colliders
     std::vector<double> mean, largest;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/statistics.h"
 
+#include "measure/deformation.h"
 #include "measure/measure.h"
 
 #include <algorithm>
@@ -14,7 +15,9 @@ double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nano
 Sample sample_of(const World& world) {
     const Vector3d g = world.settings.gravity;
     const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
-    Sample sample{world.time, penetrations(world), joint_errors(world), {}, {}, {}};
+    Sample sample{world.time, penetrations(world), joint_errors(world), {}, {}, {}, strains(world),
+                  {}};
+    for (const double error : volume_errors(world)) sample.volume_error.push_back(std::abs(error));
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         if (world.bodies.motion[i] != Motion::dynamic) continue;
         const double v = world.bodies.velocity[i].norm();

@@ -25,6 +25,7 @@ struct Sample {
     std::vector<double> penetration, joint_error;  ///< [pair], [joint], [m]
     std::vector<double> speed, near_speed;         ///< [dynamic body], [m/s]
     std::vector<double> particle_speed;            ///< of those that can move [m/s]
+    std::vector<double> strain, volume_error;      ///< [deformable], [balloon that keeps a volume]
 };
 
 class Statistics {

@@ -26,6 +26,10 @@ Json times(const std::vector<double>& v) {
     return {{"median", percentile(v, 0.5)}, {"mean", mean(v)}, {"p99", percentile(v, 0.99)}};
 }
 
+Json mean_and_max(const std::vector<double>& v) {
+    return {{"mean", mean(v)}, {"max", percentile(v, 1)}};
+}
+
 Json vector_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json speeds_json(const std::vector<double>& values) {
@@ -176,8 +180,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     const Heights heights = heights_of(world);
     const DetectStats detect = simulation.detect_stats();
     const double steps = static_cast<double>(std::max<std::uint64_t>(1, simulation.steps()));
-    const std::vector<double> penetration = s.over_last_fifth(&Sample::penetration),
-                              joint_error = s.over_last_fifth(&Sample::joint_error);
+    const std::vector<double> penetration = s.over_last_fifth(&Sample::penetration);
     Json j;
     j["scene"] = scene.name;
     j["file"] = scene_file;
@@ -220,12 +223,14 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["penetration"] = {{"mean", mean(penetration)},
                         {"p99", percentile(penetration, 0.99)},
                         {"max", percentile(penetration, 1)}};
-    j["joint_error"] = {{"mean", mean(joint_error)}, {"max", percentile(joint_error, 1)}};
+    j["joint_error"] = mean_and_max(s.over_last_fifth(&Sample::joint_error));
     j["speed"] = speeds_json(s.over_last_fifth(&Sample::speed));
     j["speed_near"] = speeds_json(s.over_last_fifth(&Sample::near_speed));
     j["speed_near"]["radius"] = Statistics::kNearRadius;
     j["speed_near"]["left_out"] = heights.count - heights.near_count;
     j["particle_speed"] = speeds_json(s.over_last_fifth(&Sample::particle_speed));
+    j["strain"] = mean_and_max(s.over_last_fifth(&Sample::strain));
+    j["volume_error"] = mean_and_max(s.over_last_fifth(&Sample::volume_error));
     j["final_height"] = {
         {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
     j["fallen_through"] = fallen_through(scene, world);

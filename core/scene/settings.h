@@ -58,8 +58,8 @@ struct Settings {
     JointMethod joints = JointMethod::auto_;
     std::uint32_t exact_islands = 400;  ///< islands of at most so many bodies that touch are solved
                                         ///< exactly, whatever the iterations; 0 = all are swept
-    std::uint32_t exact_deformables = 6000;  ///< deformables of at most so many particles together
-                                             ///< are solved exactly; 0 = all are swept
+    std::uint32_t exact_deformables = 0;  ///< deformables of at most so many particles together are
+                                          ///< solved as one system; 0 = all are swept
     double joint_tolerance = 5e-7;           ///< up to which trees of joints are closed [m], [rad]
 
     bool warm_start = true;        ///< begin from the impulses of the step before

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <cstdlib>
 
 namespace plumb {
 namespace {
@@ -18,14 +18,15 @@ constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6;
 /// Factors are kept as long as each step is at most this share of the one before.
 constexpr double kQuick = 0.3;
 
-/// Steps and factorisations of a substep's first call, and steps of later ones.
-constexpr int kFirstSteps = 4, kMostFactors = 1, kLaterSteps = 1;
+static int env(const char* n, int d) { return getenv(n) ? atoi(getenv(n)) : d; }
+static const int kSteps = env("KS", 4);
+
+/// A step of new factors is taken whole where no more than this share is left to do at its end.
+constexpr double kGood = 0.7;
 
 /// A line is searched until the slope is this share of that at its start.
 constexpr double kFlat = 0.2;
 constexpr int kCuts = 6;
-
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -71,18 +72,15 @@ void ElasticSystem::attach_balloons() {
 
 void ElasticSystem::load(const World& world) {
     const Particles& p = world.particles;
-    stale_ = p.factors_stale;
     if (p.factored == factored_) return;
-    has_factors_ = false;
+    drop_factors();
     if (p.factored.size() != p.size()) return;
     x_ = p.factored;
     for (const auto& elements : elements_) elements->begin(x_, h_);
     factor();
-    stale_ = p.factors_stale;
 }
 
 void ElasticSystem::store(Particles& particles) const {
-    particles.factors_stale = stale_;
     if (particles.factored != factored_) particles.factored = factored_;
 }
 
@@ -160,13 +158,15 @@ void ElasticSystem::assemble_balloons() {
 
 bool ElasticSystem::factor() {
     assemble();
-    stale_ = false;
     has_factors_ = system_.factor();
-    if (has_factors_)
-        factored_ = x_;
-    else
-        factored_.clear();
+    factored_ = x_;
+    if (!has_factors_) drop_factors();
     return has_factors_;
+}
+
+void ElasticSystem::drop_factors() {
+    has_factors_ = false;
+    factored_.clear();
 }
 
 /// Where the factors lead from here.
@@ -186,40 +186,20 @@ void ElasticSystem::advance(double step) {
     for (std::size_t i = 0; i < v_.size(); ++i) v_[i] += step * way_[i];
 }
 
-/// A step along `direction_`, to where there is less energy; returns whether a whole one led there.
-///
-/// What moves across a stiff sheet stretches it in second order, and the next step takes that back:
-/// so a whole step that gains energy gets this second chance before it is shortened.
-bool ElasticSystem::improve() {
-    const double before = energy_;
-    way_ = direction_;
-    advance(1);
-    find_forces();
-    if (energy_ <= before) return true;
-    find_direction();
-    std::swap(way_, direction_);
-    advance(1);
-    find_forces();
-    if (energy_ <= before) return false;
-    advance(-1);
-    std::swap(way_, direction_);
-    search_line();
-    return false;
+/// How fast the energy rises along `way_`.
+double ElasticSystem::slope() const {
+    double sum = 0;
+    for (std::size_t i = 0; i < v_.size(); ++i) sum -= way_[i].dot(force_[i]);
+    return sum;
 }
 
 /// From the end of a whole step to where the energy along it is least, about.
 void ElasticSystem::search_line() {
-    const auto slope = [&] {
-        double sum = 0;
-        for (std::size_t i = 0; i < v_.size(); ++i) sum -= way_[i].dot(force_[i]);
-        return sum;
-    };
-    find_forces();
     double low = 0, high = 1, at_high = slope();
     advance(-1);
     find_forces();
     double at_low = slope(), at = 0;
-    const double enough = kFlat * std::abs(at_low), before = energy_;
+    const double enough = kFlat * std::abs(at_low);
     for (int i = 0; i < kCuts; ++i) {
         const double guess = low - at_low * (high - low) / (at_high - at_low);
         const double inset = 0.05 * (high - low);
@@ -228,41 +208,63 @@ void ElasticSystem::search_line() {
         at = step;
         find_forces();
         const double here = slope();
-        if (std::abs(here) <= enough && energy_ <= before) return;
-        if (here > 0 || energy_ > before)
-            high = step, at_high = std::max(here, 0.0);
+        if (std::abs(here) <= enough) break;
+        if (here > 0)
+            high = step, at_high = here;
         else
             low = step, at_low = here;
     }
-    if (energy_ <= before) return;
-    advance(-at);
-    find_forces();
 }
 
-void ElasticSystem::solve(std::vector<Vector3d>& velocity, bool first) {
+/// Newton's method. A step is good where the same factors find less left to do at its end (the
+/// natural test of Deuflhard 2011, §3.3): a test by energy would stop at every fold, for what moves
+/// across a stiff sheet stretches it in second order, and the next step takes that back. The energy
+/// has the last word all the same: it never ends above where it was least.
+void ElasticSystem::descend() {
+    find_forces();
+    best_ = v_, least_ = energy_;
+    Move move;
+    bool fresh = false, known = false;
+    for (int i = 0; i < kSteps; ++i) {
+        if (!has_factors_) {
+            if (!factor()) break;
+            fresh = true, known = false;
+        }
+        if (!known) move = find_direction();
+        if (!std::isfinite(move.size)) {
+            drop_factors();
+            break;
+        }
+        std::swap(way_, direction_);
+        advance(1);
+        if (move.greatest <= enough_) return;
+        find_forces();
+        Move next = find_direction();
+        if (!fresh && !(next.size <= kQuick * move.size)) {
+            advance(-1);
+            find_forces();
+            drop_factors();
+            continue;
+        }
+        if (!(next.size < kGood * move.size) && slope() > 0) {
+            search_line();
+            next = find_direction();
+        }
+        if (energy_ < least_) best_ = v_, least_ = energy_;
+        known = next.size <= kQuick * move.size;
+        if (!known) drop_factors();
+        fresh = false;
+        move = next;
+    }
+    v_ = best_;
+}
+
+void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
     for (std::size_t i = 0; i < v_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
         if (mass_[i] > 0) target_[i] -= own_[i] / mass_[i];
     }
-    find_forces();
-    double before = kInfinite;
-    int factors = 0;
-    for (int i = 0; i < (first ? kFirstSteps : kLaterSteps); ++i) {
-        if (!has_factors_ || (first && stale_ && factors < kMostFactors)) {
-            if (!factor()) break;
-            ++factors;
-        }
-        const Move move = find_direction();
-        if (!std::isfinite(move.size)) {
-            has_factors_ = false;
-            factored_.clear();
-            break;
-        }
-        const bool whole = improve();
-        if (move.greatest <= enough_) break;
-        stale_ |= !whole || move.size > kQuick * before;
-        before = move.size;
-    }
+    descend();
     for (std::size_t i = 0; i < v_.size(); ++i) {
         own_[i] = mass_[i] * (v_[i] - target_[i]);
         velocity[i] = v_[i];

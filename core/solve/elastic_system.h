@@ -31,9 +31,8 @@ public:
     void begin(const World& world, double h);
 
     /// Improves the velocities of all particles [m/s]. What the system gave them in earlier calls
-    /// of this substep is in them, and is weighed anew. The first call works until the end is
-    /// reached or nearly so, later ones follow what has changed since.
-    void solve(std::vector<Vector3d>& velocity, bool first);
+    /// of this substep is in them, and is weighed anew.
+    void solve(std::vector<Vector3d>& velocity);
 
 private:
     struct Balloon {
@@ -58,8 +57,10 @@ private:
     bool factor();
     Move find_direction();
     void advance(double step);
-    bool improve();
+    void drop_factors();
+    double slope() const;
     void search_line();
+    void descend();
 
     std::uint32_t particles() const { return static_cast<std::uint32_t>(mass_.size()); }
 
@@ -67,14 +68,16 @@ private:
     std::vector<Balloon> balloons_;
     std::vector<double> mass_;  ///< [particle], 0 of what stays [kg]
     SparseLdlt system_;
-    bool has_factors_ = false, stale_ = false;  ///< stale: they lead on slowly
+    bool has_factors_ = false;
     double h_ = 0, enough_ = 0;
 
     ParticlePlaces start_, x_, factored_;
     std::vector<Vector3d> v_, target_, own_;         ///< [particle]; v̂ [m/s]; impulses [N s]
     std::vector<Vector3d> elastic_;                  ///< [particle] forces [N]
     std::vector<Vector3d> force_, direction_, way_;  ///< [row of the system]
-    double energy_ = 0;                              ///< at the velocities now [J]
+    std::vector<Vector3d> best_;  ///< [particle] velocities of the least energy [m/s]
+    double least_ = 0;            ///< that energy [J]
+    double energy_ = 0;           ///< at the velocities now [J]
 };
 
 }  // namespace plumb

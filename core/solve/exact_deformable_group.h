@@ -34,10 +34,10 @@ public:
         system_.begin(world, h);
     }
 
-    void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
+    void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>&,
                            std::uint32_t worker) override {
         keeper_.note(rows, worker);
-        if (worker == 0) solve(rows, pass.iteration == 0);
+        if (worker == 0) solve(rows);
         workers_.barrier();
         keeper_.restore(rows, worker);
     }
@@ -45,10 +45,10 @@ public:
     void end_step(World& world) override { system_.store(world.particles); }
 
 private:
-    void solve(const BodyRows<Real>& rows, bool first) {
+    void solve(const BodyRows<Real>& rows) {
         for (std::size_t i = 0; i < velocity_.size(); ++i)
             before_[i] = velocity_[i] = velocity_of(rows, row(i)).v;
-        system_.solve(velocity_, first);
+        system_.solve(velocity_);
         for (std::size_t i = 0; i < velocity_.size(); ++i)
             add_change(rows, row(i), Vector3d(velocity_[i] - before_[i]));
     }

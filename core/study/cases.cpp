@@ -28,6 +28,13 @@ const std::vector<CaseEntry>& cases() {
         {"heavy_chain", heavy_chain},
         {"gears", gears},
         {"springs", springs},
+        {"hanging_strip", hanging_strip},
+        {"drape", drape},
+        {"rope_catenary", rope_catenary},
+        {"hanging_rope", hanging_rope},
+        {"cantilever", cantilever},
+        {"balloon", balloon},
+        {"pressed_balloon", pressed_balloon},
     };
     return all;
 }

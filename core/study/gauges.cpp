@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/gauges.h"
 
+#include "measure/deformation.h"
 #include "measure/measure.h"
 #include "study/judges.h"
 
@@ -20,6 +21,12 @@ double mean_penetration(const World& world) {
 double widest_joint(const World& world) {
     const std::vector<double> errors = joint_errors(world);
     return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+}
+
+double worst_volume(const World& world) {
+    double worst = 0;
+    for (const double error : volume_errors(world)) worst = std::max(worst, std::abs(error));
+    return worst;
 }
 
 /// Of the last step's contacts, the sum of `figure(contact, what it pushed and rubbed)` over the
@@ -51,7 +58,7 @@ double cone_excess(const World& world) {
 
 }  // namespace
 
-std::vector<Metric> gauges_of(const Plan& plan) {
+std::vector<Metric> gauges_of(const Plan& plan, const World& world) {
     std::vector<Metric> gauges;
     if (plan.runs(Effect::contacts)) {
         gauges.push_back(mean_over_time("penetration", "m", "mean depth of pairs that penetrate",
@@ -65,6 +72,9 @@ std::vector<Metric> gauges_of(const Plan& plan) {
     if (plan.runs(Effect::joints))
         gauges.push_back(
             largest("joints", "m", "largest distance of a joint's points", widest_joint));
+    if (plan.runs(Effect::deformables) && !volume_errors(world).empty())
+        gauges.push_back(
+            mean_over_time("volume", "", "mean error of a balloon's volume at most", worst_volume));
     return gauges;
 }
 

@@ -66,6 +66,63 @@ private:
     double count_ = 0;
 };
 
+/// A value that swings through 0: how often, and its mean over whole swings.
+class Swings {
+public:
+    void add(double time, double value) {
+        sum_ += 0.5 * (value + before_) * (time - time_);
+        if (before_ < 0 && value >= 0) {
+            last_ = time_ + (time - time_) * before_ / (before_ - value);
+            sum_to_last_ = sum_ - 0.5 * value * (time - last_);
+            if (passes_++ == 0) first_ = last_, sum_to_first_ = sum_to_last_;
+        }
+        before_ = value, time_ = time;
+    }
+    /// [Hz]; 0 where it does not swing.
+    double frequency() const { return passes_ > 1 ? (passes_ - 1) / (last_ - first_) : 0; }
+    /// Over all the time where it does not swing.
+    double mean() const {
+        if (passes_ > 1) return (sum_to_last_ - sum_to_first_) / (last_ - first_);
+        return time_ > 0 ? sum_ / time_ : 0;
+    }
+
+private:
+    double before_ = 0, time_ = 0, sum_ = 0, first_ = 0, last_ = 0, sum_to_first_ = 0,
+           sum_to_last_ = 0;
+    int passes_ = 0;  ///< upwards
+};
+
+/// The mean of a deviation that swings.
+class DeviationOfMean : public Judge {
+public:
+    using Deviation = LargestDeviation::Deviation;
+    explicit DeviationOfMean(Deviation deviation) : deviation_(std::move(deviation)) {}
+
+    void look(const World& world) override { swings_.add(world.time, deviation_(world)); }
+    double error() const override { return size_of(swings_.mean()); }
+
+private:
+    Deviation deviation_;
+    Swings swings_;
+};
+
+/// How far off the frequency of a value is, of what it should be; 1 where it does not swing.
+class DeviationOfFrequency : public Judge {
+public:
+    using Deviation = LargestDeviation::Deviation;
+    /// `frequency`: what it should be [Hz].
+    DeviationOfFrequency(Deviation value, double frequency)
+        : value_(std::move(value)), frequency_(frequency) {}
+
+    void look(const World& world) override { swings_.add(world.time, value_(world)); }
+    double error() const override { return size_of(swings_.frequency() / frequency_ - 1); }
+
+private:
+    Deviation value_;
+    double frequency_;
+    Swings swings_;
+};
+
 /// A metric whose judges are made of a deviation alone.
 template <class J>
 Metric metric_by(std::string name, std::string unit, std::string what,
@@ -76,5 +133,16 @@ Metric metric_by(std::string name, std::string unit, std::string what,
 inline constexpr auto largest = metric_by<LargestDeviation>;
 inline constexpr auto last = metric_by<LastDeviation>;
 inline constexpr auto mean_over_time = metric_by<MeanDeviation>;
+inline constexpr auto of_mean = metric_by<DeviationOfMean>;
+
+/// `value` swings through 0, `frequency` times a second.
+inline Metric frequency_metric(std::string what, LargestDeviation::Deviation value,
+                               double frequency) {
+    return {"frequency", "", std::move(what),
+            [value = std::move(value), frequency] {
+                return std::make_unique<DeviationOfFrequency>(value, frequency);
+            },
+            0};
+}
 
 }  // namespace plumb::study

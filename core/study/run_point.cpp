@@ -5,6 +5,7 @@
 #include "scene/error.h"
 #include "study/sweep_plan.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -15,9 +16,9 @@ namespace {
 constexpr double kReach = 1e9;
 
 bool within_reach(const World& world) {
-    for (const Vector3d& x : world.bodies.position)
-        if (!(x.cwiseAbs().maxCoeff() < kReach)) return false;
-    return true;
+    const auto near = [](const Vector3d& x) { return x.cwiseAbs().maxCoeff() < kReach; };
+    return std::all_of(world.bodies.position.begin(), world.bodies.position.end(), near) &&
+           std::all_of(world.particles.position.begin(), world.particles.position.end(), near);
 }
 
 std::vector<std::unique_ptr<Judge>> judges_of(const Subject& subject) {

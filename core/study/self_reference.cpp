@@ -2,7 +2,7 @@
 #include "study/self_reference.h"
 
 #include "host/simulation.h"
-#include "measure/measure.h"
+#include "measure/deformation.h"
 #include "scene/error.h"
 #include "study/gauges.h"
 #include "study/judges.h"
@@ -89,21 +89,28 @@ std::uint32_t affordable(const Scene& scene, const ColliderLibrary& colliders,
     return substeps;
 }
 
-/// Mean reach of the dynamic bodies [m].
+/// Mean reach of the dynamic bodies and of the deformables, as they are at the start [m].
 double size_of(const World& world) {
     double sum = 0;
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
         if (world.bodies.motion[i] == Motion::dynamic && std::isfinite(world.bodies.reach[i]))
             sum += world.bodies.reach[i];
-    const double mean = sum / std::max(1, world.dynamic_count);
+    for (const Deformable& d : world.deformables) {
+        const Vector3d centre = centre_of(world, d);
+        double reach = 0;
+        for (const Vector3d& p : d.spec.points) reach = std::max(reach, (p - centre).norm());
+        sum += reach;
+    }
+    const double mean = sum / (world.dynamic_count + static_cast<double>(world.deformables.size()));
     return mean > 0 ? mean : 1;
 }
 
 /// Refuses what has nothing to compare.
 void check_length(const Scene& scene, const World& world) {
-    if (world.dynamic_count == 0)
+    if (world.moving_count() == 0)
         throw SceneError(scene.name, "/bodies",
-                         "none of them is dynamic: there is nothing to measure");
+                         "none of them is dynamic, and nothing deforms: there is nothing to "
+                         "measure");
     if (scene.settings.duration < kFewest * scene.settings.dt)
         throw SceneError(scene.name, "/settings/duration",
                          "must be at least " + std::to_string(kFewest) + " steps to be measured");
@@ -119,7 +126,9 @@ std::size_t together(const Trajectory& a, const Trajectory& b, double distance) 
 }
 
 Metric pose_metric(const Shared& reference, double horizon) {
-    return largest("pose", "m", "largest distance of a body from where the reference has it",
+    return largest("pose", "m",
+                   "largest distance of a body, or of a deformable's particles (rms), from where "
+                   "the reference has it",
                    [reference, horizon](const World& w) {
                        const std::size_t i = reference->index_at(w.time);
                        if (i == Trajectory::kNone || w.time > horizon * (1 + 1e-9)) return 0.0;
@@ -127,16 +136,22 @@ Metric pose_metric(const Shared& reference, double horizon) {
                    });
 }
 
-/// How far a value is from that of the reference: the root of the mean square over time.
+/// A number of each moment of a run.
+struct Quantity {
+    double (*now)(const World&);
+    double Moment::*stored;
+};
+
+/// How far a quantity is from that of the reference: the root of the mean square over time.
 class MeanAgainst : public Judge {
 public:
-    MeanAgainst(Shared reference, double Moment::*value, double scale)
-        : reference_(std::move(reference)), value_(value), scale_(scale) {}
+    MeanAgainst(Shared reference, Quantity quantity, double scale)
+        : reference_(std::move(reference)), quantity_(quantity), scale_(scale) {}
 
     void look(const World& world) override {
         const std::size_t i = reference_->index_at(world.time);
         if (i == Trajectory::kNone || i == 0) return;
-        const double difference = moment_of(world).*value_ - reference_->moments[i].*value_;
+        const double difference = quantity_.now(world) - reference_->moments[i].*quantity_.stored;
         square_ += difference * difference;
         ++count_;
     }
@@ -144,24 +159,31 @@ public:
 
 private:
     Shared reference_;
-    double Moment::*value_;
+    Quantity quantity_;
     double scale_;
     double square_ = 0, count_ = 0;
 };
 
-/// `coarser` tells how exact the reference itself is.
-Metric mean_metric(std::string name, std::string unit, std::string what, const Shared& reference,
-                   const Shared& coarser, double Moment::*value, double scale) {
-    double square = 0;
-    const std::size_t count = std::min(reference->moments.size(), coarser->moments.size());
-    for (std::size_t i = 1; i < count; ++i) {
-        const double d = reference->moments[i].*value - coarser->moments[i].*value;
-        square += d * d / static_cast<double>(count - 1);
+/// The references of a run, and how exact the finer is.
+struct References {
+    Shared finer, coarser;
+
+    Metric mean(std::string name, std::string unit, std::string what, Quantity quantity,
+                double scale = 1) const {
+        double square = 0;
+        const std::size_t count = std::min(finer->moments.size(), coarser->moments.size());
+        for (std::size_t i = 1; i < count; ++i) {
+            const double d =
+                finer->moments[i].*quantity.stored - coarser->moments[i].*quantity.stored;
+            square += d * d / static_cast<double>(count - 1);
+        }
+        return {std::move(name), std::move(unit), std::move(what),
+                [reference = finer, quantity, scale] {
+                    return std::make_unique<MeanAgainst>(reference, quantity, scale);
+                },
+                std::sqrt(square) / scale};
     }
-    return {std::move(name), std::move(unit), std::move(what),
-            [=] { return std::make_unique<MeanAgainst>(reference, value, scale); },
-            std::sqrt(square) / scale};
-}
+};
 
 /// What energy was turned over: the most that was ever in motion [J].
 double turnover(const Trajectory& t) {
@@ -187,7 +209,8 @@ Subject self_referenced(const Scene& scene, const std::string& name,
         return std::make_shared<const Trajectory>(
             recorded(refined(scene, n), interval, duration, colliders, options, deadline));
     };
-    const Shared finer = record(substeps), coarser = record(substeps / 2);
+    const References references{record(substeps), record(substeps / 2)};
+    const auto& [finer, coarser] = references;
     const std::size_t parted = together(*finer, *coarser, kParted * size_of(start.world()));
 
     Subject s;
@@ -206,12 +229,20 @@ Subject self_referenced(const Scene& scene, const std::string& name,
         for (std::size_t i = 0; i <= parted; ++i)
             error = std::max(error, largest_distance(finer->moments[i], coarser->moments[i]));
     }
-    s.metrics.push_back(mean_metric("height", "m", "error of the mean height, rms over time", finer,
-                                    coarser, &Moment::height, 1));
-    s.metrics.push_back(mean_metric("energy", "",
-                                    "error of the energy over what was in motion, rms over time",
-                                    finer, coarser, &Moment::energy, turnover(*finer)));
-    for (Metric& gauge : gauges_of(start.plan())) s.metrics.push_back(std::move(gauge));
+    s.metrics.push_back(references.mean("height", "m", "error of the mean height, rms over time",
+                                        {mean_height, &Moment::height}));
+    s.metrics.push_back(
+        references.mean("energy", "", "error of the energy over what was in motion, rms over time",
+                        {energy, &Moment::energy}, turnover(*finer)));
+    s.metrics.push_back(references.mean("momentum", "m/s",
+                                        "error of the momentum over all mass, rms over time",
+                                        {mean_speed, &Moment::speed}));
+    if (!start.world().deformables.empty())
+        s.metrics.push_back(references.mean("strain", "",
+                                            "error of the deformables' mean strain, rms over time",
+                                            {mean_strain, &Moment::strain}));
+    for (Metric& gauge : gauges_of(start.plan(), start.world()))
+        s.metrics.push_back(std::move(gauge));
     return s;
 }
 

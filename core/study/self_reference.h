@@ -3,7 +3,8 @@
 ///
 /// Two references are made, one twice as fine as the other. How far they part tells the error of
 /// the references themselves; when they part by more than a hundredth of a body, prediction ends:
-/// poses are compared until then, and means over time (energy, height) all along.
+/// poses are compared until then, and means over time (energy, momentum, height, strain) all along.
+/// A deformable counts as one body, however many particles it has (trajectory.h).
 #pragma once
 
 #include "host/collider_library.h"

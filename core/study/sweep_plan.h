@@ -32,7 +32,8 @@ Settings settings_at(const Subject& subject, const Point& point);
 /// The shortest text that reads back as the same number.
 std::string number_text(double value);
 
-/// Rough measure of how long a point takes, against others of its subject: sweeps over bodies.
+/// Rough measure of how long a point takes, against others of its subject: sweeps over
+/// bodies and particles.
 double work_of(const Subject& subject, const Settings& settings);
 
 }  // namespace plumb::study

@@ -1,5 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// A run as it is remembered to compare others with: where its bodies were at evenly spaced times.
+/// A run as it is remembered to compare others with: where its bodies and deformables were at
+/// evenly spaced times.
+///
+/// A deformable counts as one thing, like a body: its distance between two moments is the root of
+/// the mean square of its particles' distances, weighted by mass. So a finer mesh weighs no more
+/// than a coarse one, and neither drowns a body.
 #pragma once
 
 #include "world/world.h"
@@ -10,14 +15,25 @@
 
 namespace plumb::study {
 
+/// Particles of one deformable.
+struct Cloud {
+    std::vector<Vector3d> positions;  ///< [m]
+    std::vector<double> masses;       ///< [kg]
+};
+
 /// One moment of a run.
 struct Moment {
-    std::vector<Vector3d> positions;  ///< [dynamic body], centres of mass [m]
-    double kinetic_energy = 0;        ///< [J]
-    double energy = 0;                ///< kinetic, and potential of gravity [J]
-    double height = 0;                ///< mean of the dynamic bodies, against gravity [m]
+    std::vector<Vector3d> bodies;  ///< [dynamic body], centres of mass [m]
+    std::vector<Cloud> deformables;
+    double kinetic_energy = 0;                             ///< [J]
+    double energy = 0, height = 0, speed = 0, strain = 0;  ///< as the functions below tell
 };
 Moment moment_of(const World& world);
+
+double energy(const World& world);       ///< kinetic, and potential of gravity [J]
+double mean_height(const World& world);  ///< of dynamic bodies' and deformables' centres [m]
+double mean_speed(const World& world);   ///< size of the momentum over all mass that moves [m/s]
+double mean_strain(const World& world);  ///< of the deformables (measure/deformation.h)
 
 /// Moments at 0, interval, 2 × interval, …
 struct Trajectory {
@@ -29,7 +45,8 @@ struct Trajectory {
     std::size_t index_at(double time) const;
 };
 
-/// Largest distance between the same bodies at two moments [m].
-double largest_distance(const Moment& a, const Moment& b);
+/// Distances between the same things at two moments [m]: dynamic bodies, then deformables.
+std::vector<double> distances(const Moment& a, const Moment& b);
+double largest_distance(const Moment& a, const Moment& b);  ///< [m]
 
 }  // namespace plumb::study

@@ -18,10 +18,8 @@ struct Particles {
     std::vector<double> radius;              ///< [m]
     std::vector<std::uint32_t> material;
     std::vector<std::uint32_t> deformable;  ///< of which it is a point
-
-    // What the solver of elastic energies goes on from.
-    std::vector<Vector3d> factored;  ///< places at which its stiffness was factored, or none [m]
-    bool factors_stale = false;      ///< whether it wants new ones
+    std::vector<Vector3d> factored;  ///< places at which the stiffness of elastic energies was
+                                     ///< factored that is still in use, or none [m]
 
     std::size_t size() const { return position.size(); }
 };

@@ -49,11 +49,26 @@ TEST_P(SoftExtremes, AFineSheetHangsByItsCorners) {
     expect_bounded(fine, 0.5, 10, 10);
 }
 
+/// The same as one system, at any settings.
+TEST_P(SoftExtremes, SheetsAsOneSystem) {
+    Random random(31);
+    for (int draw = 0; draw < 4; ++draw) {
+        Scene s = draw % 2 == 0 ? held_sheet(GetParam(), 30) : heavy_ball(GetParam());
+        s.settings.exact_deformables = 1000;
+        if (draw > 1) {
+            s.settings.dt = random.number(0.002, 0.02);
+            s.settings.substeps = 1 + random.below(8);
+            s.settings.position_iterations = 1 + random.below(8);
+        }
+        Simulation simulation(s, colliders(), "reference");
+        expect_bounded(simulation, 2, 10, 20);
+    }
+}
+
 /// A ball of a hundred times the cloth's mass.
-TEST_P(SoftExtremes, ASheetBearsAHeavyBall) {
+Scene heavy_ball(Precision precision) {
     Scene s;
-    s.settings.precision = GetParam();
-    use_fine_steps(s.settings);
+    s.settings.precision = precision;
     DeformableSpec cloth = sheet({20, 20}, {2, 2});
     cloth.mass = 1, cloth.radius = 0.03;
     add_soft(s, std::move(cloth));
@@ -62,6 +77,12 @@ TEST_P(SoftExtremes, ASheetBearsAHeavyBall) {
         if (i % 21 == 0 || i % 21 == 20 || i < 21 || i >= 20 * 21) rim.push_back(i);
     hold(s, 0, rim);
     add_body(s, sphere(0.3), {0.02, 0.35, 0.01}).mass = 100;
+    return s;
+}
+
+TEST_P(SoftExtremes, ASheetBearsAHeavyBall) {
+    Scene s = heavy_ball(GetParam());
+    use_fine_steps(s.settings);
     Simulation simulation(s, colliders(), "reference");
     expect_bounded(simulation, 3, 10, 10);
     std::cout << "ball at " << simulation.world().bodies.position[0].transpose() << "\n";

@@ -12,8 +12,10 @@ namespace {
 class SoftDeterminism : public InEachPrecision {};
 INSTANTIATE_TEST_SUITE_P(, SoftDeterminism, each_precision(), precision_name);
 
-std::uint64_t hash_of(Precision precision, std::uint32_t threads, std::uint32_t lanes) {
+std::uint64_t hash_of(Precision precision, std::uint32_t threads, std::uint32_t lanes,
+                      std::uint32_t exact = 0) {
     Scene s = soft_scene();
+    s.settings.exact_deformables = exact;
     s.settings.precision = precision;
     s.settings.threads = threads, s.settings.lanes = lanes;
     Simulation simulation(s, colliders(), "reference");
@@ -36,6 +38,13 @@ TEST_P(SoftDeterminism, SameBitsForAnyThreadsAndLanes) {
                 EXPECT_EQ(hash_of(GetParam(), threads, lanes), hash)
                     << threads << " threads, " << lanes << " lanes";
             }
+}
+
+TEST_P(SoftDeterminism, SameBitsAsOneSystem) {
+    const std::uint64_t hash = hash_of(GetParam(), 1, 1, 10000);
+    EXPECT_NE(hash, hash_of(GetParam(), 1, 1));
+    EXPECT_EQ(hash_of(GetParam(), 2, 4, 10000), hash);
+    EXPECT_EQ(hash_of(GetParam(), 4, 0, 10000), hash);
 }
 
 /// What tears, and when, does not depend on threads and lanes either.

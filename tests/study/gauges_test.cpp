@@ -32,7 +32,7 @@ protected:
     }
 
     double gauge(const std::string& name) const {
-        for (const Metric& metric : gauges_of(simulation_->plan())) {
+        for (const Metric& metric : gauges_of(simulation_->plan(), world_)) {
             if (metric.name != name) continue;
             const auto judge = metric.judge();
             judge->look(world_);

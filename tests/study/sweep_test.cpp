@@ -7,9 +7,11 @@
 #include "study/self_reference.h"
 #include "study/tune.h"
 #include "support/scenes.h"
+#include "support/soft.h"
 
 #include "output/error.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -152,6 +154,41 @@ TEST(SelfReference, TellsTheErrorThatTheFormulaTells) {
     const double radius = 0.5;  // from the joint to the centre [m]
     EXPECT_NEAR(reference.errors[0], radius * formula.errors[0], 0.1 * reference.errors[0]);
     EXPECT_LT(blind.metrics.front().reference_error, 0.1 * reference.errors[0]);
+}
+
+/// A ball in a held sheet: what deforms has its share in poses and figures of its own, and finer
+/// runs are nearer.
+TEST(SelfReference, TellsTheErrorOfWhatDeforms) {
+    Scene scene;
+    scene.settings.duration = 0.2;
+    DeformableSpec& cloth = add_soft(scene, sheet({4, 4}, {1, 1}));
+    cloth.mass = 1, cloth.elasticity.youngs_modulus = 1e4;
+    hold(scene, 0, {0, 4, 20, 24});
+    add_soft(scene, balloon(0.1, 2, {0, 0.5, 0})).mass = 0.1;
+    const Subject subject =
+        self_referenced(scene, "soft", colliders(), {.substeps = 256, .stop = {}});
+    std::vector<std::string> names;
+    for (const Metric& m : subject.metrics) names.push_back(m.name);
+    EXPECT_EQ(names.front(), "pose");
+    for (const char* name : {"energy", "momentum", "strain", "volume"})
+        EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
+    std::vector<double> before;
+    for (const char* substeps : {"substeps=4", "substeps=32"}) {
+        const Point p = {.subject = "soft",
+                         .curve = "pbd",
+                         .precision = "double",
+                         .ladder = Ladder::substeps,
+                         .value = 4,
+                         .collider = "reference",
+                         .contacts = "shared",
+                         .settings = {"precision=double", substeps}};
+        const Outcome outcome = run_point(subject, p, colliders(), true, {});
+        ASSERT_EQ(outcome.status, study::Status::done) << outcome.note;
+        EXPECT_GT(outcome.errors[0], 0);
+        for (std::size_t i = 0; i < before.size(); ++i)
+            EXPECT_LT(outcome.errors[i], before[i]) << names[i];
+        before = {outcome.errors.begin(), outcome.errors.begin() + 5};
+    }
 }
 
 TEST(Tune, ReachesAnErrorWithFewRuns) {

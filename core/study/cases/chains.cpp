@@ -3,6 +3,7 @@
 #include "step/joint_state.h"
 #include "study/cases/list.h"
 #include "study/cases/parts.h"
+#include "study/catenary.h"
 #include "study/judges.h"
 
 #include <algorithm>
@@ -10,45 +11,6 @@
 
 namespace plumb::study {
 namespace {
-
-/// A chain of N rods of length l between two hooks of one height :
-/// the i-th rod climbs by tan θᵢ = (i − (N − 1)/2) w/H, w a rod's weight, H the level part of the
-/// force, which the span gives.
-struct Catenary {
-    static constexpr int kLinks = 100;
-    double link = 0.02, span = 1;  ///< [m]
-    double share = found_share();  ///< w/H
-
-    double tangent(int i, double of) const { return (i - 0.5 * (kLinks - 1)) * of; }
-    Vector3d along(int i) const {
-        const double slope = tangent(i, share), level = 1 / std::sqrt(1 + slope * slope);
-        return {level, slope * level, 0};
-    }
-    /// Middle of a rod; the first hook is at the origin [m].
-    Vector3d middle(int i) const {
-        Vector3d sum = 0.5 * link * along(i);
-        for (int k = 0; k < i; ++k) sum += link * along(k);
-        return sum;
-    }
-    /// Force at a hook over a rod's weight.
-    double pull() const { return std::hypot(0.5 * kLinks, 1 / share); }
-
-private:
-    double spanned(double of) const {
-        double sum = 0;
-        for (int i = 0; i < kLinks; ++i) sum += link / std::hypot(1, tangent(i, of));
-        return sum;
-    }
-    /// By bisection.
-    double found_share() const {
-        double low = 0, high = 10;
-        for (int i = 0; i < 100; ++i) {
-            const double middle = 0.5 * (low + high);
-            (spanned(middle) > span ? low : high) = middle;
-        }
-        return low;
-    }
-};
 
 double shape_error(const std::vector<Vector3d>& exact, const World& w) {
     double worst = 0;
@@ -86,17 +48,19 @@ Metric force_metric(const Scene& scene) {
 Subject catenary() {
     Subject s = begin_subject("catenary", "A chain of 100 rods hangs between two hooks",
                               "tan θᵢ = (i − (N − 1)/2) w/H", 1);
-    const Catenary law;
+    constexpr int kLinks = 100;
+    constexpr double kLink = 0.02, kSpan = 1;  // [m]
+    const Catenary law(kLinks, kLink, kSpan);
     s.scene.settings.forbid = {"contacts"};
     std::vector<Vector3d> middles;
-    for (std::uint32_t i = 0; i < Catenary::kLinks; ++i) {
-        const Vector3d half = 0.5 * law.link * law.along(i);
+    for (std::uint32_t i = 0; i < kLinks; ++i) {
+        const Vector3d half = 0.5 * kLink * law.along(i);
         middles.push_back(law.middle(i));
-        add_body(s.scene, box(0.5 * law.link * Vector3d(1, 0.1, 0.1)), middles.back())
+        add_body(s.scene, box(0.5 * kLink * Vector3d(1, 0.1, 0.1)), middles.back())
             .placement.rotation = axis_along(law.along(i));
         add_joint(s.scene, JointKind::hinge, i, i > 0 ? i - 1 : kNoIndex, middles.back() - half);
     }
-    add_joint(s.scene, JointKind::hinge, Catenary::kLinks - 1, kNoIndex, {law.span, 0, 0});
+    add_joint(s.scene, JointKind::hinge, kLinks - 1, kNoIndex, {kSpan, 0, 0});
     for (JointSpec& joint : s.scene.joints) joint.frame = axis_along(Vector3d::UnitZ());
     s.metrics = {largest("shape", "m", "largest distance of a rod from where it should hang",
                          [middles](const World& w) { return shape_error(middles, w); }),

@@ -34,4 +34,16 @@ Subject heavy_chain();
 Subject gears();
 Subject springs();
 
+Subject hanging_strip();
+Subject drape();
+Subject drape_of(std::uint32_t cells, std::uint32_t substeps);  ///< the same in a mesh of cells²
+
+Subject rope_catenary();
+Subject hanging_rope();
+
+Subject cantilever();
+
+Subject balloon();
+Subject pressed_balloon();
+
 }  // namespace plumb::study

@@ -43,22 +43,6 @@ double too_far(const Column& column, const World& w) {
     return (down - column.lowered(w.time)) / column.elongation();
 }
 
-/// The mean over time of what the lowest body is too far.
-class MeanJudge : public Judge {
-public:
-    void look(const World& w) override {
-        const double now = too_far(column_, w);
-        sum_ += 0.5 * (now + before_) * (w.time - time_);
-        before_ = now;
-        time_ = w.time;
-    }
-    double error() const override { return time_ > 0 ? size_of(sum_ / time_) : 0; }
-
-private:
-    Column column_;
-    double sum_ = 0, before_ = 0, time_ = 0;
-};
-
 }  // namespace
 
 Subject springs() {
@@ -74,8 +58,8 @@ Subject springs() {
     }
     s.metrics = {largest("position", "", "largest error of the lowest body, of the elongation",
                          [column](const World& w) { return too_far(column, w); }),
-                 {"elongation", "", "error of the mean elongation",
-                  [] { return std::make_unique<MeanJudge>(); }}};
+                 of_mean("elongation", "", "error of the mean elongation",
+                         [column](const World& w) { return too_far(column, w); })};
     s.tolerance = 6e-3;
     s.orders = {.substeps = 1, .step = 1};
     return s;
