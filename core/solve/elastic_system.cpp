@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace plumb {
 namespace {
@@ -18,8 +17,8 @@ constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6;
 /// Factors are kept as long as each step is at most this share of the one before.
 constexpr double kQuick = 0.3;
 
-static int env(const char* n, int d) { return getenv(n) ? atoi(getenv(n)) : d; }
-static const int kSteps = env("KS", 4);
+/// Steps of a call: a substep makes as many calls as position iterations.
+constexpr int kSteps = 4;
 
 /// A step of new factors is taken whole where no more than this share is left to do at its end.
 constexpr double kGood = 0.7;

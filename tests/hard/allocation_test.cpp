@@ -103,10 +103,13 @@ TEST(Allocation, AWarmStepAllocatesNothing) {
 }
 
 TEST(Allocation, AWarmStepOfDeformablesAllocatesNothing) {
-    for (const std::uint32_t exact : {0u, 10000u})
+    for (const auto& [precision, exact] :
+         {std::pair(Precision::single, 0u), std::pair(Precision::double_, 0u),
+          std::pair(Precision::single, 10000u), std::pair(Precision::double_, 10000u)})
         for (std::uint32_t threads : {1u, 2u}) {
             Scene s = soft_scene();
-            s.settings.exact_deformables = exact, s.settings.threads = threads;
+            s.settings.precision = precision, s.settings.exact_deformables = exact;
+            s.settings.threads = threads;
             Simulation teacher(s, colliders(), "reference");
             for (int i = 0; i < 80; ++i) teacher.step();
             Replayed replayed;
