@@ -13,7 +13,7 @@ awk '/^```jsonc/ { inside = 1; next } /^```/ { inside = 0 } inside' "$readme" >"
 
 links=$(grep -o '](\([^)]*\))' "$readme" | sed 's/^](//; s/)$//' | grep -v '^https:')
 [ -n "$links" ] || fail "has no links"
-for link in $links; do [ -e "$source/$link" ] || fail "$link is not there"; done
+for link in $links; do [ -e "$source/${link%%#*}" ] || fail "$link is not there"; done
 
 for verb in run colliders effects check compare cost tune export; do "$plumb" "$verb" --help; done >"$work/help.txt"
 options=$(awk '/^## The program/ { inside = 1; next } /^## / { inside = 0 } inside' "$readme" | grep -oE -- '--[a-z-]+' | sort -u)
