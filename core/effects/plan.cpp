@@ -144,7 +144,8 @@ Wish exact_deformables(const World& w) {
     if (w.settings.position_iterations == 0) return {false, "there are no position iterations"};
     const std::string most = std::to_string(w.settings.exact_deformables);
     if (n > w.settings.exact_deformables)
-        return {false, "more than " + most + " particles (exact_deformables) are swept"};
+        return {false, std::to_string(n) + " particles are more than " + most +
+                           " (exact_deformables), so that all are swept"};
     return {true, std::to_string(n) + " particles, at most " + most +
                       ", are solved as one system (exact_deformables)"};
 }

@@ -3,8 +3,8 @@
 /// Reid 1983).
 ///
 /// Two kinds of block rows: `order` takes those whose pattern stays (the particles), and chooses
-/// the order in which they are eliminated; `attach` takes those that come and go (bodies that
-/// touch them), which are eliminated last. Then any number of times: `clear`, add to blocks,
+/// the order in which they are eliminated; `attach` takes those that have blocks with many of them
+/// (the pressures of balloons) or come and go, which are eliminated last. Then any number of times: `clear`, add to blocks,
 /// `factor`, `solve`. Definite or quasi-definite systems need no pivoting.
 #pragma once
 

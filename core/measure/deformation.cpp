@@ -54,7 +54,7 @@ std::vector<double> strains(const World& world) {
             squares.add(world, d, d.spec.tetrahedra);
         else
             squares.add(world, d, d.spec.triangles);
-        all.push_back(std::sqrt(squares.sum / squares.count));
+        all.push_back(squares.count > 0 ? std::sqrt(squares.sum / squares.count) : 0);
     }
     return all;
 }

@@ -110,10 +110,11 @@ const Table<Settings>& settings_table() {
         field<S>("exact_islands", W{{0, 100000}}, &S::exact_islands,
                  "islands of at most so many bodies that touch are solved exactly, whatever the "
                  "iterations; 0: all are swept"),
-        field<S>("exact_deformables", W{{0, 10000000}}, &S::exact_deformables,
-                 "deformables of at most so many particles together are solved as one system, as "
-                 "stiff as their materials whatever the iterations, for ten times the time and "
-                 "more; 0: all are swept"),
+        field<S>(
+            "exact_deformables", W{{0, 10000000}}, &S::exact_deformables,
+            "a scene of at most so many particles solves what holds them together as one system, "
+            "as stiff as their materials whatever the iterations, for ten to a hundred times "
+            "the time; where there are more, or 0: all are swept"),
         field<S>("joint_tolerance", Number{{1e-12, 1}}, &S::joint_tolerance,
                  "up to which trees of joints are closed [m], [rad]"),
         field<S>("warm_start", Flag{}, &S::warm_start,

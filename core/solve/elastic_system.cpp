@@ -11,8 +11,9 @@ namespace {
 constexpr double kFilling = 1e8;
 
 /// The end is reached where a step changes velocities by no more than this share of what gravity
-/// does in a substep, or of the greatest velocity.
-constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6;
+/// does in a substep, or of the greatest velocity, or of the size of the whole in a substep: less
+/// is rounding.
+constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6, kRounding = 1e-12;
 
 /// Factors are kept as long as each step is at most this share of the one before.
 constexpr double kQuick = 0.3;
@@ -86,14 +87,15 @@ void ElasticSystem::store(Particles& particles) const {
 void ElasticSystem::begin(const World& world, double h) {
     h_ = h;
     const Particles& p = world.particles;
-    double fastest = 0;
+    double fastest = 0, furthest = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         start_[i] = p.position[i] - p.position[0];
         own_[i].setZero();
         fastest = std::max(fastest, p.velocity[i].squaredNorm());
+        furthest = std::max(furthest, start_[i].squaredNorm());
     }
-    enough_ =
-        kEnoughOfGravity * world.settings.gravity.norm() * h + kEnoughOfSpeed * std::sqrt(fastest);
+    enough_ = kEnoughOfGravity * world.settings.gravity.norm() * h +
+              kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
     for (const auto& elements : elements_) elements->begin(start_, h);
 }
 
@@ -217,8 +219,8 @@ void ElasticSystem::search_line() {
 
 /// Newton's method. A step is good where the same factors find less left to do at its end (the
 /// natural test of Deuflhard 2011, §3.3): a test by energy would stop at every fold, for what moves
-/// across a stiff sheet stretches it in second order, and the next step takes that back. The energy
-/// has the last word all the same: it never ends above where it was least.
+/// across a stiff sheet stretches it in second order, and the next step takes that back. Where the
+/// end is not reached, the least energy of all steps stands.
 void ElasticSystem::descend() {
     find_forces();
     best_ = v_, least_ = energy_;

@@ -122,6 +122,27 @@ TEST_P(Deformables, KeepMomentumAsOneSystem) {
     }
 }
 
+/// What is at rest takes no new factors, also where rounding is all that moves.
+TEST_P(Deformables, KeepTheirFactorsAtRest) {
+    for (const double gravity : {0.0, -9.81}) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.gravity = {0, gravity, 0};
+        s.settings.exact_deformables = 1000;
+        add_soft(s, balloon(0.3, 3, {0, 1, 0})).mass = 0.2;
+        add_soft(s, block({0.3, 0.3, 0.3}, {3, 3, 3}, {1, 1, 0})).mass = 2;
+        hold(s, 1, {0, 1, 2, 3});
+        Simulation simulation(s, colliders(), "reference");
+        run_for(simulation, 0.05);
+        const std::vector<Vector> factored = simulation.world().particles.factored;
+        EXPECT_EQ(factored.size(), simulation.world().particles.size());
+        run_for(simulation, 0.2);
+        if (gravity == 0) {
+            EXPECT_EQ(simulation.world().particles.factored, factored);
+        }
+    }
+}
+
 /// Pieces of one deformable that hang together nowhere know nothing of each other.
 TEST_P(Deformables, APieceFeelsNothingOfAnother) {
     Scene s;

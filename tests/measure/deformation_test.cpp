@@ -36,6 +36,12 @@ TEST(Deformation, IsTheStretchLessOne) {
     EXPECT_NEAR(volume_inside(world, world.deformables[3]), 1.331, 1e-12);
 }
 
+TEST(Deformation, OfWhatIsTornWhollyIsNone) {
+    World world = mapped([](const Vector& p) { return Vector(1.1 * p); });
+    world.deformables[1].spec.triangles.clear();
+    EXPECT_EQ(strains(world)[1], 0);
+}
+
 TEST(Deformation, TellsHowMuchAVolumeIsOff) {
     const World world = mapped([](const Vector& p) { return p; });
     EXPECT_NEAR(volume_errors(world)[0], 1 / 1.331 - 1, 1e-12);
