@@ -45,7 +45,7 @@ ElasticSystem::ElasticSystem(const World& world)
     make_balloons(world);
     attach_balloons();
     for (auto* rows : {&force_, &direction_, &way_})
-        rows->assign(particles() + balloons_.size(), Vector3d::Zero());
+        rows->assign(particles() + system_.more(), Vector3d::Zero());
 }
 
 void ElasticSystem::make_balloons(const World& world) {
@@ -61,13 +61,18 @@ void ElasticSystem::make_balloons(const World& world) {
     }
 }
 
-/// The pressure in a balloon is an unknown of its own, for it acts on all its particles.
+/// The pressure that keeps a balloon's volume is an unknown of its own, for it acts on all its
+/// particles.
 void ElasticSystem::attach_balloons() {
     std::vector<SparseLdlt::Pair> pairs;
-    for (std::uint32_t b = 0; b < balloons_.size(); ++b)
-        for (std::uint32_t i = 0; i < balloons_[b].count; ++i)
-            pairs.emplace_back(balloons_[b].first + i, particles() + b);
-    system_.attach(static_cast<std::uint32_t>(balloons_.size()), pairs);
+    std::uint32_t row = particles();
+    for (const Balloon& balloon : balloons_) {
+        if (!balloon.keeps_volume()) continue;
+        for (std::uint32_t i = 0; i < balloon.count; ++i)
+            pairs.emplace_back(balloon.first + i, row);
+        ++row;
+    }
+    system_.attach(row - particles(), pairs);
 }
 
 void ElasticSystem::load(const World& world) {
@@ -141,15 +146,15 @@ void ElasticSystem::assemble() {
 
 void ElasticSystem::assemble_balloons() {
     std::size_t pair = 0;
-    for (std::uint32_t b = 0; b < balloons_.size(); ++b) {
-        Balloon& balloon = balloons_[b];
+    std::uint32_t row = particles();
+    for (Balloon& balloon : balloons_) {
+        if (!balloon.keeps_volume()) continue;
         measure(balloon);
-        const bool keeps = balloon.stiffness > 0;
         Matrix3d block = Matrix3d::Identity();  // two of three numbers mean nothing
-        if (keeps) block(0, 0) = -1 / balloon.stiffness;
-        system_.add(particles() + b, block);
+        block(0, 0) = -1 / balloon.stiffness;
+        system_.add(row++, block);
         for (std::uint32_t i = 0; i < balloon.count; ++i, ++pair) {
-            if (!keeps || mass_[balloon.first + i] == 0) continue;
+            if (mass_[balloon.first + i] == 0) continue;
             block.setZero();
             block.col(0) = h_ * balloon.gradient[i];
             system_.add_pair(pair, block);

@@ -42,6 +42,8 @@ private:
         double pressure;                 ///< given [Pa]
         double stiffness;                ///< of a kept volume [Pa/m³]
         std::vector<Vector3d> gradient;  ///< of the volume at the places now [m²]
+
+        bool keeps_volume() const { return stiffness > 0; }
     };
     /// How far a direction leads: the greatest velocity [m/s], and the root of twice the energy.
     struct Move {
