@@ -5,6 +5,7 @@
 #pragma once
 
 #include "math/types.h"
+#include "scene/deformable.h"
 
 #include <array>
 #include <cstdint>
@@ -30,6 +31,14 @@ inline double volume_of(const Triangles& triangles, Place place,
         (*gradient)[t[2]] += a.cross(b) / 6;
     }
     return volume;
+}
+
+/// k V₀ of a balloon [m³].
+inline double kept_volume(const DeformableSpec& balloon) {
+    const std::vector<Vector3d>& points = balloon.points;
+    return balloon.volume_ratio * volume_of(balloon.triangles, [&](std::uint32_t i) -> Vector3d {
+               return points[i] - points[0];
+           });
 }
 
 }  // namespace plumb

@@ -26,12 +26,6 @@ struct Squares {
     }
 };
 
-/// Volume of a deformable's surface; `points`: [point of it].
-double volume_inside(const Deformable& d, const Vector3d* points) {
-    return volume_of(d.spec.triangles,
-                     [&](std::uint32_t i) -> Vector3d { return points[i] - points[0]; });
-}
-
 }  // namespace
 
 Vector3d centre_of(const World& world, const Deformable& d) {
@@ -60,15 +54,16 @@ std::vector<double> strains(const World& world) {
 }
 
 double volume_inside(const World& world, const Deformable& d) {
-    return volume_inside(d, world.particles.position.data() + d.first);
+    const Vector3d* points = world.particles.position.data() + d.first;
+    return volume_of(d.spec.triangles,
+                     [&](std::uint32_t i) -> Vector3d { return points[i] - points[0]; });
 }
 
 std::vector<double> volume_errors(const World& world) {
     std::vector<double> errors;
     for (const Deformable& d : world.deformables) {
         if (d.spec.kind != DeformableKind::balloon || d.spec.pressure) continue;
-        const double kept = d.spec.volume_ratio * volume_inside(d, d.spec.points.data());
-        errors.push_back(volume_inside(world, d) / kept - 1);
+        errors.push_back(volume_inside(world, d) / kept_volume(d.spec) - 1);
     }
     return errors;
 }

@@ -51,10 +51,7 @@ ElasticSystem::ElasticSystem(const World& world)
 void ElasticSystem::make_balloons(const World& world) {
     for (const Deformable& d : world.deformables) {
         if (d.spec.kind != DeformableKind::balloon) continue;
-        const auto rest = [&](std::uint32_t i) -> Vector3d {
-            return d.spec.points[i] - d.spec.points[0];
-        };
-        const double volume = d.spec.volume_ratio * volume_of(d.spec.triangles, rest);
+        const double volume = kept_volume(d.spec);
         balloons_.push_back({&d.spec.triangles, d.first, d.count, volume,
                              d.spec.pressure.value_or(0), d.spec.pressure ? 0 : kFilling / volume,
                              std::vector<Vector3d>(d.count)});

@@ -25,10 +25,7 @@ public:
             }
             balloon.pressure = d.spec.pressure.value_or(0);
             balloon.keeps_volume = !d.spec.pressure;
-            const auto rest = [&](std::uint32_t i) -> Vector3d {
-                return d.spec.points[i] - d.spec.points[0];
-            };
-            balloon.volume = d.spec.volume_ratio * volume_of(*balloon.triangles, rest);
+            balloon.volume = kept_volume(d.spec);
             balloon.gradient.resize(d.count);
             balloons_.push_back(std::move(balloon));
         }

@@ -4,6 +4,7 @@
 /// Of elements that share a point only the one that is strained most gives way in a step: what it
 /// bore goes to its neighbours, and a tear runs on through them in the steps that follow.
 #include "constraints/strain.h"
+#include "scene/elements_left.h"
 #include "step/stages.h"
 #include "world/tears.h"
 
@@ -17,18 +18,6 @@ struct Overstrained {
     double strain;
     std::uint32_t element;  ///< of Deformable::whole
 };
-
-/// Calls visit(element, index) for each that is not torn.
-template <class Elements, class Visit>
-void each_left(const Elements& elements, const std::vector<std::uint32_t>& torn, Visit visit) {
-    auto gone = torn.begin();
-    for (std::uint32_t i = 0; i < elements.size(); ++i) {
-        if (gone != torn.end() && *gone == i)
-            ++gone;
-        else
-            visit(elements[i], i);
-    }
-}
 
 template <class Elements>
 std::uint32_t tear_elements(Deformable& d, const Elements& elements, const Particles& particles) {

@@ -133,6 +133,18 @@ TEST_F(Sweeps, NotesWhatTheBudgetLeftOut) {
     }
 }
 
+/// A run in double precision on the reference collider.
+Point point_at(const char* subject, const char* substeps) {
+    return {.subject = subject,
+            .curve = "pbd",
+            .precision = "double",
+            .ladder = Ladder::substeps,
+            .value = 4,
+            .collider = "reference",
+            .contacts = "shared",
+            .settings = {"precision=double", substeps}};
+}
+
 /// A rod on a joint as any scene: its error against a finer run is that against the formula.
 TEST(SelfReference, TellsTheErrorThatTheFormulaTells) {
     Subject known = find_case("pendulum")->make();
@@ -140,14 +152,7 @@ TEST(SelfReference, TellsTheErrorThatTheFormulaTells) {
     const Subject blind =
         self_referenced(known.scene, "blind", colliders(), {.seconds = 30, .stop = {}});
     EXPECT_EQ(blind.metrics.front().name, "pose");
-    const Point p = {.subject = "blind",
-                     .curve = "pbd",
-                     .precision = "double",
-                     .ladder = Ladder::substeps,
-                     .value = 4,
-                     .collider = "reference",
-                     .contacts = "shared",
-                     .settings = {"precision=double", "substeps=4"}};
+    const Point p = point_at("blind", "substeps=4");
     const Outcome formula = run_point(known, p, colliders(), true, {});
     const Outcome reference = run_point(blind, p, colliders(), true, {});
     ASSERT_EQ(reference.status, study::Status::done) << reference.note;
@@ -174,14 +179,7 @@ TEST(SelfReference, TellsTheErrorOfWhatDeforms) {
         EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
     std::vector<double> before;
     for (const char* substeps : {"substeps=4", "substeps=32"}) {
-        const Point p = {.subject = "soft",
-                         .curve = "pbd",
-                         .precision = "double",
-                         .ladder = Ladder::substeps,
-                         .value = 4,
-                         .collider = "reference",
-                         .contacts = "shared",
-                         .settings = {"precision=double", substeps}};
+        const Point p = point_at("soft", substeps);
         const Outcome outcome = run_point(subject, p, colliders(), true, {});
         ASSERT_EQ(outcome.status, study::Status::done) << outcome.note;
         EXPECT_GT(outcome.errors[0], 0);
