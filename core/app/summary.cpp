@@ -139,6 +139,7 @@ const std::map<Effect, std::vector<Stage>>& stages_of_effects() {
         {Effect::exact_islands, {Stage::islands}},
         {Effect::joints, {Stage::joints}},
         {Effect::joint_trees, {Stage::trees}},
+        {Effect::divided_trees, {Stage::divided_trees}},
         {Effect::deformables, {Stage::particles}},
         {Effect::exact_deformables, {Stage::particles}},
         {Effect::air_drag, {Stage::air_drag}},

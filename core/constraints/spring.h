@@ -20,11 +20,12 @@
 
 namespace plumb {
 
-/// How long a substep is [s], and for what part of it forces push: 1, or a half in the very first
-/// of a leapfrog start.
+/// How long a substep is [s], for what part of it forces push: 1, or a half in the very first of a
+/// leapfrog start; and when it begins [s].
 struct SubstepTime {
-    double h, part = 1;
+    double h, part = 1, start = 0;
 
+    double end() const { return start + h; }
     double push() const { return part * h; }  ///< for how long forces push [s]
 };
 

@@ -25,6 +25,7 @@ enum class Stage : std::uint32_t {
     positions,          ///< position pass over contacts
     joints,             ///< joints that are iterated, and their drives, turns and breaking
     trees,              ///< joints that form trees, solved exactly
+    divided_trees,      ///< trees that divide their substeps
     particles,          ///< constraints among particles
     links,              ///< links between points
     particle_contacts,  ///< contacts of particles with bodies
@@ -36,12 +37,32 @@ enum class Stage : std::uint32_t {
     still_ground,       ///< energy that the ground gave, taken back
     remember,           ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 24;
-inline constexpr std::array<std::string_view, kStageCount> kStageNames{
-    "detect",  "reuse",     "match",     "schedule", "kinematics",        "restitution",
-    "impacts", "integrate", "air_drag",  "begin",    "velocities",        "positions",
-    "joints",  "trees",     "particles", "links",    "particle_contacts", "surface_contacts",
-    "islands", "shock",     "move",      "tearing",  "still_ground",      "remember"};
+inline constexpr std::size_t kStageCount = 25;
+inline constexpr std::array<std::string_view, kStageCount> kStageNames{"detect",
+                                                                       "reuse",
+                                                                       "match",
+                                                                       "schedule",
+                                                                       "kinematics",
+                                                                       "restitution",
+                                                                       "impacts",
+                                                                       "integrate",
+                                                                       "air_drag",
+                                                                       "begin",
+                                                                       "velocities",
+                                                                       "positions",
+                                                                       "joints",
+                                                                       "trees",
+                                                                       "divided_trees",
+                                                                       "particles",
+                                                                       "links",
+                                                                       "particle_contacts",
+                                                                       "surface_contacts",
+                                                                       "islands",
+                                                                       "shock",
+                                                                       "move",
+                                                                       "tearing",
+                                                                       "still_ground",
+                                                                       "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.
 struct Ledger {

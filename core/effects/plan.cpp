@@ -132,6 +132,12 @@ Wish joint_trees(const World& w) {
             (iterated > 0 ? ", " + std::to_string(iterated) + " are iterated: " + left_out : ""),
         w.settings.joints == JointMethod::auto_ ? left_out : "no joint takes away a row");
 }
+Wish divided_trees(const World& w) {
+    const Wish trees = joint_trees(w);
+    if (!trees.wanted) return {false, "no joints are solved as trees"};
+    if (w.settings.tree_parts < 2) return {false, "tree_parts is below 2"};
+    return {true, "trees that touch nothing and turn far divide their substeps (tree_parts)"};
+}
 Wish deformables(const World& w) {
     return counted(w.particles.size(), "particles", "no deformables");
 }
@@ -212,6 +218,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"exact_islands", exact_islands},
     {"joints", joints},
     {"joint_trees", joint_trees},
+    {"divided_trees", divided_trees},
     {"deformables", deformables},
     {"exact_deformables", exact_deformables},
     {"air_drag", air_drag},
@@ -263,6 +270,9 @@ Plan make_plan(const World& world) {
         d.why = wish.why, d.runs = false;
     };
     drop(Effect::exact_islands, exact_islands(world));
+    drop(Effect::divided_trees, plan.runs(Effect::joint_trees)
+                                    ? divided_trees(world)
+                                    : Wish{false, "no joints are solved as trees"});
     drop(Effect::exact_deformables, plan.runs(Effect::deformables)
                                         ? exact_deformables(world)
                                         : Wish{false, "deformables do not run"});

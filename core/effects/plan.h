@@ -31,6 +31,7 @@ enum class Effect : std::uint32_t {
     exact_islands,
     joints,
     joint_trees,
+    divided_trees,
     deformables,
     exact_deformables,
     air_drag,
@@ -41,7 +42,7 @@ enum class Effect : std::uint32_t {
     kinematics,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 22;
+inline constexpr std::size_t kEffectCount = 23;
 
 struct Decision {
     std::string_view name;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace plumb {
 
@@ -24,6 +25,13 @@ inline constexpr std::array<std::string_view, kContactFaultCount> kContactFaultN
     "of unknown bodies", "not finite", "with a normal that is not of unit length",
     "of pairs that must not touch", "with a gap beyond the margin"};
 
+/// A tree of joints that Newton's steps did not close, named by its first joint, and how far open
+/// it is [m], [rad].
+struct OpenTree {
+    std::uint32_t joint;
+    double error;
+};
+
 struct StepReport {
     std::uint32_t contacts = 0;            ///< contact points
     std::uint32_t clamped_recoveries = 0;  ///< contacts, summed over substeps, whose overlap was
@@ -33,6 +41,8 @@ struct StepReport {
     std::uint32_t unsolved_trees = 0;     ///< trees of joints, summed over substeps, that Newton's
                                           ///< steps could not close
     double tree_error = 0;                ///< by how much they were open at most [m], [rad]
+    std::uint32_t open_joint = ~0u;       ///< a joint of the tree that was open the most
+    std::vector<OpenTree> open_trees;     ///< of the last substep
     std::uint32_t rejected_contacts = 0;  ///< left out for one of the faults
     std::array<std::uint32_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::uint32_t broken_joints = 0;                         ///< joints that gave way in this step
@@ -41,6 +51,13 @@ struct StepReport {
     bool collider_failed = false;     ///< the collider reported trouble: see `message`
     bool collider_unusable = false;   ///< it wrote where it must not: it should not be called again
     std::string message;
+
+    /// Counts the trees that a substep left open.
+    void count_open_trees() {
+        unsolved_trees += static_cast<std::uint32_t>(open_trees.size());
+        for (const OpenTree& tree : open_trees)
+            if (tree.error > tree_error) tree_error = tree.error, open_joint = tree.joint;
+    }
 };
 
 }  // namespace plumb

@@ -40,6 +40,7 @@ void each_number_of_joints(Io& io, Table& table) {
         io(joint.broken), io(joint.keeps_apart);
         for (auto& x : joint.rows) io(x);
         for (auto& x : joint.rows_before) io(x);
+        io(joint.pace.parts), io(joint.pace.before), io(joint.pace.calm);
     }
     for (auto& turn : table.turn) io(turn);
     for (auto& drive : table.drives) {

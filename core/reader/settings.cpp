@@ -115,6 +115,10 @@ const Table<Settings>& settings_table() {
             "a scene of at most so many particles solves what holds them together as one system, "
             "as stiff as their materials whatever the iterations, for ten to a hundred times "
             "the time; where there are more, or 0: all are swept"),
+        field<S>(
+            "tree_parts", W{{1, 4096}}, &S::tree_parts,
+            "into how many parts a tree of joints that touches nothing may divide a substep in "
+            "which it turns far; 1: none"),
         field<S>("joint_tolerance", Number{{1e-12, 1}}, &S::joint_tolerance,
                  "up to which trees of joints are closed [m], [rad]"),
         field<S>("warm_start", Flag{}, &S::warm_start,

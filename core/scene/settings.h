@@ -60,7 +60,9 @@ struct Settings {
                                         ///< exactly, whatever the iterations; 0 = all are swept
     std::uint32_t exact_deformables = 0;  ///< deformables of at most so many particles together are
                                           ///< solved as one system; 0 = all are swept
-    double joint_tolerance = 5e-7;           ///< up to which trees of joints are closed [m], [rad]
+    std::uint32_t tree_parts = 64;        ///< into how many parts a tree of joints that touches
+                                          ///< nothing may divide a substep; 1 = none
+    double joint_tolerance = 5e-7;        ///< up to which trees of joints are closed [m], [rad]
 
     bool warm_start = true;        ///< begin from the impulses of the step before
     bool alternate_sweeps = true;  ///< forwards and backwards in turn

@@ -5,7 +5,6 @@
 #include "constraints/drive_rows.h"
 #include "constraints/felt_mass.h"
 #include "step/joint_geometry.h"
-#include "step/substep_time.h"
 
 namespace plumb {
 
@@ -16,19 +15,18 @@ inline double driven_mass(const World& world, const Joint& joint, const JointGeo
                      inverse_mass(world.bodies, joint.b));
 }
 
-/// `mass`: driven_mass, of springs. h: substep [s].
+/// `mass`: driven_mass, of springs.
 inline DriveRow drive_row(const World& world, const JointDrive& drive, const JointCoordinate& q,
-                          double mass, double h) {
+                          double mass, const SubstepTime& time) {
     const JointAxisSpec& spec = drive.spec;
     const Joint& joint = world.joints.joints[drive.joint];
-    const MotorTarget target = motor_target(spec.motor, world.time + h);
-    const SubstepTime time = substep_time(world, h);
+    const MotorTarget target = motor_target(spec.motor, time.end());
     const Bodies& b = world.bodies;
     const AxisMotion axis{q.value, joint_rate_before(b, joint, q), mass, joint.crowd};
     switch (drive.kind) {
         case DriveKind::limit:
             return limit_row(q.value, spec.lower, spec.upper, world.settings.stiffness,
-                             world.settings.recovery_speed, h);
+                             world.settings.recovery_speed, time.h);
         case DriveKind::motor:
             if (spec.motor.mode == MotorMode::velocity)
                 return velocity_motor_row(target.value, spec.motor.greatest, time);

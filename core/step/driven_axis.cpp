@@ -24,19 +24,23 @@ void push(BodyBlock<double>& body, const Vector3d& along, const Vector3d& turn, 
 
 DrivenAxis::DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last)
     : first_(first), last_(last) {
-    if (first < last) impulse_ = joints.drives[first].axis_impulse;
+    if (first < last) load_impulse(joints);
 }
 
-void DrivenAxis::begin(const World& world, double h) {
+void DrivenAxis::load_impulse(const JointTable& joints) {
+    impulse_ = joints.drives[first_].axis_impulse;
+}
+
+void DrivenAxis::begin(const World& world, const SubstepTime& time) {
     const JointDrive& leader = world.joints.drives[first_];
     q_ = joint_coordinate(world, leader.joint, leader.axis);
     const Joint& joint = world.joints.joints[leader.joint];
-    const double mass = driven_mass(world, joint, joint_geometry(world, joint, h), q_);
+    const double mass = driven_mass(world, joint, joint_geometry(world, joint, time), q_);
     response_ = bare_ = mass > 0 ? 1 / mass : 0;
     drive_ = {};
     for (std::uint32_t i = first_; i < last_; ++i)
-        drive_.add(drive_row(world, world.joints.drives[i], q_, mass, h));
-    h_ = h;
+        drive_.add(drive_row(world, world.joints.drives[i], q_, mass, time));
+    h_ = time.h;
     // what it bore before tells best on which piece it is
     constexpr double any = 1e30;
     answer_ = response_ > 0 ? answer_of(drive_, 0, impulse_, any) : AxisAnswer{};

@@ -17,7 +17,9 @@ public:
     DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last);
 
     /// Coordinate and rows at the start of a substep of length h [s].
-    void begin(const World& world, double h);
+    /// What the last substep left as the guess of the next.
+    void load_impulse(const JointTable& joints);
+    void begin(const World& world, const SubstepTime& time);
     void forget() { impulse_ = 0; }
 
     /// Looks at which piece of the staircase the axis is, by the velocities of the joint's a and b.

@@ -8,7 +8,6 @@
 #include "kernels/contact_kernels.h"
 #include "step/body_columns.h"
 #include "step/stages.h"
-#include "step/substep_time.h"
 
 #include <Eigen/LU>
 
@@ -54,12 +53,12 @@ const BodyKernels& kernels_for(const Settings& s) {
 
 }  // namespace
 
-void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h) {
+void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h,
+                          double push) {
     const BodyKernels& kernels = kernels_for(world.settings);
     const BodyColumns columns = columns_of(world.bodies);
     const Vector3d& g = world.settings.gravity;
     const double gravity[3] = {g.x(), g.y(), g.z()};
-    const double push = substep_time(world, h).push();
     kernels.integrate(columns, list_of(lists.plain), gravity, h, push);
     kernels.integrate_turning(columns, list_of(lists.turning), gravity, h, push);
     if (plan.runs(Effect::gyroscopic) && world.settings.gyroscopic != Gyroscopic::conserving)

@@ -33,8 +33,10 @@ inline double response_beside(const double (&response)[6][6], std::uint32_t k,
     return std::max(left, 0.0);
 }
 
-/// Makes springs of the rows that have compliance; h: substep [s].
-inline void soften(JointGeometry<double>& g, const World& world, const Joint& joint, double h) {
+/// Makes springs of the rows that have compliance.
+inline void soften(JointGeometry<double>& g, const World& world, const Joint& joint,
+                   const SubstepTime& time) {
+    const double h = time.h;
     const Bodies& b = world.bodies;
     const auto before = [&](std::uint32_t body) -> Velocity<double> {
         if (body == kNoIndex) return {Vector3d::Zero(), Vector3d::Zero()};
@@ -48,20 +50,20 @@ inline void soften(JointGeometry<double>& g, const World& world, const Joint& jo
     const auto is_rigid = [&](std::uint32_t k) {
         return g.lock[k] > 0 && !(joint.compliance_of(k) > 0);
     };
-    const double part = substep_time(world, h).part;
     for (std::uint32_t k = 0; k < kJointAxes; ++k) {
         const double alpha = joint.compliance_of(k);
         if (!(g.lock[k] > 0) || !(alpha > 0)) continue;
         const double z = h * h * response_beside(response, k, is_rigid) / alpha;
-        const SpringShares share = spring_shares(z, 0, part, joint.crowd);
-        g.softness[k] = alpha / (part * share.ahead * h * h);
+        const SpringShares share = spring_shares(z, 0, time.part, joint.crowd);
+        g.softness[k] = alpha / (time.part * share.ahead * h * h);
         g.lag[k] =
             now.c[k] * (1 - 1 / share.ahead) + share.back / share.ahead * (next.c[k] - now.c[k]);
     }
 }
 
-/// With arms that stay where they are; h: substep [s].
-inline JointGeometry<double> joint_geometry(const World& world, const Joint& joint, double h) {
+/// With arms that stay where they are.
+inline JointGeometry<double> joint_geometry(const World& world, const Joint& joint,
+                                            const SubstepTime& time) {
     const Bodies& b = world.bodies;
     const JointPose pose = joint_pose(b, joint);
     JointGeometry<double> g;
@@ -82,14 +84,15 @@ inline JointGeometry<double> joint_geometry(const World& world, const Joint& joi
     g.lever_a = g.lever_b = {0, Vector3d::Zero()};
     g.length = joint.locked[kAlongX] ? joint.length : 0;
     g.line_share = 0, g.line_lag = Vector3d::Zero();
-    if (joint.compliance > 0 || joint.angular_compliance > 0) soften(g, world, joint, h);
+    if (joint.compliance > 0 || joint.angular_compliance > 0) soften(g, world, joint, time);
     return g;
 }
 
 /// With levers that turn as the joint's load asks for.
 inline JointGeometry<double> loaded_joint_geometry(const World& world, const Joint& joint,
-                                                   JointSolve solve, double h) {
-    JointGeometry<double> g = joint_geometry(world, joint, h);
+                                                   JointSolve solve, const SubstepTime& time) {
+    const double h = time.h;
+    JointGeometry<double> g = joint_geometry(world, joint, time);
     g.lever_a = lever_of(world, joint, joint.a, g.r_a, solve, h);
     g.lever_b = lever_of(world, joint, joint.b, g.r_b, solve, h);
     if (g.length > 0) turn_line(g, world, joint, solve, h);

@@ -138,7 +138,7 @@ private:
         JointBlock<Real, W>& block = blocks_.block(item);
         const std::uint32_t lane = blocks_.lane(item);
         const JointGeometry<double> g =
-            loaded_joint_geometry(world, joint, JointSolve::iterations, h);
+            loaded_joint_geometry(world, joint, JointSolve::iterations, substep_time(world, h));
         blocks_.fill_masses(item, world.bodies, joint.a, joint.b);
         put(block.arm_a, lane, g.r_a), put(block.arm_b, lane, g.r_b);
         put(block.apart, lane, g.apart);
@@ -167,7 +167,8 @@ private:
             const JointDrive& drive = world.joints.drives[driven_[i]];
             if (drive.is_spring() && drive.joint != joint) {
                 joint = drive.joint;
-                geometry = joint_geometry(world, world.joints.joints[joint], h);
+                geometry =
+                    joint_geometry(world, world.joints.joints[joint], substep_time(world, h));
             }
             fill_drive(world, drive, geometry, i, h);
         }
@@ -181,7 +182,7 @@ private:
         const double k = row_response(q, inverse_mass(world.bodies, joint.a),
                                       inverse_mass(world.bodies, joint.b));
         const double mass = drive.is_spring() ? driven_mass(world, joint, geometry, q) : 0;
-        const DriveRow row = drive_row(world, drive, q, mass, h);
+        const DriveRow row = drive_row(world, drive, q, mass, substep_time(world, h));
         DriveBlock<Real, W>& block = drives_.block(item);
         const std::uint32_t lane = drives_.lane(item);
         drives_.fill_masses(item, world.bodies, joint.a, joint.b);

@@ -27,7 +27,10 @@ public:
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
         workers_.run([&](std::uint32_t worker) {
-            if (worker < trees_.size()) trees_[worker].begin(world, h);
+            if (worker >= trees_.size()) return;
+            if (leave_out_divided(world, trees_[worker]))
+                trees_[worker].load_impulses(world.joints);
+            trees_[worker].begin(world, substep_time(world, h));
         });
     }
 
@@ -38,17 +41,24 @@ public:
     }
 
     void end_substep(World& world) override {
-        for (TreeSolver<W>& trees : trees_) trees.store_impulses(world.joints);
-    }
-
-    void report(StepReport& report) const override {
-        for (const TreeSolver<W>& trees : trees_) {
-            report.unsolved_trees += trees.unsolved().count;
-            report.tree_error = std::max(report.tree_error, trees.unsolved().error);
+        for (TreeSolver<W>& trees : trees_) {
+            leave_out_divided(world, trees);  // with those that had to be divided after all
+            trees.store_impulses(world.joints);
         }
     }
 
+    void report(StepReport& report) const override {
+        for (const TreeSolver<W>& trees : trees_)
+            report.open_trees.insert(report.open_trees.end(), trees.open().begin(),
+                                     trees.open().end());
+    }
+
 private:
+    static bool leave_out_divided(const World& world, TreeSolver<W>& trees) {
+        return trees.leave_out(
+            [&](std::uint32_t joint) { return world.joints.joints[joint].pace.is_divided(); });
+    }
+
     Workers& workers_;
     std::deque<TreeSolver<W>> trees_;  ///< [worker], or fewer
 };

@@ -7,6 +7,7 @@
 #include "world/world.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb {
 
@@ -23,18 +24,54 @@ inline double load_of(const Joint& joint, std::uint32_t first, JointSolve solve)
     return std::min(size(joint.rows), size(joint.rows_before));
 }
 
+/// (h ω)² of a body under the moment M = λ u × w of its joint's rotational rows (constraints/
+/// joint_lever.h). Where the body turns by δ, u does, too, and M changes by λ u (w · δ): it couples
+/// turns about u with turns about w. Where the world holds the joint and leaves one turn free or
+/// none, there is nothing to couple.
+inline double turning_load(const World& world, const Joint& joint, std::uint32_t body, double h) {
+    const Bodies& b = world.bodies;
+    const auto moves = [&](std::uint32_t i) {
+        return i != kNoIndex && b.motion[i] == Motion::dynamic;
+    };
+    const int locked = joint.locked[kTurnX] + joint.locked[kTurnY] + joint.locked[kTurnZ];
+    if (locked >= 2 && !(moves(joint.a) && moves(joint.b))) return 0;
+    const Symmetric3<double>& inverse = b.world_inverse_inertia[body];
+    double load = 0;
+    for (int k = 0; k < 3; ++k) {
+        if (!joint.locked[kTurnX + k] || joint.rows[kTurnX + k] == 0) continue;
+        const Vector3d u = b.orientation[joint.a] * joint.turns[k].u;
+        Vector3d w = joint.turns[k].w;
+        if (joint.b != kNoIndex) w = b.orientation[joint.b] * w;
+        load += std::abs(joint.rows[kTurnX + k]) *
+                std::sqrt(dot(u, Vector3d(inverse * u)) * dot(w, Vector3d(inverse * w)));
+    }
+    return h * load;
+}
+
+/// (h ω)² of a body in a tree under all that its joint bears; `arm`: of the joint on the body,
+/// world frame [m].
+inline double tree_load(const World& world, const Joint& joint, std::uint32_t body,
+                        const Vector3d& arm, double h) {
+    return lever_load<double>(load_of(joint, kAlongX, JointSolve::tree), 0, arm,
+                              world.bodies.world_inverse_inertia[body], h) +
+           turning_load(world, joint, body, h);
+}
+
 /// `arm`: of the joint on the body, world frame [m]; `body` may be kNoIndex.
 inline JointLever<double> lever_of(const World& world, const Joint& joint, std::uint32_t body,
                                    const Vector3d& arm, JointSolve solve, double h) {
     if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic)
         return {0, Vector3d::Zero()};
     const Bodies& b = world.bodies;
-    const double load =
-        lever_load<double>(load_of(joint, kAlongX, solve), load_of(joint, kTurnX, solve), arm,
-                           b.world_inverse_inertia[body], h);
     const Vector3d turn = h * b.angular_velocity_now[body];
-    if (solve == JointSolve::iterations) return iterated_lever<double>(load, turn);
-    return exact_lever<double>(load, turn, Vector3d(h * b.angular_velocity_before[body]));
+    if (solve == JointSolve::iterations) {
+        const double load =
+            lever_load<double>(load_of(joint, kAlongX, solve), load_of(joint, kTurnX, solve), arm,
+                               b.world_inverse_inertia[body], h);
+        return iterated_lever<double>(load, turn);
+    }
+    return exact_lever<double>(tree_load(world, joint, body, arm, h), turn,
+                               Vector3d(h * b.angular_velocity_before[body]));
 }
 
 /// The same for the line of a distance joint, whose pull turns with it; that of one that is

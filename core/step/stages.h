@@ -55,14 +55,18 @@ void hold_scripted(Bodies& bodies);
 /// Keeps the velocities of this substep and of the one before, by which the levers of joints turn
 /// and collisions are found.
 void remember_velocities(Bodies& bodies);
+/// Those of some.
+void remember_velocities(Bodies& bodies, const std::vector<std::uint32_t>& some);
 
 /// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich).
 /// Speeds are those before forces are added, so that a resting body does not bounce, whatever its
 /// e.
 void choose_rebounds(World& world, bool first_substep);
 
-/// v ← v + h F/m, ω ← ω + h I⁻¹(τ − ω × Iω) (§3); and I⁻¹ in the world's frame.
-void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h);
+/// v ← v + p F/m, ω ← ω + p I⁻¹ τ − h I⁻¹ (ω × Iω) (§3); and I⁻¹ in the world's frame. p: for how
+/// long forces push [s], in most substeps h.
+void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h,
+                          double push);
 
 /// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made; where angular
 /// momentum is carried, it decides the velocity that is left.

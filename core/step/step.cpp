@@ -40,6 +40,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     const double dt = world.settings.dt, h = dt / world.settings.substeps;
     // to the paper's letter, velocities are those of a substep's start
     const bool foresees = plan.runs(Effect::rims) && world.settings.shared_push;
+    const bool divides = plan.runs(Effect::divided_trees);
     const bool watches = plan.runs(Effect::still_ground);
     ContactSums* sums = stepper.sums ? &*stepper.sums : nullptr;
     if (plan.runs(Effect::contacts)) {
@@ -53,6 +54,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         });
     if (plan.runs(Effect::surface_contacts))
         timed(Stage::surface_contacts, [&] { stepper.surfaces.detect(world, dt); });
+    if (divides) timed(Stage::divided_trees, [&] { stepper.divided.find_free(world); });
     if (sums) timed(Stage::remember, [&] { sums->begin_step(world); });
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {
         const bool first = i == 0;
@@ -61,15 +63,17 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         else if (world.kinematic_count > 0)
             timed(Stage::kinematics, [&] { hold_scripted(world.bodies); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
+        if (divides) timed(Stage::divided_trees, [&] { stepper.divided.choose(world, h); });
         timed(Stage::begin, [&] { remember_velocities(world.bodies); });
         if (sums) timed(Stage::remember, [&] { sums->begin_substep(world); });
+        report.open_trees.clear();
         if (plan.runs(Effect::joints))
             timed(Stage::joints, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
         timed(Stage::integrate, [&] {
-            integrate_velocities(world, plan, stepper.motion, h);
+            integrate_velocities(world, plan, stepper.motion, h, substep_time(world, h).push());
             integrate_particles(world, h);
         });
         if (plan.runs(Effect::air_drag))
@@ -88,9 +92,16 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::shock_propagation))
             timed(Stage::shock, [&] { solver.propagate_shock(); });
         if (sums) timed(Stage::remember, [&] { solver.add_impulses(*sums); });
+        const MotionLists* moving = &stepper.motion;
+        timed(Stage::move, [&] { solver.take_changes(world); });
+        if (divides)
+            timed(Stage::divided_trees, [&] {
+                moving = &stepper.divided.advance(world, plan, stepper.workers, h, stepper.motion,
+                                                  report);
+            });
+        report.count_open_trees();
         timed(Stage::move, [&] {
-            solver.take_changes(world);
-            move(world, stepper.motion, h);
+            move(world, *moving, h);
             move_particles(world, h);
         });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });

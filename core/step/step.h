@@ -8,6 +8,7 @@
 #include "schedule/workers.h"
 #include "step/air.h"
 #include "step/contact_sums.h"
+#include "step/divided_trees.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
@@ -33,6 +34,7 @@ struct Stepper {
           turning(turning_joints(world)),
           surfaces(world),
           air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
+          divided(plan.runs(Effect::divided_trees) ? DividedTrees(world, plan) : DividedTrees()),
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints, rows or elements
@@ -45,6 +47,7 @@ struct Stepper {
         turning = turning_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
         if (plan.runs(Effect::air_drag)) air = Air(world);
+        if (plan.runs(Effect::divided_trees)) divided = DividedTrees(world, plan);
         const bool holds =
             plan.runs(Effect::joints) || plan.runs(Effect::deformables) || plan.runs(Effect::links);
         if (holds || !plan.runs_as(before)) solver = make_row_solver(world, plan, workers);
@@ -56,6 +59,7 @@ struct Stepper {
     std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
     SurfaceDetector surfaces;
     Air air;
+    DividedTrees divided;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     StillGround still_ground;

@@ -39,7 +39,7 @@ double greater(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 TreeNodes::TreeNodes(const World& world, const JointForest& forest,
                      const std::vector<std::uint8_t>& side_by_side, const TreeProgress& progress,
                      TreeTables& tables)
-    : tables_(tables), index_(forest.nodes.size(), 0) {
+    : progress_(progress), tables_(tables), index_(forest.nodes.size(), 0) {
     std::vector<std::uint32_t> body_of(static_cast<std::size_t>(world.dynamic_count));
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
         if (world.bodies.motion[i] == Motion::dynamic) body_of[world.bodies.row[i]] = i;
@@ -55,7 +55,6 @@ TreeNodes::TreeNodes(const World& world, const JointForest& forest,
         if (node.free) continue;
         const Joint& joint = world.joints.joints[node.joint];
         node.sign = joint.a == node.body ? 1 : -1;
-        std::copy(joint.rows.begin(), joint.rows.end(), node.lambda);
         add_axes(world, node);
         driven_ |= !node.axes.empty();
     }
@@ -76,8 +75,17 @@ void TreeNodes::add_axes(const World& world, Node& node) {
     }
 }
 
-void TreeNodes::begin(const World& world, double h, const Vector3d& lift) {
-    h_ = h, inverse_h_ = 1 / h;
+void TreeNodes::load_impulses(const JointTable& joints) {
+    for (Node& node : nodes_) {
+        if (node.free) continue;
+        const Joint& joint = joints.joints[node.joint];
+        std::copy(joint.rows.begin(), joint.rows.end(), node.lambda);
+        for (DrivenAxis& axis : node.axes) axis.load_impulse(joints);
+    }
+}
+
+void TreeNodes::begin(const World& world, const SubstepTime& time, const Vector3d& lift) {
+    h_ = time.h, inverse_h_ = 1 / h_;
     const Bodies& b = world.bodies;
     for (Node& node : nodes_) {
         node.mass = b.mass[node.body];
@@ -86,11 +94,11 @@ void TreeNodes::begin(const World& world, double h, const Vector3d& lift) {
         node.start = {{b.velocity[node.body], b.angular_velocity[node.body]}};
         node.given = node.written = node.held = {{kZero, kZero}};
         node.own = {{node.hung ? lift : kZero, kZero}};
-        if (!node.free) begin_joint(world, node);
+        if (!node.free) begin_joint(world, node, time);
     }
 }
 
-void TreeNodes::begin_joint(const World& world, Node& node) {
+void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& time) {
     const Bodies& b = world.bodies;
     const Joint& joint = world.joints.joints[node.joint];
     const bool is_a = node.sign > 0;
@@ -104,9 +112,9 @@ void TreeNodes::begin_joint(const World& world, Node& node) {
     node.apart = own_point - point(other, is_a ? joint.frame_b : joint.frame_a, node.other_arm);
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
-    node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, h_);
+    node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, time);
     owe(node, h_ * world.settings.recovery_speed);
-    for (DrivenAxis& axis : node.axes) axis.begin(world, h_);
+    for (DrivenAxis& axis : node.axes) axis.begin(world, time);
 }
 
 /// What is to be closed of old errors in this substep is bounded, as old overlap is. What a
@@ -254,7 +262,7 @@ void TreeNodes::substitute(std::uint32_t index, bool balance) {
 
 void TreeNodes::store_impulses(JointTable& joints) {
     for (Node& node : nodes_) {
-        if (node.free) continue;
+        if (node.free || progress_.is_left_out(node.node)) continue;
         Joint& joint = joints.joints[node.joint];
         joint.rows_before = joint.rows;
         std::copy(std::begin(node.lambda), std::end(node.lambda), joint.rows.begin());

@@ -23,7 +23,9 @@ public:
               const std::vector<std::uint8_t>& side_by_side, const TreeProgress& progress,
               TreeTables& tables);
 
-    void begin(const World& world, double h, const Vector3d& lift);
+    /// What the last substep left as the guess of the next.
+    void load_impulses(const JointTable& joints);
+    void begin(const World& world, const SubstepTime& time, const Vector3d& lift);
 
     /// Whether anything drives a joint.
     bool is_driven() const { return driven_; }
@@ -36,12 +38,30 @@ public:
 
     void forget(std::uint32_t node);
     void turn_levers_to_the_end(std::uint32_t node);
-    void store_impulses(JointTable& joints);
+    void store_impulses(JointTable& joints);  ///< of those that are not left out
 
     template <class Real>
     void take(const BodyRows<Real>& rows) {
         for (Node& node : nodes_)
             node.given = node.given + (read(rows.change, node.row) - node.written);
+    }
+    // as in step/tree_solver.h
+    template <class RateOf>
+    double correct_rates(RateOf rate_of) {
+        double most = 0;
+        for (Node& node : nodes_) {
+            const Vector3d start = rate_of(node.body, node.own.w) - node.own.w;
+            most = std::max(most, (start - node.start.w).norm());
+            node.start.w = start;
+        }
+        return most;
+    }
+    void take_velocities(Bodies& bodies) const {
+        for (const Node& node : nodes_) {
+            bodies.velocity[node.body] = node.start.v + node.own.v;
+            bodies.turn_change[node.body] = node.own.w;
+            bodies.angular_velocity[node.body] = node.start.w + node.own.w;
+        }
     }
     template <class Real>
     void give(const BodyRows<Real>& rows) {
@@ -97,7 +117,7 @@ private:
     }
 
     static void add_axes(const World& world, Node& node);
-    void begin_joint(const World& world, Node& node);
+    void begin_joint(const World& world, Node& node, const SubstepTime& time);
     void owe(Node& node, double reach);
     static void place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn,
                               const Vector3d& opened);
@@ -105,6 +125,7 @@ private:
     void load_block(Node& node, bool balance, bool leaf);
     static Vector3d impulse_of(const Node& node);
 
+    const TreeProgress& progress_;
     TreeTables& tables_;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> index_;  ///< [node of the forest] in nodes_

@@ -3,6 +3,7 @@
 /// no tree feels another, and rests while others go on.
 #pragma once
 
+#include "scene/joint.h"
 #include "schedule/joint_forest.h"
 
 #include <algorithm>
@@ -19,8 +20,11 @@ public:
         for (const ForestNode& node : forest.nodes) {
             tree_.push_back(node.parent < 0 ? trees++ : tree_[node.parent]);
             if (node.parent < 0) hung_.push_back(node.parent == kHeld);
+            joint_.resize(trees, kNoIndex);
+            std::uint32_t& first = joint_[tree_.back()];
+            if (node.parent != kFree && first == kNoIndex) first = node.joint;
         }
-        active_.assign(trees, 1);
+        active_.assign(trees, 1), left_out_.assign(trees, 0);
         violation_.assign(trees, 0), before_ = first_ = violation_;
     }
 
@@ -29,9 +33,25 @@ public:
     bool hangs(std::uint32_t node) const { return hung_[tree_[node]] != 0; }
     bool is_active(std::uint32_t node) const { return active_[tree_[node]] != 0; }
 
-    void start() {
-        std::fill(active_.begin(), active_.end(), 1);
+    /// Those that are advanced by themselves in this substep; `is_left_out(joint)`. Returns whether
+    /// any is back that was left out before.
+    template <class IsLeftOut>
+    bool leave_out(IsLeftOut is_left_out) {
+        bool back = false;
+        for (std::size_t i = 0; i < joint_.size(); ++i) {
+            const bool before = left_out_[i] != 0;
+            left_out_[i] = is_left_out(joint_[i]);
+            back |= before && !left_out_[i];
+        }
+        return back;
+    }
+    bool is_left_out(std::uint32_t node) const { return left_out_[tree_[node]] != 0; }
+
+    /// Returns whether any tree is to be solved.
+    bool start() {
+        for (std::size_t i = 0; i < active_.size(); ++i) active_[i] = !left_out_[i];
         std::fill(violation_.begin(), violation_.end(), 0.0);
+        return std::find(active_.begin(), active_.end(), 1) != active_.end();
     }
     /// What the trees were off before any step.
     void remember_start() { first_ = violation_; }
@@ -68,15 +88,12 @@ public:
         return true;
     }
 
-    /// How far those are off that are still to be solved [m], [rad].
-    double greatest() const {
-        double worst = 0;
+    /// Calls visit(joint, how far off [m], [rad]) for each tree that is still to be solved, with
+    /// its first joint.
+    template <class Visit>
+    void each_open(Visit visit) const {
         for (std::size_t i = 0; i < active_.size(); ++i)
-            if (active_[i]) worst = std::max(worst, violation_[i]);
-        return worst;
-    }
-    std::uint32_t active() const {
-        return static_cast<std::uint32_t>(std::count(active_.begin(), active_.end(), 1));
+            if (active_[i]) visit(joint_[i], violation_[i]);
     }
 
     /// Leaves those that are no worse off than before any step; the same return.
@@ -93,7 +110,9 @@ private:
     static constexpr double kNear = 20;
 
     std::vector<std::uint32_t> tree_;                 ///< [node]
+    std::vector<std::uint32_t> joint_;                ///< [tree] its first
     std::vector<std::uint8_t> active_, hung_;         ///< [tree]
+    std::vector<std::uint8_t> left_out_;              ///< [tree]
     std::vector<double> violation_, before_, first_;  ///< [tree]
 };
 

@@ -24,6 +24,8 @@ TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest)
       progress_(forest),
       nodes_(world, forest, undriven_balls(world, forest), progress_, tables_) {
     lay_out(world, forest, undriven_balls(world, forest));
+    load_impulses(world.joints);
+    open_.reserve(progress_.trees());
 }
 
 template <int W>
@@ -74,9 +76,35 @@ void TreeSolver<W>::place(const World& world, const ForestNode& from, std::uint3
     for (int k = 0; k < 3; ++k) {
         balls.point[k][lane] = own_frame.position[k];
         balls.other_point[k][lane] = other_frame.position[k];
-        balls.impulse[k][lane] = balls.sign[lane] * joint.rows[k];
     }
-    balls.load[lane] = load_of(joint, kAlongX, JointSolve::tree);
+}
+
+template <int W>
+void TreeSolver<W>::load_impulses(const JointTable& joints) {
+    for (std::size_t i = 0; i < balls_.size(); ++i)
+        for (int lane = 0; lane < N; ++lane) {
+            TreeBalls<N>& balls = balls_[i];
+            const Joint& joint = joints.joints[joint_of_[i * N + static_cast<std::size_t>(lane)]];
+            for (int k = 0; k < 3; ++k) balls.impulse[k][lane] = balls.sign[lane] * joint.rows[k];
+            balls.load[lane] = load_of(joint, kAlongX, JointSolve::tree);
+        }
+    nodes_.load_impulses(joints);
+}
+
+template <int W>
+void TreeSolver<W>::take_velocities(Bodies& bodies) const {
+    for (const TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane) {
+            if (!(balls.used[lane] > 0)) continue;
+            const std::uint32_t body = balls.body[lane];
+            for (int k = 0; k < 3; ++k) {
+                bodies.velocity[body][k] = balls.start[k][lane] + balls.own[k][lane];
+                bodies.turn_change[body][k] = balls.own[3 + k][lane];
+                bodies.angular_velocity[body][k] =
+                    balls.start[3 + k][lane] + balls.own[3 + k][lane];
+            }
+        }
+    nodes_.take_velocities(bodies);
 }
 
 template <int W>
@@ -120,17 +148,27 @@ void TreeSolver<W>::solve(const BodyRows<Real>& rows, bool alone) {
 
 template <int W>
 void TreeSolver<W>::solve() {
-    progress_.start();
-    unsolved_ = {};
+    open_.clear();
+    if (!progress_.start()) return;
     if (search()) return;
     turn_levers_to_the_end();
     forget();
     if (search()) return;
-    unsolved_ = {progress_.active(), progress_.greatest()};
+    note_open();
     if (!progress_.leave_those_no_worse()) return;
     mark_active();
     forget();
-    unsolved_.error = std::max(unsolved_.error, progress_.greatest());
+    note_open();
+}
+
+template <int W>
+void TreeSolver<W>::note_open() {
+    progress_.each_open([this](std::uint32_t joint, double error) {
+        const auto known = std::find_if(open_.begin(), open_.end(),
+                                        [=](const OpenTree& t) { return t.joint == joint; });
+        if (known == open_.end()) return open_.push_back({joint, error});
+        known->error = std::max(known->error, error);
+    });
 }
 
 /// Newton's steps. Returns whether all trees are closed; the others are left active.
@@ -244,7 +282,7 @@ void TreeSolver<W>::store_impulses(JointTable& joints) {
     for (std::size_t i = 0; i < balls_.size(); ++i)
         for (int lane = 0; lane < N; ++lane) {
             TreeBalls<N>& balls = balls_[i];
-            if (!(balls.used[lane] > 0)) continue;
+            if (!(balls.used[lane] > 0) || progress_.is_left_out(balls.node[lane])) continue;
             Joint& joint = joints.joints[joint_of_[i * N + static_cast<std::size_t>(lane)]];
             joint.rows_before = joint.rows;
             joint.rows = {};

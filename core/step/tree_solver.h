@@ -15,6 +15,7 @@
 /// the last one ended, which makes the steps a semi-smooth Newton method.
 #pragma once
 
+#include "effects/report.h"
 #include "kernels/tree_kernels.h"
 #include "schedule/tree_levels.h"
 #include "step/body_columns.h"
@@ -25,12 +26,6 @@
 
 namespace plumb {
 
-/// Trees that Newton's steps did not close, and by how much [m], [rad].
-struct UnsolvedTrees {
-    std::uint32_t count = 0;
-    double error = 0;
-};
-
 template <int W>
 class TreeSolver {
 public:
@@ -38,21 +33,53 @@ public:
 
     /// Arms, gaps, masses and velocities at the start of a substep of length h [s]. Newton's steps
     /// start where joints that hang by something undo gravity: most of what hangs is near its rest.
-    void begin(const World& world, double h) {
-        h_ = h, fresh_ = true;
-        const Vector3d lift = -h * world.settings.gravity;
-        kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h,
-                       {lift[0], lift[1], lift[2]}, h * world.settings.recovery_speed);
-        nodes_.begin(world, h, lift);
+    void begin(const World& world, const SubstepTime& time) {
+        h_ = time.h, fresh_ = true;
+        const Vector3d lift = -h_ * world.settings.gravity;
+        kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h_,
+                       {lift[0], lift[1], lift[2]}, h_ * world.settings.recovery_speed);
+        nodes_.begin(world, time, lift);
     }
 
-    /// Newton steps until no row is violated by more than Settings::joint_tolerance. `alone`:
-    /// nothing else changes velocities.
+    /// Trees that are advanced by themselves are not solved; `is_left_out(joint)`. Returns whether
+    /// any is back, with impulses that are to be loaded.
+    template <class IsLeftOut>
+    bool leave_out(IsLeftOut is_left_out) {
+        return progress_.leave_out(is_left_out);
+    }
+
+    /// Newton steps until no row is violated by more than Settings::joint_tolerance.
+    void solve();
+    /// The same among others that change velocities, unless the trees are `alone`.
     template <class Real>
     void solve(const BodyRows<Real>& rows, bool alone);
 
     /// What the last solve left open.
-    const UnsolvedTrees& unsolved() const { return unsolved_; }
+    const std::vector<OpenTree>& open() const { return open_; }
+
+    /// Gives each body the rate rate_of(body, what the last solve changed of it), without touching
+    /// those changes. Returns by how much at the most [rad/s].
+    template <class RateOf>
+    double correct_rates(RateOf rate_of) {
+        double most = nodes_.correct_rates(rate_of);
+        for (TreeBalls<N>& balls : balls_)
+            for (int lane = 0; lane < N; ++lane) {
+                if (!(balls.used[lane] > 0)) continue;
+                const auto at = [lane](const double(&x)[6][N]) {
+                    return Vector3d(x[3][lane], x[4][lane], x[5][lane]);
+                };
+                const Vector3d start = rate_of(balls.body[lane], at(balls.own)) - at(balls.own);
+                most = std::max(most, (start - at(balls.start)).norm());
+                for (int k = 0; k < 3; ++k) balls.start[3 + k][lane] = start[k];
+            }
+        return most;
+    }
+
+    /// The velocities that the last solve has come to, and what it changed of the turns.
+    void take_velocities(Bodies& bodies) const;
+
+    /// Joint::rows, as the guess to begin from.
+    void load_impulses(const JointTable& joints);
 
     /// Impulses of the last substep, into Joint::rows.
     void store_impulses(JointTable& joints);
@@ -83,10 +110,10 @@ private:
     template <class Real>
     void give(const BodyRows<Real>& rows);
 
-    void solve();
     bool search();
     void turn_levers_to_the_end();
     void forget();
+    void note_open();
     void evaluate(bool settle);
     void note(const Span& span, double greatest);
     void mark_active();
@@ -100,7 +127,7 @@ private:
 
     const TreeKernels<W>& kernels_ = tree_kernels<W>();
     double tolerance_, h_ = 0;
-    UnsolvedTrees unsolved_;
+    std::vector<OpenTree> open_;
     bool fresh_ = true;  ///< no step was made in this substep
     TreeTables tables_;
     TreeProgress progress_;

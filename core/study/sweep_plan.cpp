@@ -42,6 +42,7 @@ constexpr std::array kVariants{
     Variant{"explicit gyroscopic term", "gyroscopic=explicit", Effect::gyroscopic},
     Variant{"implicit gyroscopic term", "gyroscopic=implicit", Effect::gyroscopic},
     Variant{kLeapfrogCurve.data(), "leapfrog_start=true", {}},
+    Variant{"undivided trees", "tree_parts=1", Effect::divided_trees},
     Variant{"joints by iterations", "joints=iterate", Effect::joint_trees},
 };
 

@@ -22,6 +22,17 @@ struct PerpendicularPair {
     Vector3d u = Vector3d::Zero(), w = Vector3d::Zero();
 };
 
+/// Into how many parts a tree of joints divides its substeps; kept by the first joint of the tree.
+struct TreePace {
+    std::uint32_t parts = 0;   ///< of this substep; 0: the tree is solved among the others
+    std::uint32_t before = 0;  ///< of the substep before
+    std::uint32_t calm = 0;    ///< for how many substeps fewer would have done
+
+    /// Whether the tree is advanced by itself: it is also in the first substep that is whole again,
+    /// since its velocity is that of the middle of a part.
+    bool is_divided() const { return parts > 0 || before > 1; }
+};
+
 struct Joint {
     std::uint32_t id = 0;  ///< what the joint is called as long as it lives; grows along the table
     JointKind kind = JointKind::ball;
@@ -38,6 +49,7 @@ struct Joint {
     std::array<double, kJointAxes> rows{};  ///< impulses of the last substep [N s], [N m s]; of a
                                             ///< plain ball along the world's axes
     std::array<double, kJointAxes> rows_before{};  ///< and of the one before it
+    TreePace pace;
 
     /// Of a row that is taken away [m/N], [rad/(N m)].
     double compliance_of(std::uint32_t axis) const {
@@ -60,8 +72,8 @@ struct JointDrive {
     JointAxisSpec spec;
     double impulse = 0;         ///< of the last substep [N s], [N m s]
     double impulse_before = 0;  ///< and of the one before it
-    double axis_impulse = 0;    ///< of all drives of its axis in a tree, which their sum may miss by
-                                ///< a bit
+    double axis_impulse = 0;  ///< of all drives of its axis in a tree, which their sum may miss by
+                              ///< a bit
 
     /// Whether it pulls as a spring does.
     bool is_spring() const {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Heaps of 300 bodies at default settings, over minutes: from 60 s on no body moves by more than 1
 /// mm, and the heap keeps its height. PLUMB_HEAP_SECONDS says how long (75; tests/long.sh: 600),
-/// and PLUMB_TEST_COLLIDERS, separated by commas, on what (ode).
+/// PLUMB_TEST_COLLIDERS, separated by commas, on what (ode), and PLUMB_HEAP_PRECISION in which
+/// precision (single).
 #include "host/simulation.h"
 #include "reader/reader.h"
 
@@ -42,8 +43,10 @@ double farthest(const World& world, const std::vector<Eigen::Vector3d>& from) {
 }
 
 void expect_stays(const std::string& heap, const std::string& collider, double seconds) {
-    const Scene scene =
+    Scene scene =
         read_scene(std::string(PLUMB_TEST_ROOT "/tests/hard/scenes/heap_") + heap + ".json");
+    const std::string precision = setting("PLUMB_HEAP_PRECISION", "single");
+    scene.settings.precision = precision == "double" ? Precision::double_ : Precision::single;
     const ColliderLibrary colliders(PLUMB_TEST_PLUGINS);
     Simulation simulation(scene, colliders, collider);
     while (simulation.time() < 60) simulation.step();
@@ -55,7 +58,7 @@ void expect_stays(const std::string& heap, const std::string& collider, double s
         moved = std::max(moved, farthest(simulation.world(), start));
     }
     const double risen = mean_height(simulation.world()) - height;
-    std::cout << heap << " on " << collider << ", 60 to " << seconds
+    std::cout << heap << " on " << collider << " in " << precision << ", 60 to " << seconds
               << " s: no body moved by more than " << moved * 1e3 << " mm, mean height by "
               << risen * 1e3 << " mm\n";
     EXPECT_LT(moved, 1e-3);
@@ -64,7 +67,7 @@ void expect_stays(const std::string& heap, const std::string& collider, double s
 
 class LongHeaps : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(, LongHeaps,
-                         testing::ValuesIn(split(setting("PLUMB_HEAPS", "cubes,tori"))),
+                         testing::ValuesIn(split(setting("PLUMB_HEAPS", "cubes,capsules,tori"))),
                          [](const auto& test) { return test.param; });
 
 TEST_P(LongHeaps, StayAsTheyLie) {

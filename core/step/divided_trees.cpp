@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "step/divided_trees.h"
+
+#include "math/free_rotation.h"
+#include "schedule/joint_trees.h"
+#include "step/joint_state.h"
+#include "step/lever_of.h"
+#include "step/stages.h"
+#include "step/substep_time.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// How far joints may turn in a part, how far they may turn out to have turned, and what is so
+/// little that the tree is solved among the others [rad].
+constexpr double kTurn = 0.05, kTooFar = 0.1, kLittle = 0.02;
+
+/// h ω of what a joint's load swings, in a part; and above which a load is so heavy that parts
+/// would not do, and levers that turn with the bodies have to (constraints/joint_lever.h).
+constexpr double kSwing = 0.5, kHeavy = 16;
+
+/// For how long fewer parts must do before fewer are taken [s]: longer than what swings quickly
+/// takes to come back.
+constexpr double kCalm = 5;
+
+/// Rounds in which rates are corrected, and a turn that is as good as none [rad].
+constexpr int kMostRounds = 8;
+constexpr double kSameTurn = 1e-10;
+
+/// Rate at which a body turns over a part of h [s] if constraints change its rate by Δω [rad/s]: as
+/// one that is free, with the momentum that it then has.
+Vector3d pushed_rate(const Bodies& b, std::uint32_t body, const Vector3d& change, double h) {
+    const Quaterniond& q = b.orientation[body];
+    const Quaterniond back = q.conjugate();
+    const Vector3d momentum =
+        back * b.angular_momentum[body] + b.inertia[body].cwiseProduct(back * change);
+    return q * middle_rate<double>(momentum, b.inertia[body], b.inverse_inertia[body], h);
+}
+
+/// How fast what a joint sees of a body turns: the arm, and the axes that it keeps [rad/s].
+double turning_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
+                    const Placement& frame) {
+    if (body == kNoIndex) return 0;
+    const Vector3d& w = b.angular_velocity[body];
+    const double reach = frame.position.norm();
+    double rate = 0;
+    if (reach > 0) rate = w.cross(b.orientation[body] * frame.position).norm() / reach;
+    const int free = free_turns(joint);
+    if (free == 3) return rate;
+    if (free != 1) return std::max(rate, w.norm());
+    int axis = 0;
+    while (joint.locked[kTurnX + axis]) ++axis;
+    const Vector3d along = b.orientation[body] * (frame.rotation * Vector3d::Unit(axis));
+    return std::max(rate, w.cross(along).norm());
+}
+
+/// Of the joints that turn most [rad/s].
+double turning_rate(const World& world, const std::vector<std::uint32_t>& joints) {
+    const Bodies& b = world.bodies;
+    double most = 0;
+    for (const std::uint32_t i : joints) {
+        const Joint& joint = world.joints.joints[i];
+        if (joint.broken) continue;
+        most = std::max({most, turning_rate(b, joint, joint.a, joint.frame_a),
+                         turning_rate(b, joint, joint.b, joint.frame_b)});
+        if (!(joint.length > 0)) continue;
+        const auto velocity = [&](std::uint32_t body, const Placement& frame) -> Vector3d {
+            if (body == kNoIndex) return Vector3d::Zero();
+            return b.velocity[body] +
+                   b.angular_velocity[body].cross(b.orientation[body] * frame.position);
+        };
+        const Vector3d relative =
+            velocity(joint.a, joint.frame_a) - velocity(joint.b, joint.frame_b);
+        most = std::max(most, relative.norm() / joint.length);
+    }
+    return most;
+}
+
+/// h ω at which what a joint bears turns a light body, squared (constraints/joint_lever.h).
+double greatest_load(const World& world, const std::vector<std::uint32_t>& joints, double h) {
+    const Bodies& b = world.bodies;
+    double most = 0;
+    for (const std::uint32_t i : joints) {
+        const Joint& joint = world.joints.joints[i];
+        const auto see = [&](std::uint32_t body, const Placement& frame) {
+            if (body == kNoIndex || b.motion[body] != Motion::dynamic) return;
+            const Vector3d arm = b.orientation[body] * frame.position;
+            most = std::max(most, tree_load(world, joint, body, arm, h));
+        };
+        if (!joint.broken) see(joint.a, joint.frame_a), see(joint.b, joint.frame_b);
+    }
+    return most;
+}
+
+/// The least power of two that is no less than x, at most `most`.
+std::uint32_t parts_for(double x, std::uint32_t most) {
+    std::uint32_t parts = 1;
+    while (parts < x && 2 * parts <= most) parts *= 2;
+    return parts;
+}
+
+/// What forces pushed in the last `late` [s], so that velocities are those of the middle of a whole
+/// substep again.
+void take_back(World& world, const std::vector<std::uint32_t>& bodies, double late) {
+    Bodies& b = world.bodies;
+    for (const std::uint32_t i : bodies) {
+        b.velocity[i] -= late * (world.settings.gravity + b.force[i] * b.inverse_mass[i]);
+        b.angular_velocity[i] -= late * (b.world_inverse_inertia[i] * b.torque[i]);
+    }
+}
+
+void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
+                    const std::vector<std::uint32_t>& drives, double factor) {
+    for (const std::uint32_t i : joints)
+        for (auto* rows : {&table.joints[i].rows, &table.joints[i].rows_before})
+            for (double& x : *rows) x *= factor;
+    for (const std::uint32_t i : drives)
+        for (double* x : {&table.drives[i].impulse, &table.drives[i].impulse_before,
+                          &table.drives[i].axis_impulse})
+            *x *= factor;
+}
+
+}  // namespace
+
+DividedTrees::Tree::Tree(const World& world, const Plan& plan, const JointForest& forest)
+    : first(kNoIndex), solver(world, forest), may_divide(true) {
+    std::vector<std::uint32_t> body_of(static_cast<std::size_t>(world.dynamic_count));
+    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+        if (world.bodies.motion[i] == Motion::dynamic) body_of[world.bodies.row[i]] = i;
+    for (const ForestNode& node : forest.nodes) {
+        bodies.push_back(body_of[node.row]);
+        if (node.parent == kFree) continue;
+        joints.push_back(node.joint);
+        if (first == kNoIndex) first = node.joint;
+    }
+    std::vector<std::uint8_t> inside(world.bodies.size(), 0), of_tree(world.joints.size(), 0);
+    for (const std::uint32_t body : bodies) inside[body] = 1;
+    for (const std::uint32_t joint : joints) of_tree[joint] = 1;
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+        const Joint& joint = world.joints.joints[i];
+        const bool among = inside[joint.a] || (joint.b != kNoIndex && inside[joint.b]);
+        if (!among || joint.broken) continue;
+        has_lines |= joint.length > 0;
+        if (!of_tree[i]) may_divide = false;  // a loop, or a joint that is iterated
+        for (const std::uint32_t body : {joint.a, joint.b})
+            if (body != kNoIndex && world.bodies.motion[body] == Motion::kinematic)
+                may_divide = false;
+    }
+    for (const JointCoupling& c : world.joints.couplings)
+        if (of_tree[c.joint_a] || of_tree[c.joint_b]) may_divide = false;
+    for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i)
+        if (of_tree[world.joints.drives[i].joint]) drives.push_back(i);
+    for (const std::uint32_t i : turning_joints(world))
+        if (of_tree[i]) turning.push_back(i);
+    const MotionLists all = sort_by_motion(world, plan.runs(Effect::gyroscopic));
+    const auto take = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
+        std::copy_if(from.begin(), from.end(), std::back_inserter(to),
+                     [&](std::uint32_t body) { return inside[body] != 0; });
+    };
+    take(all.plain, motion.plain), take(all.turning, motion.turning);
+    turns.assign(world.bodies.size(), 0);
+    for (const std::uint32_t body : motion.turning) turns[body] = 1;
+}
+
+DividedTrees::DividedTrees(const World& world, const Plan& plan)
+    : touches_(world.bodies.size(), 0), moved_(world.bodies.size(), 0) {
+    const JointForest forest = find_forest(world);
+    std::uint32_t count = 0;
+    for (const ForestNode& node : forest.nodes) count += node.parent < 0;
+    for (const JointForest& tree : share_out_trees(forest, count))
+        trees_.emplace_back(world, plan, tree);
+    for (auto* list : {&rest_.plain, &rest_.turning, &rest_.scripted})
+        list->reserve(world.bodies.size());
+}
+
+void DividedTrees::find_free(const World& world) {
+    std::fill(touches_.begin(), touches_.end(), 0);
+    for (const Contact& c : world.contacts.found) touches_[c.a] = touches_[c.b] = 1;
+    world.each_body_among_particles([&](std::uint32_t body) { touches_[body] = 1; });
+    for (Tree& tree : trees_)
+        tree.is_free =
+            tree.may_divide && std::none_of(tree.bodies.begin(), tree.bodies.end(),
+                                            [&](std::uint32_t body) { return touches_[body]; });
+}
+
+/// Whether no body turns far, which is quickly seen and decides for most trees.
+bool DividedTrees::turns_little(const Bodies& b, const Tree& tree, double h) {
+    if (tree.has_lines) return false;
+    double most = 0;
+    for (const std::uint32_t body : tree.bodies)
+        most = std::max(most, b.angular_velocity[body].squaredNorm());
+    return h * h * most < kLittle * kLittle;
+}
+
+/// 0: none.
+std::uint32_t DividedTrees::wanted_parts(const World& world, const Tree& tree, double h) {
+    if (turns_little(world.bodies, tree, h)) return 0;
+    const double turn = h * turning_rate(world, tree.joints);
+    if (turn < kLittle) return 0;
+    const double swing = std::sqrt(greatest_load(world, tree.joints, h));
+    return parts_for(std::max(turn / kTurn, swing < kHeavy ? swing / kSwing : 0),
+                     world.settings.tree_parts);
+}
+
+void DividedTrees::choose(World& world, double h) {
+    for (Tree& tree : trees_) {
+        TreePace& pace = world.joints.joints[tree.first].pace;
+        const std::uint32_t before = pace.parts;
+        if (!tree.is_free) {
+            if (before > 1) take_back(world, tree.bodies, 0.5 * (h - h / before));
+            pace = {};
+            continue;
+        }
+        const std::uint32_t needed = wanted_parts(world, tree, h);
+        if (needed >= before) {
+            pace = {needed, before, 0};
+        } else {
+            const bool calm = ++pace.calm * h > kCalm;
+            pace = {calm ? before / 2 : before, before, calm ? 0 : pace.calm};
+        }
+    }
+}
+
+/// From where its bodies began. Returns whether the part can stand as it is.
+bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& time, double push,
+                            Tree& tree) const {
+    Bodies& b = world.bodies;
+    for (const std::uint32_t body : tree.bodies) {
+        b.velocity[body] = b.velocity_now[body];
+        b.angular_velocity[body] = b.angular_velocity_now[body];
+    }
+    integrate_velocities(world, plan, tree.motion, time.h, push);
+    tree.solver.load_impulses(world.joints);
+    tree.solver.begin(world, time);
+    tree.solver.solve();
+    if (!tree.motion.turning.empty()) turn_as_free(b, time.h, tree);
+    tree.solver.take_velocities(b);
+    return tree.solver.open().empty() && !(time.h * turning_rate(world, tree.joints) > kTooFar);
+}
+
+/// Until the rates are those of free bodies with the momentum that the joints leave them: what
+/// joints change of a momentum turns with the body, too.
+void DividedTrees::turn_as_free(const Bodies& b, double h, Tree& tree) {
+    for (int round = 0; round < kMostRounds; ++round) {
+        const double change = tree.solver.correct_rates([&](std::uint32_t body, const Vector3d& w) {
+            return tree.turns[body] ? pushed_rate(b, body, w, h)
+                                    : Vector3d(b.angular_velocity[body] + w);
+        });
+        if (!(h * change > kSameTurn)) return;
+        tree.solver.solve();
+    }
+}
+
+void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree) const {
+    TreePace& pace = world.joints.joints[tree.first].pace;
+    if (tree.was_open) pace.parts = 2;
+    std::uint32_t parts = std::max(pace.parts, 1u);
+    double before = h / std::max(pace.before, 1u);
+    tree.error = -1;
+    scale_impulses(world.joints, tree.joints, tree.drives, 1.0 / parts);
+    for (std::uint32_t done = 0; done < parts; ++done) {
+        if (done > 0) {
+            remember_velocities(world.bodies, tree.bodies);
+            count_turns(world, tree.turning);
+        }
+        for (;; parts *= 2, done *= 2) {
+            const bool fresh = world.settings.leapfrog_start && world.time == 0 && done == 0;
+            const SubstepTime time{h / parts, fresh ? 0.5 : 1, world.time + done * (h / parts)};
+            const double push = 0.5 * (fresh ? time.h : before + time.h);
+            if (try_part(world, plan, time, push, tree)) break;
+            if (2 * parts > world.settings.tree_parts) break;
+            scale_impulses(world.joints, tree.joints, tree.drives, 0.5);
+        }
+        for (const OpenTree& open : tree.solver.open())
+            tree.error = std::max(tree.error, open.error);
+        before = h / parts;
+        move(world, tree.motion, before);
+        tree.solver.store_impulses(world.joints);
+    }
+    scale_impulses(world.joints, tree.joints, tree.drives, parts);
+    if (parts > std::max(pace.parts, 1u)) pace = {parts, pace.before, 0};
+}
+
+const MotionLists& DividedTrees::advance(World& world, const Plan& plan, Workers& workers, double h,
+                                         const MotionLists& all, StepReport& report) {
+    bool any = false;
+    for (Tree& tree : trees_) {
+        auto& open = report.open_trees;
+        const auto last = std::remove_if(open.begin(), open.end(), [&](const OpenTree& t) {
+            return t.joint == tree.first && tree.is_free;
+        });
+        tree.was_open = last != open.end();
+        open.erase(last, open.end());
+        any |= tree.was_open || world.joints.joints[tree.first].pace.is_divided();
+    }
+    if (!any) return all;
+    const auto is_apart = [&](const Tree& tree) {
+        return tree.was_open || world.joints.joints[tree.first].pace.is_divided();
+    };
+    std::fill(moved_.begin(), moved_.end(), 0);
+    for (const Tree& tree : trees_)
+        if (is_apart(tree))
+            for (const std::uint32_t body : tree.bodies) moved_[body] = 1;
+    workers.run([&](std::uint32_t worker) {
+        for (std::size_t i = worker; i < trees_.size(); i += workers.count())
+            if (is_apart(trees_[i])) advance(world, plan, h, trees_[i]);
+    });
+    for (const Tree& tree : trees_)
+        if (is_apart(tree) && tree.error >= 0)
+            report.open_trees.push_back({tree.first, tree.error});
+    const auto leave = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
+        to.clear();
+        std::copy_if(from.begin(), from.end(), std::back_inserter(to),
+                     [&](std::uint32_t body) { return !moved_[body]; });
+    };
+    leave(all.plain, rest_.plain), leave(all.turning, rest_.turning);
+    leave(all.scripted, rest_.scripted);
+    return rest_;
+}
+
+}  // namespace plumb

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+/// Trees of joints that touch nothing, advanced by themselves in parts of a substep.
+///
+/// What keeps the energy of a swing is that a joint's impulse acts where the joint is at a
+/// substep's start (constraints/joint_lever.h), which is right as long as the joint turns little
+/// within it and what it bears swings nothing faster than the substep can follow. A tree of which
+/// that is not so divides its substep, for itself: nothing else sees it, since it touches nothing.
+/// So does one that Newton's steps did not close, and one that turned out to turn further than it
+/// began.
+///
+/// A part is a substep, in which bodies also turn with the momentum that the joint leaves them
+/// (math/free_rotation.h), and not with that of the start. As many parts as were needed are kept
+/// for a while, since steps of one length are what keeps energy for good (Hairer, Lubich, Wanner,
+/// Geometric Numerical Integration, VIII). Where the length changes, forces push from the middle of
+/// the part before to the middle of the next, as leapfrog does.
+#pragma once
+
+#include "effects/plan.h"
+#include "effects/report.h"
+#include "schedule/motion_lists.h"
+#include "schedule/workers.h"
+#include "step/tree_solver.h"
+
+#include <deque>
+#include <vector>
+
+namespace plumb {
+
+class DividedTrees {
+public:
+    DividedTrees() = default;
+    DividedTrees(const World& world, const Plan& plan);
+
+    /// Once a step, after contacts were found: which trees touch nothing.
+    void find_free(const World& world);
+
+    /// Once a substep of length h [s], before forces: into how many parts each tree divides it.
+    void choose(World& world, double h);
+
+    /// After the passes: advances the divided trees from where the substep began, and those of
+    /// `report.open_trees` that are free. Returns those of `all` that are still to be moved.
+    const MotionLists& advance(World& world, const Plan& plan, Workers& workers, double h,
+                               const MotionLists& all, StepReport& report);
+
+private:
+    struct Tree {
+        std::uint32_t first;                ///< joint, which keeps the pace
+        std::vector<std::uint32_t> joints;  ///< that are not broken
+        std::vector<std::uint32_t> bodies, turning, drives;
+        MotionLists motion;
+        std::vector<std::uint8_t> turns;  ///< [body] 1: of motion.turning
+        TreeSolver<1> solver;
+        bool may_divide, is_free = false;
+        bool has_lines = false;  ///< of distance joints
+        bool was_open = false;   ///< in this substep, undivided
+        double error = -1;  ///< how far it was left open in this substep [m], [rad]; none: −1
+
+        Tree(const World& world, const Plan& plan, const JointForest& forest);
+    };
+
+    static bool turns_little(const Bodies& bodies, const Tree& tree, double h);
+    static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
+    void advance(World& world, const Plan& plan, double h, Tree& tree) const;
+    bool try_part(World& world, const Plan& plan, const SubstepTime& time, double push,
+                  Tree& tree) const;
+    static void turn_as_free(const Bodies& bodies, double h, Tree& tree);
+
+    std::deque<Tree> trees_;
+    std::vector<std::uint8_t> touches_, moved_;  ///< [body]
+    MotionLists rest_;
+};
+
+}  // namespace plumb
