@@ -141,9 +141,10 @@ void warn(const Simulation& simulation, const Statistics& statistics) {
     if (statistics.unsolved_trees > 0)
         std::fprintf(stderr,
                      "plumb: warning: trees of joints were left open in %llu solves, by %.3g m or "
-                     "rad at the most; more substeps, or \"joints\": \"iterate\", may help\n",
+                     "rad at the most, that of joint %u; more substeps, or \"joints\": "
+                     "\"iterate\", may help\n",
                      static_cast<unsigned long long>(statistics.unsolved_trees),
-                     statistics.tree_error);
+                     statistics.tree_error, statistics.open_joint);
 }
 
 void greet(const Simulation& simulation, const Outputs& outputs) {

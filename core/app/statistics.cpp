@@ -65,7 +65,8 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     unsolved_islands += report.unsolved_islands;
     unsolved_trees += report.unsolved_trees;
     torn += report.torn_elements;
-    tree_error = std::max(tree_error, report.tree_error);
+    if (report.tree_error > tree_error)
+        tree_error = report.tree_error, open_joint = world.joints.joints[report.open_joint].id;
     rejected_contacts += report.rejected_contacts;
     for (std::size_t i = 0; i < kContactFaultCount; ++i) faults[i] += report.faults[i];
     if (report.collider_failed && collider_failures == 0) first_failure = report.message;

@@ -54,7 +54,8 @@ public:
     std::array<std::vector<double>, kStageCount> stage_ms;
     std::array<std::uint64_t, kStageCount> stage_calls{};
     double contact_sum = 0;
-    double tree_error = 0;  ///< StepReport::tree_error, the greatest
+    double tree_error = 0;                ///< StepReport::tree_error, the greatest
+    std::uint32_t open_joint = kNoIndex;  ///< identifier of a joint of that tree
     std::uint32_t contact_max = 0;
     std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, unsolved_trees = 0,
                   rejected_contacts = 0, collider_failures = 0;

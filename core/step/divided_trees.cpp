@@ -16,7 +16,7 @@ namespace {
 
 /// How far joints may turn in a part, how far they may turn out to have turned, and what is so
 /// little that the tree is solved among the others [rad].
-constexpr double kTurn = 0.05, kTooFar = 0.1, kLittle = 0.02;
+constexpr double kTurn = 0.05, kTooFar = 0.1, kLittle = 0.005;
 
 /// h ω of what a joint's load swings, in a part; and above which a load is so heavy that parts
 /// would not do, and levers that turn with the bodies have to (constraints/joint_lever.h).
@@ -25,6 +25,10 @@ constexpr double kSwing = 0.5, kHeavy = 16;
 /// For how long fewer parts must do before fewer are taken [s]: longer than what swings quickly
 /// takes to come back.
 constexpr double kCalm = 5;
+
+/// What is left of a joint's error by its last Newton step has always the same sign, and feeds or
+/// brakes the swing: it must be small against the way of a part.
+constexpr double kFiner = 0.01;
 
 /// Rounds in which rates are corrected, and a turn that is as good as none [rad].
 constexpr int kMostRounds = 8;
@@ -126,7 +130,9 @@ void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
 }  // namespace
 
 DividedTrees::Tree::Tree(const World& world, const Plan& plan, const JointForest& forest)
-    : first(kNoIndex), solver(world, forest), may_divide(true) {
+    : first(kNoIndex),
+      solver(world, forest, kFiner * world.settings.joint_tolerance),
+      may_divide(true) {
     std::vector<std::uint32_t> body_of(static_cast<std::size_t>(world.dynamic_count));
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
         if (world.bodies.motion[i] == Motion::dynamic) body_of[world.bodies.row[i]] = i;

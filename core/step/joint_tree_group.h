@@ -18,7 +18,7 @@ public:
     JointTreeGroup(const World& world, const JointForest& forest, Workers& workers)
         : workers_(workers) {
         for (const JointForest& share : share_out_trees(forest, workers.count()))
-            trees_.emplace_back(world, share);
+            trees_.emplace_back(world, share, world.settings.joint_tolerance);
     }
 
     Stage stage() const override { return Stage::trees; }

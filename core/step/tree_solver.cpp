@@ -18,8 +18,8 @@ std::vector<std::uint8_t> undriven_balls(const World& world, const JointForest& 
 }  // namespace
 
 template <int W>
-TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest)
-    : tolerance_(world.settings.joint_tolerance),
+TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest, double tolerance)
+    : tolerance_(tolerance),
       tables_(forest.nodes.size()),
       progress_(forest),
       nodes_(world, forest, undriven_balls(world, forest), progress_, tables_) {

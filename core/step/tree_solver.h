@@ -29,7 +29,8 @@ namespace plumb {
 template <int W>
 class TreeSolver {
 public:
-    TreeSolver(const World& world, const JointForest& forest);
+    /// `tolerance`: up to which joints are closed [m], [rad].
+    TreeSolver(const World& world, const JointForest& forest, double tolerance);
 
     /// Arms, gaps, masses and velocities at the start of a substep of length h [s]. Newton's steps
     /// start where joints that hang by something undo gravity: most of what hangs is near its rest.
@@ -48,7 +49,7 @@ public:
         return progress_.leave_out(is_left_out);
     }
 
-    /// Newton steps until no row is violated by more than Settings::joint_tolerance.
+    /// Newton steps until no row is violated by more than the tolerance.
     void solve();
     /// The same among others that change velocities, unless the trees are `alone`.
     template <class Real>

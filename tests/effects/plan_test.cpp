@@ -78,6 +78,21 @@ TEST(Plan, AirDragRunsWhereAirMeetsASurface) {
     EXPECT_EQ(simulation.ledger().calls[static_cast<std::size_t>(Stage::air_drag)], 0u);
 }
 
+TEST(Plan, TreesDivideSubstepsWhereTheyMay) {
+    Scene s = box_on_the_ground();
+    EXPECT_FALSE(runs(s, Effect::divided_trees)) << "there are no joints";
+    add_body(s, box(0.1, 0.5, 0.1), {0, 3, 0});
+    JointSpec joint;
+    joint.body_a = 2, joint.anchor = {0, 3.5, 0};
+    s.joints.push_back(joint);
+    EXPECT_TRUE(runs(s, Effect::divided_trees));
+    s.settings.tree_parts = 1;
+    EXPECT_FALSE(runs(s, Effect::divided_trees));
+    s.settings.tree_parts = 64, s.settings.joints = JointMethod::iterate;
+    s.settings.require = {"divided_trees"};
+    EXPECT_FALSE(runs(s, Effect::divided_trees)) << "no joint is solved as a tree";
+}
+
 TEST(Plan, ParticlesTouchNothingWhereContactsAreForbidden) {
     Scene s = box_on_the_ground();
     EXPECT_FALSE(runs(s, Effect::particle_contacts));
