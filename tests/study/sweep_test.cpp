@@ -189,6 +189,13 @@ TEST(SelfReference, TellsTheErrorOfWhatDeforms) {
     }
 }
 
+/// Four steps of 1/60 s in one, than which tune takes none longer.
+bool takes_the_longest_step(const Trial& trial) {
+    const std::string settings = trial.point.settings_text();
+    return settings.find("dt=0.0666") != std::string::npos &&
+           settings.find("substeps=1 ") != std::string::npos;
+}
+
 TEST(Tune, ReachesAnErrorWithFewRuns) {
     const Subject subject = find_case("pendulum")->make();
     for (const double error : {0.02, 3e-3, 4e-4}) {
@@ -197,7 +204,8 @@ TEST(Tune, ReachesAnErrorWithFewRuns) {
         const TuneResult result = tune(subject, colliders(), options);
         ASSERT_TRUE(result.best) << error;
         EXPECT_LE(result.best->error(), error);
-        EXPECT_GT(result.best->error(), error / 4) << "finer than need be";
+        EXPECT_TRUE(result.best->error() > error / 4 || takes_the_longest_step(*result.best))
+            << "finer than need be: " << result.best->error();
         EXPECT_LE(result.trials.size() + 1, 15u);
     }
 }
