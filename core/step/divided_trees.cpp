@@ -129,57 +129,69 @@ void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
 
 }  // namespace
 
-DividedTrees::Tree::Tree(const World& world, const Plan& plan, const JointForest& forest)
-    : first(kNoIndex),
-      solver(world, forest, kFiner * world.settings.joint_tolerance),
-      may_divide(true) {
-    std::vector<std::uint32_t> body_of(static_cast<std::size_t>(world.dynamic_count));
-    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies.motion[i] == Motion::dynamic) body_of[world.bodies.row[i]] = i;
-    for (const ForestNode& node : forest.nodes) {
-        bodies.push_back(body_of[node.row]);
-        if (node.parent == kFree) continue;
-        joints.push_back(node.joint);
-        if (first == kNoIndex) first = node.joint;
-    }
-    std::vector<std::uint8_t> inside(world.bodies.size(), 0), of_tree(world.joints.size(), 0);
-    for (const std::uint32_t body : bodies) inside[body] = 1;
-    for (const std::uint32_t joint : joints) of_tree[joint] = 1;
-    for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
-        const Joint& joint = world.joints.joints[i];
-        const bool among = inside[joint.a] || (joint.b != kNoIndex && inside[joint.b]);
-        if (!among || joint.broken) continue;
-        has_lines |= joint.length > 0;
-        if (!of_tree[i]) may_divide = false;  // a loop, or a joint that is iterated
-        for (const std::uint32_t body : {joint.a, joint.b})
-            if (body != kNoIndex && world.bodies.motion[body] == Motion::kinematic)
-                may_divide = false;
-    }
-    for (const JointCoupling& c : world.joints.couplings)
-        if (of_tree[c.joint_a] || of_tree[c.joint_b]) may_divide = false;
-    for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i)
-        if (of_tree[world.joints.drives[i].joint]) drives.push_back(i);
-    for (const std::uint32_t i : turning_joints(world))
-        if (of_tree[i]) turning.push_back(i);
-    const MotionLists all = sort_by_motion(world, plan.runs(Effect::gyroscopic));
-    const auto take = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
-        std::copy_if(from.begin(), from.end(), std::back_inserter(to),
-                     [&](std::uint32_t body) { return inside[body] != 0; });
-    };
-    take(all.plain, motion.plain), take(all.turning, motion.turning);
-    turns.assign(world.bodies.size(), 0);
-    for (const std::uint32_t body : motion.turning) turns[body] = 1;
-}
+DividedTrees::Tree::Tree(const World& world, const JointForest& forest)
+    : solver(world, forest, kFiner * world.settings.joint_tolerance) {}
 
 DividedTrees::DividedTrees(const World& world, const Plan& plan)
     : touches_(world.bodies.size(), 0), moved_(world.bodies.size(), 0) {
     const JointForest forest = find_forest(world);
-    std::uint32_t count = 0;
-    for (const ForestNode& node : forest.nodes) count += node.parent < 0;
-    for (const JointForest& tree : share_out_trees(forest, count))
-        trees_.emplace_back(world, plan, tree);
+    const auto roots = std::count_if(forest.nodes.begin(), forest.nodes.end(),
+                                     [](const ForestNode& node) { return node.parent < 0; });
+    for (const JointForest& tree : share_out_trees(forest, static_cast<std::uint32_t>(roots))) {
+        trees_.emplace_back(world, tree);
+        for (const ForestNode& node : tree.nodes)
+            if (node.parent != kFree) trees_.back().joints.push_back(node.joint);
+        trees_.back().first = trees_.back().joints.front();
+    }
+    const std::vector<Tree*> tree_of = share_out_bodies(world, plan);
+    const auto tree_at = [&](std::uint32_t body) {
+        return body == kNoIndex ? nullptr : tree_of[body];
+    };
+    std::vector<Tree*> tree_with(world.joints.size(), nullptr);
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+        const Joint& joint = world.joints.joints[i];
+        for (Tree* tree : {tree_at(joint.a), tree_at(joint.b)})
+            if (tree && !joint.broken && !forest.in_tree[i]) tree->may_divide = false;
+        if (!forest.in_tree[i]) continue;
+        Tree& tree = *(tree_at(joint.a) ? tree_at(joint.a) : tree_at(joint.b));
+        tree_with[i] = &tree;
+        tree.has_lines |= joint.length > 0;
+        for (const std::uint32_t body : {joint.a, joint.b})
+            if (body != kNoIndex && world.bodies.motion[body] == Motion::kinematic)
+                tree.may_divide = false;
+    }
+    for (const JointCoupling& c : world.joints.couplings)
+        for (const std::uint32_t joint : {c.joint_a, c.joint_b})
+            if (tree_with[joint]) tree_with[joint]->may_divide = false;
+    for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i)
+        if (Tree* tree = tree_with[world.joints.drives[i].joint]) tree->drives.push_back(i);
+    for (const std::uint32_t i : turning_joints(world))
+        if (tree_with[i]) tree_with[i]->turning.push_back(i);
+}
+
+/// Returns the tree of each body, or none.
+std::vector<DividedTrees::Tree*> DividedTrees::share_out_bodies(const World& world,
+                                                                const Plan& plan) {
+    std::vector<Tree*> tree_of(world.bodies.size(), nullptr);
+    for (Tree& tree : trees_)
+        for (const std::uint32_t i : tree.joints) {
+            const Joint& joint = world.joints.joints[i];
+            for (const std::uint32_t body : {joint.a, joint.b})
+                if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
+                    tree_of[body] = &tree;
+        }
+    const MotionLists all = sort_by_motion(world, plan.runs(Effect::gyroscopic));
+    carries_momentum_.assign(world.bodies.size(), 0);
+    for (const std::uint32_t body : all.turning) carries_momentum_[body] = 1;
+    for (std::uint32_t body = 0; body < tree_of.size(); ++body) {
+        if (!tree_of[body]) continue;
+        MotionLists& motion = tree_of[body]->motion;
+        tree_of[body]->bodies.push_back(body);
+        (carries_momentum_[body] ? motion.turning : motion.plain).push_back(body);
+    }
     for (auto* list : {&rest_.plain, &rest_.turning, &rest_.scripted})
         list->reserve(world.bodies.size());
+    return tree_of;
 }
 
 void DividedTrees::find_free(const World& world) {
@@ -249,11 +261,11 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
 
 /// Until the rates are those of free bodies with the momentum that the joints leave them: what
 /// joints change of a momentum turns with the body, too.
-void DividedTrees::turn_as_free(const Bodies& b, double h, Tree& tree) {
+void DividedTrees::turn_as_free(const Bodies& b, double h, Tree& tree) const {
     for (int round = 0; round < kMostRounds; ++round) {
         const double change = tree.solver.correct_rates([&](std::uint32_t body, const Vector3d& w) {
-            return tree.turns[body] ? pushed_rate(b, body, w, h)
-                                    : Vector3d(b.angular_velocity[body] + w);
+            return carries_momentum_[body] ? pushed_rate(b, body, w, h)
+                                           : Vector3d(b.angular_velocity[body] + w);
         });
         if (!(h * change > kSameTurn)) return;
         tree.solver.solve();

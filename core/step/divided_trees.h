@@ -44,29 +44,30 @@ public:
 
 private:
     struct Tree {
-        std::uint32_t first;                ///< joint, which keeps the pace
-        std::vector<std::uint32_t> joints;  ///< that are not broken
-        std::vector<std::uint32_t> bodies, turning, drives;
-        MotionLists motion;
-        std::vector<std::uint8_t> turns;  ///< [body] 1: of motion.turning
+        std::uint32_t first = kNoIndex;  ///< joint, which keeps the pace
+        std::vector<std::uint32_t> joints, bodies, drives;
+        std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
+        MotionLists motion;                  ///< of its bodies
         TreeSolver<1> solver;
-        bool may_divide, is_free = false;
+        bool may_divide = true;  ///< nothing else ever holds or moves its bodies
         bool has_lines = false;  ///< of distance joints
+        bool is_free = false;    ///< and nothing touches them in this step
         bool was_open = false;   ///< in this substep, undivided
         double error = -1;  ///< how far it was left open in this substep [m], [rad]; none: −1
 
-        Tree(const World& world, const Plan& plan, const JointForest& forest);
+        Tree(const World& world, const JointForest& forest);
     };
 
+    std::vector<Tree*> share_out_bodies(const World& world, const Plan& plan);
     static bool turns_little(const Bodies& bodies, const Tree& tree, double h);
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
     bool try_part(World& world, const Plan& plan, const SubstepTime& time, double push,
                   Tree& tree) const;
-    static void turn_as_free(const Bodies& bodies, double h, Tree& tree);
+    void turn_as_free(const Bodies& bodies, double h, Tree& tree) const;
 
     std::deque<Tree> trees_;
-    std::vector<std::uint8_t> touches_, moved_;  ///< [body]
+    std::vector<std::uint8_t> touches_, moved_, carries_momentum_;  ///< [body]
     MotionLists rest_;
 };
 
