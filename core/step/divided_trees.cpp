@@ -30,6 +30,9 @@ constexpr double kCalm = 5;
 /// brakes the swing: it must be small against the way of a part.
 constexpr double kFiner = 0.01;
 
+/// An arm of less than this share of the body's radius of gyration counts as if it were as long.
+constexpr double kShort = 0.05;
+
 /// Rounds in which rates are corrected, and a turn that is as good as none [rad].
 constexpr int kMostRounds = 8;
 constexpr double kSameTurn = 1e-10;
@@ -49,7 +52,9 @@ double turning_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
                     const Placement& frame) {
     if (body == kNoIndex) return 0;
     const Vector3d& w = b.angular_velocity[body];
-    const double reach = frame.position.norm();
+    // an arm that is short against the body's radius of gyration turns it next to nothing
+    const double gyration = std::sqrt(b.inertia[body].maxCoeff() * b.inverse_mass[body]);
+    const double reach = std::max(frame.position.norm(), kShort * gyration);
     double rate = 0;
     if (reach > 0) rate = w.cross(b.orientation[body] * frame.position).norm() / reach;
     const int free = free_turns(joint);
@@ -99,6 +104,12 @@ double greatest_load(const World& world, const std::vector<std::uint32_t>& joint
     return most;
 }
 
+bool stands_still(const Bodies& b, const std::vector<std::uint32_t>& bodies) {
+    return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
+        return b.velocity[i].isZero(0) && b.angular_velocity[i].isZero(0);
+    });
+}
+
 /// The least power of two that is no less than x, at most `most`.
 std::uint32_t parts_for(double x, std::uint32_t most) {
     std::uint32_t parts = 1;
@@ -106,14 +117,10 @@ std::uint32_t parts_for(double x, std::uint32_t most) {
     return parts;
 }
 
-/// What forces pushed in the last `late` [s], so that velocities are those of the middle of a whole
-/// substep again.
+/// What gravity pushed in the last `late` [s], so that velocities are those of the middle of a
+/// whole substep again.
 void take_back(World& world, const std::vector<std::uint32_t>& bodies, double late) {
-    Bodies& b = world.bodies;
-    for (const std::uint32_t i : bodies) {
-        b.velocity[i] -= late * (world.settings.gravity + b.force[i] * b.inverse_mass[i]);
-        b.angular_velocity[i] -= late * (b.world_inverse_inertia[i] * b.torque[i]);
-    }
+    for (const std::uint32_t i : bodies) world.bodies.velocity[i] -= late * world.settings.gravity;
 }
 
 void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
@@ -158,7 +165,7 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
         tree.has_lines |= joint.length > 0;
         for (const std::uint32_t body : {joint.a, joint.b})
             if (body != kNoIndex && world.bodies.motion[body] == Motion::kinematic)
-                tree.may_divide = false;
+                tree.holders.push_back(body);
     }
     for (const JointCoupling& c : world.joints.couplings)
         for (const std::uint32_t joint : {c.joint_a, c.joint_b})
@@ -227,6 +234,7 @@ void DividedTrees::choose(World& world, double h) {
     for (Tree& tree : trees_) {
         TreePace& pace = world.joints.joints[tree.first].pace;
         const std::uint32_t before = pace.parts;
+        tree.is_free &= stands_still(world.bodies, tree.holders);
         if (!tree.is_free) {
             if (before > 1) take_back(world, tree.bodies, 0.5 * (h - h / before));
             pace = {};
@@ -243,14 +251,14 @@ void DividedTrees::choose(World& world, double h) {
 }
 
 /// From where its bodies began. Returns whether the part can stand as it is.
-bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& time, double push,
+bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& time, double fall,
                             Tree& tree) const {
     Bodies& b = world.bodies;
     for (const std::uint32_t body : tree.bodies) {
         b.velocity[body] = b.velocity_now[body];
         b.angular_velocity[body] = b.angular_velocity_now[body];
     }
-    integrate_velocities(world, plan, tree.motion, time.h, push);
+    integrate_velocities(world, plan, tree.motion, time, fall);
     tree.solver.load_impulses(world.joints);
     tree.solver.begin(world, time);
     tree.solver.solve();
@@ -278,7 +286,6 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
     std::uint32_t parts = std::max(pace.parts, 1u);
     double before = h / std::max(pace.before, 1u);
     tree.error = -1;
-    scale_impulses(world.joints, tree.joints, tree.drives, 1.0 / parts);
     for (std::uint32_t done = 0; done < parts; ++done) {
         if (done > 0) {
             remember_velocities(world.bodies, tree.bodies);
@@ -287,18 +294,22 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
         for (;; parts *= 2, done *= 2) {
             const bool fresh = world.settings.leapfrog_start && world.time == 0 && done == 0;
             const SubstepTime time{h / parts, fresh ? 0.5 : 1, world.time + done * (h / parts)};
-            const double push = 0.5 * (fresh ? time.h : before + time.h);
-            if (try_part(world, plan, time, push, tree)) break;
-            if (2 * parts > world.settings.tree_parts) break;
-            scale_impulses(world.joints, tree.joints, tree.drives, 0.5);
+            const double fall = fresh ? time.push() : 0.5 * (before + time.h);
+            // the tables hold impulses of whole substeps
+            scale_impulses(world.joints, tree.joints, tree.drives, fall / h);
+            const bool stands = try_part(world, plan, time, fall, tree);
+            if (stands || 2 * parts > world.settings.tree_parts) {
+                before = time.h;
+                move(world, tree.motion, time.h);
+                tree.solver.store_impulses(world.joints);
+                scale_impulses(world.joints, tree.joints, tree.drives, h / fall);
+                break;
+            }
+            scale_impulses(world.joints, tree.joints, tree.drives, h / fall);
         }
         for (const OpenTree& open : tree.solver.open())
             tree.error = std::max(tree.error, open.error);
-        before = h / parts;
-        move(world, tree.motion, before);
-        tree.solver.store_impulses(world.joints);
     }
-    scale_impulses(world.joints, tree.joints, tree.drives, parts);
     if (parts > std::max(pace.parts, 1u)) pace = {parts, pace.before, 0};
 }
 

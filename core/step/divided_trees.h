@@ -46,6 +46,7 @@ private:
     struct Tree {
         std::uint32_t first = kNoIndex;  ///< joint, which keeps the pace
         std::vector<std::uint32_t> joints, bodies, drives;
+        std::vector<std::uint32_t> holders;  ///< kinematic bodies that it hangs by
         std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
         MotionLists motion;                  ///< of its bodies
         TreeSolver<1> solver;
@@ -62,7 +63,7 @@ private:
     static bool turns_little(const Bodies& bodies, const Tree& tree, double h);
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
-    bool try_part(World& world, const Plan& plan, const SubstepTime& time, double push,
+    bool try_part(World& world, const Plan& plan, const SubstepTime& time, double fall,
                   Tree& tree) const;
     void turn_as_free(const Bodies& bodies, double h, Tree& tree) const;
 

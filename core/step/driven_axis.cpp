@@ -101,8 +101,11 @@ void DrivenAxis::store_impulses(JointTable& joints) {
     AxisAnswer last = answer_;
     last.impulse = impulse_;
     share_impulse(drive_, last, shares);
-    for (std::uint32_t i = first_, row = 0; i < last_; ++i)
-        joints.drives[i].impulse = shares[row++], joints.drives[i].axis_impulse = impulse_;
+    for (std::uint32_t i = first_, row = 0; i < last_; ++i) {
+        JointDrive& drive = joints.drives[i];
+        drive.impulse_before = drive.impulse;
+        drive.impulse = shares[row++], drive.axis_impulse = impulse_;
+    }
 }
 
 }  // namespace plumb

@@ -53,11 +53,12 @@ const BodyKernels& kernels_for(const Settings& s) {
 
 }  // namespace
 
-void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h,
-                          double push) {
+void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists,
+                          const SubstepTime& time, double fall) {
     const BodyKernels& kernels = kernels_for(world.settings);
     const BodyColumns columns = columns_of(world.bodies);
-    const Vector3d& g = world.settings.gravity;
+    const double h = time.h, push = time.push();
+    const Vector3d g = world.settings.gravity * (fall / push);
     const double gravity[3] = {g.x(), g.y(), g.z()};
     kernels.integrate(columns, list_of(lists.plain), gravity, h, push);
     kernels.integrate_turning(columns, list_of(lists.turning), gravity, h, push);

@@ -57,7 +57,8 @@ public:
 
     void end_substep(World& world) override {
         JointTable& table = world.joints;
-        for (JointDrive& drive : table.drives) drive.impulse_before = drive.impulse;
+        for (const std::uint32_t i : driven_)
+            table.drives[i].impulse_before = table.drives[i].impulse;
         for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
             Joint& joint = table.joints[ball_joints_[i]];
             auto& rows = joint.rows;

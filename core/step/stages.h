@@ -3,6 +3,7 @@
 /// order.
 #pragma once
 
+#include "constraints/spring.h"
 #include "effects/ledger.h"
 #include "effects/plan.h"
 #include "effects/report.h"
@@ -63,10 +64,10 @@ void remember_velocities(Bodies& bodies, const std::vector<std::uint32_t>& some)
 /// e.
 void choose_rebounds(World& world, bool first_substep);
 
-/// v ← v + p F/m, ω ← ω + p I⁻¹ τ − h I⁻¹ (ω × Iω) (§3); and I⁻¹ in the world's frame. p: for how
-/// long forces push [s], in most substeps h.
-void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists, double h,
-                          double push);
+/// v ← v + f g + p F/m, ω ← ω + p I⁻¹ τ − h I⁻¹ (ω × Iω) (§3); and I⁻¹ in the world's frame.
+/// p = time.push(), f = `fall`: for how long forces push and gravity does [s], in most substeps h.
+void integrate_velocities(World& world, const Plan& plan, const MotionLists& lists,
+                          const SubstepTime& time, double fall);
 
 /// x ← x + h v, q ← exp(h ω) q with the velocities that the passes have made; where angular
 /// momentum is carried, it decides the velocity that is left.

@@ -73,7 +73,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::restitution, [&] { choose_rebounds(world, first); });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
         timed(Stage::integrate, [&] {
-            integrate_velocities(world, plan, stepper.motion, h, substep_time(world, h).push());
+            const SubstepTime time = substep_time(world, h);
+            integrate_velocities(world, plan, stepper.motion, time, time.push());
             integrate_particles(world, h);
         });
         if (plan.runs(Effect::air_drag))

@@ -295,6 +295,76 @@ TEST_P(Swings, GoOnBitForBitInParts) {
     }
 }
 
+/// A rod on a hinge through its end, that turns about z at a rate [rad/s] without gravity.
+Scene rotor(Precision precision, double rate) {
+    Scene s = still_scene(precision);
+    s.settings.gravity.setZero();
+    BodySpec& body = add_body(s, box(0.02, 0.5, 0.02), {0, -0.5, 0});
+    body.mass = 2;
+    body.angular_velocity = {0, 0, rate};
+    body.velocity = {0.5 * rate, 0, 0};
+    JointSpec joint;
+    joint.kind = JointKind::hinge, joint.frame = hinge_across_the_plane();
+    joint.body_a = 0, joint.body_b = kNoIndex;
+    joint.anchor = Vector(Vector::Zero());
+    s.joints.push_back(joint);
+    return s;
+}
+
+/// Also where what it turns into asks for more parts than what it was.
+TEST_P(Swings, APushInOneStepGivesWhatItHas) {
+    for (const double rate : {0.0, 3.0, 20.0, 60.0})
+        for (const double torque : {30.0, 300.0, 1000.0}) {
+            Simulation simulation(rotor(GetParam(), rate), colliders(), "reference");
+            const World& world = simulation.world();
+            const double inertia = world.bodies.inertia[0].maxCoeff() + 2 * 0.25;
+            simulation.set_force(0, Vector::Zero(), {0, 0, torque});
+            simulation.step();
+            simulation.set_force(0, Vector::Zero(), Vector::Zero());
+            for (int i = 0; i < 20; ++i) simulation.step();
+            const double exact = rate + torque * world.settings.dt / inertia;
+            EXPECT_NEAR(world.bodies.angular_velocity[0].z() / exact, 1, 0.02)
+                << rate << " rad/s, " << torque << " N m";
+        }
+}
+
+/// A rotor that a motor slowly makes faster, through all numbers of parts: its load is m r ω².
+TEST_P(Swings, LoadsAreReadAlsoWherePartsChange) {
+    Scene s = rotor(GetParam(), 2);
+    JointMotor& motor = s.joints[0].axes[kTurnX].motor;
+    motor.mode = MotorMode::velocity, motor.target = 80, motor.greatest = 4;
+    Simulation simulation(s, colliders(), "reference");
+    const World& world = simulation.world();
+    const double inertia = world.bodies.inertia[0].maxCoeff() + 2 * 0.25;
+    while (simulation.time() < 8) {
+        simulation.step();
+        const double rate = world.bodies.angular_velocity[0].norm();
+        if (simulation.time() < 0.1) continue;
+        const double load = simulation.joint_load(0).force.norm();
+        // towards the hinge, and what the motor's torque makes of it across
+        const double exact = 2 * 0.5 * std::hypot(rate * rate, motor.greatest / inertia);
+        ASSERT_NEAR(load / exact, 1, 0.03) << simulation.time() << " s, " << rate << " rad/s";
+    }
+    EXPECT_GT(world.bodies.angular_velocity[0].norm(), 40);
+}
+
+/// What hangs by a hook that a script moves, but that stands still, divides its substeps.
+TEST_P(Swings, AHookAtRestIsAsGoodAsTheWorld) {
+    Scene s = still_scene(GetParam());
+    BodySpec& hook = add_body(s, sphere(0.05), Vector::Zero());
+    hook.motion = Motion::kinematic;
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        add_body(s, box(0.5, 0.05, 0.05), {0.5 + i, 0, 0}).mass = 1;
+        JointSpec joint;
+        joint.kind = JointKind::hinge, joint.frame = hinge_across_the_plane();
+        joint.body_a = i + 1, joint.body_b = i;
+        joint.anchor = {1.0 * i, 0, 0};
+        s.joints.push_back(joint);
+    }
+    s.settings.dt = 1.0 / 60;
+    EXPECT_NEAR(energy_left(s, -9.81 * (0.5 + 1.5)), 1, 0.01);
+}
+
 TEST_P(Swings, HaveTheirPeriods) {
     for (const double angle : {0.1, 0.5, 1.0})
         for (const bool fine : {false, true}) {
