@@ -189,11 +189,10 @@ TEST(SelfReference, TellsTheErrorOfWhatDeforms) {
     }
 }
 
-/// Four steps of 1/60 s in one, than which tune takes none longer.
-bool takes_the_longest_step(const Trial& trial) {
-    const std::string settings = trial.point.settings_text();
-    return settings.find("dt=0.0666") != std::string::npos &&
-           settings.find("substeps=1 ") != std::string::npos;
+/// The pendulum divides steps that are too long for it, so that longer ones cost as much and are as
+/// exact.
+bool takes_whole_steps(const Trial& trial) {
+    return trial.point.settings_text().find("substeps=1 ") != std::string::npos;
 }
 
 TEST(Tune, ReachesAnErrorWithFewRuns) {
@@ -204,7 +203,7 @@ TEST(Tune, ReachesAnErrorWithFewRuns) {
         const TuneResult result = tune(subject, colliders(), options);
         ASSERT_TRUE(result.best) << error;
         EXPECT_LE(result.best->error(), error);
-        EXPECT_TRUE(result.best->error() > error / 4 || takes_the_longest_step(*result.best))
+        EXPECT_TRUE(result.best->error() > error / 4 || takes_whole_steps(*result.best))
             << "finer than need be: " << result.best->error();
         EXPECT_LE(result.trials.size() + 1, 15u);
     }
