@@ -270,7 +270,7 @@ Plan make_plan(const World& world) {
         d.why = wish.why, d.runs = false;
     };
     drop(Effect::exact_islands, exact_islands(world));
-    drop(Effect::divided_trees, plan.runs(Effect::joint_trees)
+    drop(Effect::divided_trees, plan.runs(Effect::joints) && plan.runs(Effect::joint_trees)
                                     ? divided_trees(world)
                                     : Wish{false, "no joints are solved as trees"});
     drop(Effect::exact_deformables, plan.runs(Effect::deformables)

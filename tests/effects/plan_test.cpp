@@ -91,6 +91,11 @@ TEST(Plan, TreesDivideSubstepsWhereTheyMay) {
     s.settings.tree_parts = 64, s.settings.joints = JointMethod::iterate;
     s.settings.require = {"divided_trees"};
     EXPECT_FALSE(runs(s, Effect::divided_trees)) << "no joint is solved as a tree";
+    s.settings.joints = JointMethod::tree, s.settings.require.clear();
+    for (const char* needed : {"joints", "joint_trees"}) {
+        s.settings.forbid = {needed};
+        EXPECT_FALSE(runs(s, Effect::divided_trees)) << needed;
+    }
 }
 
 TEST(Plan, ParticlesTouchNothingWhereContactsAreForbidden) {
