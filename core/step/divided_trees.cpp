@@ -297,16 +297,14 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
             const double fall = fresh ? time.push() : 0.5 * (before + time.h);
             // the tables hold impulses of whole substeps
             scale_impulses(world.joints, tree.joints, tree.drives, fall / h);
-            const bool stands = try_part(world, plan, time, fall, tree);
-            if (stands || 2 * parts > world.settings.tree_parts) {
-                before = time.h;
-                move(world, tree.motion, time.h);
-                tree.solver.store_impulses(world.joints);
-                scale_impulses(world.joints, tree.joints, tree.drives, h / fall);
-                break;
-            }
+            const bool stands =
+                try_part(world, plan, time, fall, tree) || 2 * parts > world.settings.tree_parts;
+            if (stands) tree.solver.store_impulses(world.joints);
             scale_impulses(world.joints, tree.joints, tree.drives, h / fall);
+            if (stands) break;
         }
+        before = h / parts;
+        move(world, tree.motion, before);
         for (const OpenTree& open : tree.solver.open())
             tree.error = std::max(tree.error, open.error);
     }
@@ -315,6 +313,9 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
 
 const MotionLists& DividedTrees::advance(World& world, const Plan& plan, Workers& workers, double h,
                                          const MotionLists& all, StepReport& report) {
+    const auto is_apart = [&](const Tree& tree) {
+        return tree.was_open || world.joints.joints[tree.first].pace.is_divided();
+    };
     bool any = false;
     for (Tree& tree : trees_) {
         auto& open = report.open_trees;
@@ -323,12 +324,9 @@ const MotionLists& DividedTrees::advance(World& world, const Plan& plan, Workers
         });
         tree.was_open = last != open.end();
         open.erase(last, open.end());
-        any |= tree.was_open || world.joints.joints[tree.first].pace.is_divided();
+        any |= is_apart(tree);
     }
     if (!any) return all;
-    const auto is_apart = [&](const Tree& tree) {
-        return tree.was_open || world.joints.joints[tree.first].pace.is_divided();
-    };
     std::fill(moved_.begin(), moved_.end(), 0);
     for (const Tree& tree : trees_)
         if (is_apart(tree))
