@@ -197,7 +197,7 @@ bool takes_whole_steps(const Trial& trial) {
 
 TEST(Tune, ReachesAnErrorWithFewRuns) {
     const Subject subject = find_case("pendulum")->make();
-    for (const double error : {0.02, 3e-3, 4e-4}) {
+    for (const double error : {0.02, 3e-3, 1.2e-3, 4e-4, 1e-4}) {
         TuneOptions options;
         options.error = error;
         const TuneResult result = tune(subject, colliders(), options);
