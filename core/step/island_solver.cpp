@@ -185,7 +185,8 @@ bool IslandSolver::minimise(double enough, std::uint32_t& factorisations) {
     return false;
 }
 
-/// The force that leads downhill, into downhill_; returns the fastest velocity that it would make.
+/// The force that leads downhill, into downhill_; returns the fastest velocity that it would make,
+/// by the energy that it would give a body: turning counts by the radius of gyration.
 double IslandSolver::find_downhill() {
     downhill_.resize(island_.bodies.size());
     for (std::size_t b = 0; b < downhill_.size(); ++b)
@@ -195,10 +196,11 @@ double IslandSolver::find_downhill() {
         add_impulse(p, nearest_on_cone(work_[k].z, p.cone).impulse - p.impulse, downhill_);
     }
     double off = 0;
-    for (std::size_t b = 0; b < downhill_.size(); ++b)
-        off = std::max(off,
-                       response(island_.bodies[b], downhill_[b]).head<3>().cwiseAbs().maxCoeff());
-    return off;
+    for (std::size_t b = 0; b < downhill_.size(); ++b) {
+        const IslandBody& body = island_.bodies[b];
+        off = std::max(off, downhill_[b].dot(response(body, downhill_[b])) / body.mass);
+    }
+    return std::sqrt(off);
 }
 
 /// Second derivatives, block by block: M, and of each point [E, −[r]ₓ]ᵀ K [E, −[r]ₓ].
