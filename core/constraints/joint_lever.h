@@ -42,7 +42,9 @@ template <class T>
 class LeverTurn {
 public:
     LeverTurn(const JointLever<T>& lever, const Vector3<T>& turn)
-        : turns_(any_greater(lever.share, T(0))), turn_(lever.angle(turn)) {}
+        : turns_(any_greater(lever.share, T(0))) {
+        if (turns_) turn_ = Turn<T>(lever.angle(turn));
+    }
 
     Vector3<T> change(const Vector3<T>& r) const {
         return turns_ ? turn_.change(r) : Vector3<T>(T(0), T(0), T(0));
@@ -72,6 +74,7 @@ inline JointLever<T> exact_lever(const T& a, const Vector3<T>& turn,
     constexpr double kTheta = 0.5, kKappa = -0.1;
     const T far = between_0_and_1<T>((sqrt(dot(turn, turn)) - T(0.2)) * T(10));
     const T near = (T(1) - far) * between_0_and_1<T>(a - T(1));
+    if (!any_greater(near, T(0))) return {far, Vector3<T>(T(0), T(0), T(0))};
     return {far + near * T(kTheta + kKappa),
             (turn * T(-kTheta - 2 * kKappa) + turn_before * T(kKappa)) * near};
 }

@@ -103,8 +103,8 @@ inline JointGeometry<T> load_geometry(const JointBlock<Real, W>& block) {
 }
 
 template <class Real, int W>
-void solve_joints(JointBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real h,
-                  std::uint32_t first, std::uint32_t last) {
+[[gnu::flatten]] void solve_joints(JointBlock<Real, W>* blocks, const BodyRows<Real>& bodies,
+                                   Real h, std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     each_block<Real, W>(blocks, bodies, first, last, [h](auto& block, auto& j) {
         T lambda[6];

@@ -96,10 +96,13 @@ inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
     store_vector(balls.lag, own.lever.lag);
     store_vector(balls.other_lag, Vector3<T>(other.lever.lag * linked));
     const T scripted = select_greater(others.number(b.inverse_mass), T(0), T(0), linked);
-    const UnitQuaternion<T> turn =
-        unit_exponential<T>(Vector3<T>(others.vector(b.angular_velocity) * T(h)));
-    const Vector3<T> shift = others.vector(b.velocity) * T(h) + turn.change(other_arm);
-    store_vector(balls.shift, Vector3<T>(shift * scripted));
+    Vector3<T> shift(T(0), T(0), T(0));
+    if (any_greater(scripted, T(0))) {
+        const UnitQuaternion<T> turn =
+            unit_exponential<T>(Vector3<T>(others.vector(b.angular_velocity) * T(h)));
+        shift = (others.vector(b.velocity) * T(h) + turn.change(other_arm)) * scripted;
+    }
+    store_vector(balls.shift, shift);
 }
 
 template <int N>

@@ -85,6 +85,9 @@ inline Quaterniond turned(const Quaterniond& q, const Vector3d& theta) {
 template <class T>
 class Turn {
 public:
+    /// By nothing.
+    Turn() : theta_(T(0), T(0), T(0)), sine_(T(1)), cosine_(T(0.5)) {}
+
     explicit Turn(const Vector3<T>& theta) : theta_(theta), sine_(T(1)), cosine_(T(0.5)) {
         const T x = dot(theta, theta);
         T term_sine = T(1), term_cosine = T(0.5);
