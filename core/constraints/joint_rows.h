@@ -42,40 +42,78 @@ struct JointRows {
     Vector3<T> g_a[6], g_b[6];  ///< and what each row's does to ω
 };
 
-/// Errors at the preview poses (x₀ + h v, turned by h ω) less their lag, and the rows by which
-/// impulses act.
+/// A joint at the preview poses: x₀ + h v, turned by h ω.
 template <class T>
-inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>& a,
-                               const Velocity<T>& b, const T& h) {
-    const Turn<T> turn_a(a.w * h), turn_b(b.w * h);
+struct JointPreview {
+    Turn<T> turn_a, turn_b;
+    Vector3<T> apart;  ///< p_a − p_b [m]
+
+    JointPreview(const JointGeometry<T>& joint, const Velocity<T>& a, const Velocity<T>& b,
+                 const T& h)
+        : turn_a(a.w * h),
+          turn_b(b.w * h),
+          apart(joint.apart + (a.v - b.v) * h +
+                (turn_a.change(joint.r_a) - turn_b.change(joint.r_b))) {}
+    /// At the start of the substep.
+    explicit JointPreview(const JointGeometry<T>& joint) : apart(joint.apart) {}
+};
+
+/// C of the rows that are taken away, less their lag; 0 of the others.
+template <class T>
+inline void joint_errors(T (&c)[6], const JointGeometry<T>& joint, const JointPreview<T>& now) {
+    for (int k = 0; k < 3; ++k) {
+        c[k] = c[3 + k] = T(0);
+        if (any_greater(joint.lock[k], T(0)))
+            c[k] = dot(Vector3<T>(joint.e[k] + now.turn_b.change(joint.e[k])), now.apart);
+        if (any_greater(joint.lock[3 + k], T(0)))
+            c[3 + k] = dot(Vector3<T>(joint.u[k] + now.turn_a.change(joint.u[k])),
+                           Vector3<T>(joint.w[k] + now.turn_b.change(joint.w[k])));
+    }
+    if (any_greater(joint.length, T(0))) {
+        const T distance = sqrt(dot(now.apart, now.apart));
+        c[0] = select_greater(joint.length, T(0), distance - joint.length, c[0]);
+    }
+    for (int k = 0; k < 6; ++k) c[k] = c[k] - joint.lag[k];
+}
+
+/// What impulses along the rows do to the bodies. `apart`: p_a − p_b at the preview poses [m].
+template <class T>
+inline void joint_axes(JointRows<T>& rows, const JointGeometry<T>& joint, const Velocity<T>& a,
+                       const Velocity<T>& b, const T& h, const Vector3<T>& apart) {
     const LeverTurn<T> lever_a(joint.lever_a, a.w * h), lever_b(joint.lever_b, b.w * h);
-    const Vector3<T> change_a = turn_a.change(joint.r_a), change_b = turn_b.change(joint.r_b);
-    const Vector3<T> apart = joint.apart + (a.v - b.v) * h + (change_a - change_b);
     const Vector3<T> opened = apart - joint.apart;
     const Vector3<T> arm_a = joint.r_a + lever_a.change(joint.r_a);
     const Vector3<T> arm_b =
         joint.r_b + joint.apart + lever_b.change(joint.r_b) + opened * joint.lever_b.share;
-    JointRows<T> rows;
+    const Vector3<T> none(T(0), T(0), T(0));
     for (int k = 0; k < 3; ++k) {
-        rows.c[k] = dot(Vector3<T>(joint.e[k] + turn_b.change(joint.e[k])), apart);
-        rows.e[k] = joint.e[k] + lever_b.change(joint.e[k]);
+        rows.e[k] = rows.g_a[3 + k] = rows.g_b[3 + k] = none;
+        if (any_greater(joint.lock[k], T(0))) rows.e[k] = joint.e[k] + lever_b.change(joint.e[k]);
+        if (any_greater(joint.lock[3 + k], T(0)))
+            rows.g_a[3 + k] = rows.g_b[3 + k] =
+                cross(Vector3<T>(joint.u[k] + lever_a.change(joint.u[k])),
+                      Vector3<T>(joint.w[k] + lever_b.change(joint.w[k])));
     }
-    const T distance = sqrt(dot(apart, apart));
-    const Vector3<T> line = joint.apart + opened * joint.line_share + joint.line_lag;
-    const T scale = T(1) / sqrt(max(dot(line, line), T(1e-30)));
-    for (int i = 0; i < 3; ++i)
-        rows.e[0][i] = select_greater(joint.length, T(0), line[i] * scale, rows.e[0][i]);
-    rows.c[0] = select_greater(joint.length, T(0), distance - joint.length, rows.c[0]);
+    if (any_greater(joint.length, T(0))) {
+        const Vector3<T> line = joint.apart + opened * joint.line_share + joint.line_lag;
+        const T scale = T(1) / sqrt(max(dot(line, line), T(1e-30)));
+        for (int i = 0; i < 3; ++i)
+            rows.e[0][i] = select_greater(joint.length, T(0), line[i] * scale, rows.e[0][i]);
+    }
     for (int k = 0; k < 3; ++k) {
         rows.g_a[k] = cross(arm_a, rows.e[k]);
         rows.g_b[k] = cross(arm_b, rows.e[k]);
-        const Vector3<T> change_u = turn_a.change(joint.u[k]), change_w = turn_b.change(joint.w[k]);
-        rows.c[3 + k] = dot(Vector3<T>(joint.u[k] + change_u), Vector3<T>(joint.w[k] + change_w));
-        rows.g_a[3 + k] = rows.g_b[3 + k] =
-            cross(Vector3<T>(joint.u[k] + lever_a.change(joint.u[k])),
-                  Vector3<T>(joint.w[k] + lever_b.change(joint.w[k])));
     }
-    for (int k = 0; k < 6; ++k) rows.c[k] = rows.c[k] - joint.lag[k];
+}
+
+/// Both.
+template <class T>
+inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>& a,
+                               const Velocity<T>& b, const T& h) {
+    const JointPreview<T> now(joint, a, b, h);
+    JointRows<T> rows;
+    joint_errors<T>(rows.c, joint, now);
+    joint_axes<T>(rows, joint, a, b, h, now.apart);
     return rows;
 }
 

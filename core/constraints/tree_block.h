@@ -93,27 +93,32 @@ inline void add_body(TreeShare<T>& share, const T& mass, const Symmetric3<T>& in
     block.t -= inertia * own.w;
 }
 
-/// [r]ₓ e_j.
+/// Column j of m [r]ₓ. Products with the zeros of [r]ₓ are left out; compilers may not.
 template <class T>
-inline Vector3<T> cross_axis(const Vector3<T>& r, int j) {
-    if (j == 0) return Vector3<T>(T(0), r[2], -r[1]);
-    if (j == 1) return Vector3<T>(-r[2], T(0), r[0]);
-    return Vector3<T>(r[1], -r[0], T(0));
+inline Vector3<T> times_cross(const Symmetric3<T>& m, const Vector3<T>& r, int j) {
+    if (j == 0)
+        return Vector3<T>(m.xy * r[2] - m.xz * r[1], m.yy * r[2] - m.yz * r[1],
+                          m.yz * r[2] - m.zz * r[1]);
+    if (j == 1)
+        return Vector3<T>(m.xz * r[0] - m.xx * r[2], m.yz * r[0] - m.xy * r[2],
+                          m.zz * r[0] - m.xz * r[2]);
+    return Vector3<T>(m.xx * r[1] - m.xy * r[0], m.xy * r[1] - m.yy * r[0],
+                      m.xz * r[1] - m.yz * r[0]);
 }
 
 /// A mass felt at the point of arm r, and an impulse there, become part of a body.
 template <class T>
 inline void add_at_point(BodyBlock<T>& body, const Symmetric3<T>& mass, const Vector3<T>& r,
                          const Vector3<T>& impulse) {
-    Vector3<T> turned[3];
+    Vector3<T> turned[3];  // columns of [r]ᵀ m [r]
     body.a = body.a + mass;
     for (int j = 0; j < 3; ++j) {
-        turned[j] = mass * cross_axis(r, j);
-        body.b[j] -= turned[j];
+        const Vector3<T> column = times_cross<T>(mass, r, j);
+        body.b[j] -= column;
+        turned[j] = cross(column, r);
     }
-    const Vector3<T> x = cross_axis(r, 0), y = cross_axis(r, 1), z = cross_axis(r, 2);
-    body.d = body.d + Symmetric3<T>{dot(x, turned[0]), dot(y, turned[1]), dot(z, turned[2]),
-                                    dot(x, turned[1]), dot(x, turned[2]), dot(y, turned[2])};
+    body.d = body.d + Symmetric3<T>{turned[0][0], turned[1][1], turned[2][2],
+                                    turned[1][0], turned[2][0], turned[2][1]};
     body.f += impulse;
     body.t += cross(r, impulse);
 }
@@ -160,15 +165,12 @@ struct BallElimination {
 template <class T>
 inline BallElimination<T> eliminate_ball(const BodyBlock<T>& body, const Vector3<T>& r) {
     BallElimination<T> e;
-    Vector3<T> axis[3];
+    Vector3<T> own[3], moved[3];  // columns of [r]ᵀB, rows of (B + A[r])ᵀ[r]
     for (int j = 0; j < 3; ++j) {
-        axis[j] = cross_axis(r, j);
-        e.across[j] = body.a * axis[j] + body.b[j];
+        e.across[j] = times_cross<T>(body.a, r, j) + body.b[j];
+        own[j] = cross(body.b[j], r), moved[j] = cross(e.across[j], r);
     }
-    // D + [r]ᵀB + (B + A[r])ᵀ[r]
-    const auto entry = [&](int i, int j) {
-        return dot(axis[i], body.b[j]) + dot(e.across[i], axis[j]);
-    };
+    const auto entry = [&](int i, int j) { return own[j][i] + moved[i][j]; };
     e.turn = Factors3<T>(body.d + Symmetric3<T>{entry(0, 0), entry(1, 1), entry(2, 2), entry(0, 1),
                                                 entry(0, 2), entry(1, 2)});
     e.torque = body.t - cross(r, body.f);
@@ -194,16 +196,20 @@ inline Velocity<T> substitute_ball(const BallElimination<T>& e, const Vector3<T>
     return {u - cross(w, r), w};
 }
 
+/// Of one joint: what it takes away and drives, and a distance joint's two rows of tension.
+inline constexpr int kMostTreeRows = 8;
+
 /// A body on a joint of any kind, eliminated. Only rows that are taken away are here.
 template <class T>
 struct RowsElimination {
+    static constexpr int R = kMostTreeRows;
     int n = 0;
-    T child[6][6], parent[6][6];  ///< J_c, J_p [row][v ω]
-    T softness[6], wish[6];       ///< s, d
-    T own[6][6], free[6];         ///< factors of M̂_c, and M̂_c⁻¹ b_c
-    T moved[6][6];                ///< M̂_c⁻¹ J_cᵀ [row]
-    T response[6][6];             ///< factors of S
-    T lambda[6];
+    T child[R][6], parent[R][6];  ///< J_c, J_p [row][v ω]
+    T softness[R], wish[R];       ///< s, d
+    T own[6][6], free[6];         ///< M̂_c = L D Lᵀ as factors, and L⁻¹ b_c
+    T moved[R][6];                ///< L⁻¹ J_cᵀ [row]
+    T response[R][R];             ///< factors of S
+    T lambda[R];
 };
 
 template <class T>
@@ -247,44 +253,60 @@ inline void take_rows(RowsElimination<T>& e, const JointRows<T>& rows,
     }
 }
 
+/// x ← L⁻¹ x by the factors of an L D Lᵀ; returns D⁻¹ x in `scaled`.
+template <class T, int N>
+inline void solve_half(const T (&factors)[N][N], int n, T (&x)[N], T (&scaled)[N]) {
+    solve_lower(factors, n, x);
+    for (int i = 0; i < n; ++i) scaled[i] = x[i] * factors[i][i];
+}
+
 template <class T>
 inline void eliminate_rows(RowsElimination<T>& e, const BodyBlock<T>& body) {
     as_matrix(e.own, e.free, body);
     factor_ldlt(e.own, 6);
-    solve_factored(e.own, 6, e.free);
+    T scaled[6];
+    solve_lower(e.own, 6, e.free);
     for (int k = 0; k < e.n; ++k) {
         for (int i = 0; i < 6; ++i) e.moved[k][i] = e.child[k][i];
-        solve_factored(e.own, 6, e.moved[k]);
-    }
-    for (int k = 0; k < e.n; ++k) {
+        solve_half(e.own, 6, e.moved[k], scaled);
         for (int l = 0; l <= k; ++l) {
-            e.response[k][l] = k == l ? e.softness[k] : T(0);
-            for (int i = 0; i < 6; ++i) e.response[k][l] += e.child[k][i] * e.moved[l][i];
+            T sum = k == l ? e.softness[k] : T(0);
+            for (int i = 0; i < 6; ++i) sum += scaled[i] * e.moved[l][i];
+            e.response[k][l] = sum;
         }
-        for (int i = 0; i < 6; ++i) e.wish[k] -= e.child[k][i] * e.free[i];
+        for (int i = 0; i < 6; ++i) e.wish[k] -= scaled[i] * e.free[i];
     }
     factor_ldlt(e.response, e.n);
 }
 
-/// J_pᵀ S⁻¹ J_p and J_pᵀ S⁻¹ d become part of the parent.
+/// J_pᵀ S⁻¹ J_p and J_pᵀ S⁻¹ d become part of the parent. With S = L D Lᵀ and W = L⁻¹ J_p that is
+/// Wᵀ D⁻¹ W and Wᵀ D⁻¹ L⁻¹ d.
 template <class T>
 inline void add_rows(BodyBlock<T>& parent, const RowsElimination<T>& e) {
-    T m[6][6] = {}, rhs[6] = {}, column[6], wish[6];
+    constexpr int R = kMostTreeRows;
+    T half[6][R], scaled[6][R], wish[R];  // W and D⁻¹ W [v ω][row]
     for (int k = 0; k < e.n; ++k) wish[k] = e.wish[k];
-    solve_factored(e.response, e.n, wish);
+    solve_lower(e.response, e.n, wish);
     for (int j = 0; j < 6; ++j) {
-        for (int k = 0; k < e.n; ++k) column[k] = e.parent[k][j];
-        solve_factored(e.response, e.n, column);
-        for (int k = 0; k < e.n; ++k) {
-            for (int i = 0; i < 6; ++i) m[i][j] += e.parent[k][i] * column[k];
-            rhs[j] += e.parent[k][j] * wish[k];
-        }
+        for (int k = 0; k < e.n; ++k) half[j][k] = e.parent[k][j];
+        solve_half(e.response, e.n, half[j], scaled[j]);
     }
-    parent.a = parent.a + Symmetric3<T>{m[0][0], m[1][1], m[2][2], m[0][1], m[0][2], m[1][2]};
-    parent.d = parent.d + Symmetric3<T>{m[3][3], m[4][4], m[5][5], m[3][4], m[3][5], m[4][5]};
-    for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i) parent.b[j][i] += m[i][3 + j];
-    for (int i = 0; i < 3; ++i) parent.f[i] += rhs[i], parent.t[i] += rhs[3 + i];
+    const auto product = [&](const T(&x)[R], const T(&y)[R]) {
+        T sum = T(0);
+        for (int k = 0; k < e.n; ++k) sum += x[k] * y[k];
+        return sum;
+    };
+    const auto entry = [&](int i, int j) { return product(half[i], scaled[j]); };
+    const auto corner = [&](int i) {
+        return Symmetric3<T>{entry(i, i),     entry(i + 1, i + 1), entry(i + 2, i + 2),
+                             entry(i, i + 1), entry(i, i + 2),     entry(i + 1, i + 2)};
+    };
+    parent.a = parent.a + corner(0);
+    parent.d = parent.d + corner(3);
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) parent.b[j][i] += entry(i, 3 + j);
+        parent.f[i] += product(scaled[i], wish), parent.t[i] += product(scaled[3 + i], wish);
+    }
 }
 
 /// The child's velocity from its parent's; leaves λ in `e`.
@@ -301,6 +323,7 @@ inline Velocity<T> substitute_rows(RowsElimination<T>& e, const Velocity<T>& par
         x[i] = e.free[i];
         for (int k = 0; k < e.n; ++k) x[i] += e.moved[k][i] * e.lambda[k];
     }
+    solve_upper(e.own, 6, x);
     return {Vector3<T>(x[0], x[1], x[2]), Vector3<T>(x[3], x[4], x[5])};
 }
 

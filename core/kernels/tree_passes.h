@@ -117,26 +117,6 @@ template <int N>
 
 // ---- evaluate
 
-/// Arms by which the impulse acts: they meet in the point of the joint's a as far as their levers
-/// rest. `turn`, `other_turn`: h ω [rad]; `gap`: at the preview [m].
-template <int N, class T = Number<double, N>>
-inline void place_impulse(TreeBalls<N>& balls, const Vector3<T>& turn, const Vector3<T>& other_turn,
-                          const Vector3<T>& gap) {
-    const JointLever<T> lever{load(balls.share), load_vector(balls.lag)};
-    const JointLever<T> other{load(balls.other_share), load_vector(balls.other_lag)};
-    const T sign = load(balls.sign), is_a = (T(1) + sign) * T(0.5), is_b = T(1) - is_a;
-    const Vector3<T> apart = load_vector(balls.apart), opened = gap - apart;
-    const Vector3<T> arm = load_vector(balls.arm), other_arm = load_vector(balls.other_arm);
-    Vector3<T> acting = arm - (apart + opened * lever.share) * is_b;
-    Vector3<T> other_acting = other_arm + (apart + opened * other.share) * is_a;
-    if (any_greater(lever.share + other.share, T(0))) {
-        acting += unit_exponential<T>(lever.angle(turn)).change(arm);
-        other_acting += unit_exponential<T>(other.angle(other_turn)).change(other_arm);
-    }
-    store_vector(balls.acting, acting);
-    store_vector(balls.other_acting, other_acting);
-}
-
 /// Of a gap's components; infinite where it is not a number.
 template <int N, class T = Number<double, N>>
 inline T greatest_size(const Vector3<T>& gap) {
@@ -161,7 +141,6 @@ inline Number<double, N> evaluate_block(TreeBalls<N>& balls, const TreeColumns& 
     const Vector3<T> moved = (v - other.v) * T(h);
     const Vector3<T> gap =
         load_vector(balls.apart) + change + moved - other_change - load_vector(balls.shift);
-    place_impulse<N>(balls, Vector3<T>(w * T(h)), Vector3<T>(other.w * T(h)), gap);
     const Vector3<T> open = gap - load_vector(balls.owed);
     store_vector(balls.gap, open);
     const T violation = select_greater(load(balls.used), T(0), greatest_size<N>(open), T(0));
@@ -182,6 +161,29 @@ template <int N>
 }
 
 // ---- eliminate
+
+/// Arms by which the impulse acts: they meet in the point of the joint's a as far as their levers
+/// rest.
+template <int N, class T = Number<double, N>>
+inline void place_impulse(TreeBalls<N>& balls, const TreeColumns& tables, double h) {
+    const JointLever<T> lever{load(balls.share), load_vector(balls.lag)};
+    const JointLever<T> other{load(balls.other_share), load_vector(balls.other_lag)};
+    const T sign = load(balls.sign), is_a = (T(1) + sign) * T(0.5), is_b = T(1) - is_a;
+    const Vector3<T> apart = load_vector(balls.apart);
+    const Vector3<T> opened = load_vector(balls.gap) + load_vector(balls.owed) - apart;
+    const Vector3<T> arm = load_vector(balls.arm), other_arm = load_vector(balls.other_arm);
+    Vector3<T> acting = arm - (apart + opened * lever.share) * is_b;
+    Vector3<T> other_acting = other_arm + (apart + opened * other.share) * is_a;
+    if (any_greater(lever.share + other.share, T(0))) {
+        const Vector3<T> w = read_velocity<N>(ItemGroup<N>(balls.node), tables.velocity).w;
+        const Vector3<T> other_w = read_velocity<N>(ItemGroup<N>(balls.parent), tables.velocity).w;
+        acting += unit_exponential<T>(lever.angle(Vector3<T>(w * T(h)))).change(arm);
+        other_acting +=
+            unit_exponential<T>(other.angle(Vector3<T>(other_w * T(h)))).change(other_arm);
+    }
+    store_vector(balls.acting, acting);
+    store_vector(balls.other_acting, other_acting);
+}
 
 template <int N, class T = Number<double, N>>
 inline TreeShare<T> read_share(const std::uint32_t (&nodes)[N], const TreeColumns& tables) {
@@ -233,6 +235,7 @@ template <int N>
     using T = Number<double, N>;
     for (std::size_t i = 0; i < count; ++i) {
         TreeBalls<N>& balls = blocks[i];
+        place_impulse<N>(balls, tables, h);
         const Vector3<T> acting = load_vector(balls.acting);
         TreeShare<T> whole = leaves ? TreeShare<T>::none() : read_share<N>(balls.node, tables);
         add_body<T>(

@@ -33,14 +33,16 @@ inline void solve_ldlt(T (&k)[N][N], T (&c)[N]) {
 /// triangle is read.
 template <class T, int N>
 inline void factor_ldlt(T (&k)[N][N], int n) {
+    T d[N];
     for (int j = 0; j < n; ++j) {
         T scaled[N] = {};
-        const T entry = k[j][j];
+        d[j] = k[j][j];
         for (int p = 0; p < j; ++p) {
-            scaled[p] = k[j][p] / k[p][p];
-            k[j][j] = k[j][j] - k[j][p] * scaled[p];
+            scaled[p] = k[j][p] * d[p];
+            d[j] = d[j] - k[j][p] * scaled[p];
         }
-        k[j][j] = T(1) / held_pivot<T>(k[j][j], entry);
+        d[j] = held_pivot<T>(d[j], k[j][j]);
+        k[j][j] = T(1) / d[j];
         for (int i = j + 1; i < n; ++i) {
             for (int p = 0; p < j; ++p) k[i][j] = k[i][j] - k[i][p] * scaled[p];
             k[i][j] = k[i][j] * k[j][j];
@@ -48,19 +50,23 @@ inline void factor_ldlt(T (&k)[N][N], int n) {
     }
 }
 
-/// x ← L⁻¹ x, and x ← K⁻¹ x, by the factors of K.
+/// x ← L⁻¹ x, x ← L⁻ᵀ D⁻¹ x, and x ← K⁻¹ x, by the factors of K.
 template <class T, int N>
 inline void solve_lower(const T (&factors)[N][N], int n, T* x) {
     for (int i = 0; i < n; ++i)
         for (int j = 0; j < i; ++j) x[i] = x[i] - factors[i][j] * x[j];
 }
 template <class T, int N>
-inline void solve_factored(const T (&factors)[N][N], int n, T* x) {
-    solve_lower(factors, n, x);
+inline void solve_upper(const T (&factors)[N][N], int n, T* x) {
     for (int i = n - 1; i >= 0; --i) {
         x[i] = x[i] * factors[i][i];
         for (int j = i + 1; j < n; ++j) x[i] = x[i] - factors[j][i] * x[j];
     }
+}
+template <class T, int N>
+inline void solve_factored(const T (&factors)[N][N], int n, T* x) {
+    solve_lower(factors, n, x);
+    solve_upper(factors, n, x);
 }
 
 }  // namespace plumb

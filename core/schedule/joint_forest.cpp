@@ -103,6 +103,16 @@ JointForest grow_joint_forest(const std::vector<BodyPair>& joints, std::int32_t 
     return forest;
 }
 
+bool is_narrow(const JointForest& forest) {
+    std::vector<std::size_t> depth;  // [node]
+    std::size_t levels = 0;
+    for (const ForestNode& node : forest.nodes) {
+        depth.push_back(node.parent < 0 ? 0 : depth[static_cast<std::size_t>(node.parent)] + 1);
+        levels = std::max(levels, depth.back() + 1);
+    }
+    return 3 * forest.nodes.size() < 4 * levels;
+}
+
 std::vector<JointForest> share_out_trees(const JointForest& forest, std::uint32_t parts) {
     const auto is_root = [](const ForestNode& node) { return node.parent < 0; };
     std::vector<std::size_t> size, tree;  // [tree], [node]

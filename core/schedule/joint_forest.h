@@ -35,6 +35,10 @@ struct JointForest {
 /// rows (BodyPair::count = 0) link nothing.
 JointForest grow_joint_forest(const std::vector<BodyPair>& joints, std::int32_t dynamic_count);
 
+/// Whether there is hardly more than one body to a level, as in a chain: what is solved level by
+/// level gains nothing from lanes there.
+bool is_narrow(const JointForest& forest);
+
 /// Shares out whole trees into at most `parts` forests of about the same size; of each only `nodes`
 /// is filled.
 std::vector<JointForest> share_out_trees(const JointForest& forest, std::uint32_t parts);

@@ -223,7 +223,10 @@ private:
             add<JointSolver<Real, W>>(
                 world, grows ? forest.in_tree : std::vector<std::uint8_t>(world.joints.size(), 0),
                 workers_);
-            if (grows) trees_ = add<JointTreeGroup<Real, W>>(world, forest, workers_);
+            if (grows && is_narrow(forest))
+                trees_ = add<JointTreeGroup<Real, 1>>(world, forest, workers_);
+            else if (grows)
+                trees_ = add<JointTreeGroup<Real, W>>(world, forest, workers_);
         }
         if (plan.runs(Effect::exact_deformables))
             add<ExactDeformableGroup<Real>>(world, workers_);

@@ -39,7 +39,10 @@ double greater(double a, double b) { return b > a || std::isnan(b) ? b : a; }
 TreeNodes::TreeNodes(const World& world, const JointForest& forest,
                      const std::vector<std::uint8_t>& side_by_side, const TreeProgress& progress,
                      TreeTables& tables)
-    : progress_(progress), tables_(tables), index_(forest.nodes.size(), 0) {
+    : progress_(progress),
+      tables_(tables),
+      index_(forest.nodes.size(), 0),
+      carries_balls_(std::find(side_by_side.begin(), side_by_side.end(), 1) != side_by_side.end()) {
     std::vector<std::uint32_t> body_of(static_cast<std::size_t>(world.dynamic_count));
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
         if (world.bodies.motion[i] == Motion::dynamic) body_of[world.bodies.row[i]] = i;
@@ -101,15 +104,7 @@ void TreeNodes::begin(const World& world, const SubstepTime& time, const Vector3
 void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& time) {
     const Bodies& b = world.bodies;
     const Joint& joint = world.joints.joints[node.joint];
-    const bool is_a = node.sign > 0;
-    const std::uint32_t other = is_a ? joint.b : joint.a;
-    const auto point = [&](std::uint32_t body, const Placement& frame, Vector3d& arm) -> Vector3d {
-        if (body == kNoIndex) return arm = kZero, frame.position;
-        arm = b.orientation[body] * frame.position;
-        return b.position[body] + arm;
-    };
-    const Vector3d own_point = point(node.body, is_a ? joint.frame_a : joint.frame_b, node.arm);
-    node.apart = own_point - point(other, is_a ? joint.frame_b : joint.frame_a, node.other_arm);
+    const std::uint32_t other = node.sign > 0 ? joint.b : joint.a;
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, time);
@@ -120,16 +115,16 @@ void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& t
 /// What is to be closed of old errors in this substep is bounded, as old overlap is. What a
 /// compliant row has stretched is no error.
 void TreeNodes::owe(Node& node, double reach) {
-    const Velocity<double> rest{kZero, kZero};
-    const JointRows<double> rows = joint_rows<double>(node.geometry, rest, rest, h_);
+    double c[6];
+    joint_errors<double>(c, node.geometry, JointPreview<double>(node.geometry));
     double squared[2] = {0, 0};
     const auto is_stiff = [&](int k) {
         return node.geometry.lock[k] > 0 && !(node.geometry.softness[k] > 0);
     };
     for (int k = 0; k < 6; ++k)
-        if (is_stiff(k)) squared[k / 3] += rows.c[k] * rows.c[k];
+        if (is_stiff(k)) squared[k / 3] += c[k] * c[k];
     for (int k = 0; k < 6; ++k)
-        node.owed[k] = is_stiff(k) ? rows.c[k] * owed_share<double>(squared[k / 3], reach) : 0;
+        node.owed[k] = is_stiff(k) ? c[k] * owed_share<double>(squared[k / 3], reach) : 0;
 }
 
 void TreeNodes::forget(std::uint32_t index) {
@@ -150,29 +145,29 @@ void TreeNodes::turn_levers_to_the_end(std::uint32_t index) {
 double TreeNodes::evaluate(std::uint32_t index, bool settle) {
     Node& node = nodes_[index_[index]];
     const Change own = node.start + node.given + node.own;
-    const UnitQuaternion<double> turn = unit_exponential<double>(h_ * own.w);
-    double* row = row_at<kTreeTurn>(tables_.turn, node.node);
-    for (int k = 0; k < 3; ++k) row[k] = turn.v[k];
-    row[3] = turn.w;
     put_velocity(tables_.velocity, node.node, own);
+    if (carries_balls_) {
+        const UnitQuaternion<double> turn = unit_exponential<double>(h_ * own.w);
+        double* row = row_at<kTreeTurn>(tables_.turn, node.node);
+        for (int k = 0; k < 3; ++k) row[k] = turn.v[k];
+        row[3] = turn.w;
+    }
     if (node.free) return 0;
-    Velocity<double> other = node.held;
-    if (node.parent != tables_.ground) other = velocity_of(tables_.velocity, node.parent);
-    const Velocity<double>&child = own, &a = node.sign > 0 ? child : other,
-          &b = node.sign > 0 ? other : child;
-    node.now = joint_rows<double>(node.geometry, a, b, h_);
+    const Velocity<double> other = velocity_beyond(node);
+    const Velocity<double>&a = node.sign > 0 ? own : other, &b = node.sign > 0 ? other : own;
+    const JointPreview<double> preview(node.geometry, a, b, h_);
+    node.apart = preview.apart;
+    joint_errors<double>(node.now.c, node.geometry, preview);
     for (int k = 0; k < 6; ++k) node.now.c[k] -= node.owed[k];
-    take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
-    const Vector3d change = turn.change(node.arm),
-                   other_change = unit_exponential<double>(h_ * other.w).change(node.other_arm);
-    place_impulse(node, h_ * own.w, h_ * other.w, h_ * (own.v - other.v) + change - other_change);
-    if (node.geometry.line_share > 0 && node.lambda[0] < 0)
-        add_tension_rows<double>(
-            node.elimination, node.now.e[0], node.arm + change, node.other_arm + other_change,
-            -node.lambda[0] * node.geometry.line_share, node.geometry.length, h_);
     double worst = violation_of(node);
     for (DrivenAxis& axis : node.axes) worst = greater(worst, axis.evaluate(a, b, settle));
     return worst;
+}
+
+/// Of what the node's body hangs by.
+Velocity<double> TreeNodes::velocity_beyond(const Node& node) const {
+    if (node.parent == tables_.ground) return node.held;
+    return velocity_of(tables_.velocity, node.parent);
 }
 
 /// Of the rows that the joint takes away [m], [rad].
@@ -185,18 +180,35 @@ double TreeNodes::violation_of(const Node& node) const {
     return worst;
 }
 
+/// The rows at the poses of the last evaluation.
+void TreeNodes::find_rows(Node& node) {
+    const Velocity<double> own = velocity_of(tables_.velocity, node.node),
+                           other = velocity_beyond(node);
+    const Velocity<double>&a = node.sign > 0 ? own : other, &b = node.sign > 0 ? other : own;
+    joint_axes<double>(node.now, node.geometry, a, b, h_, node.apart);
+    take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
+    place_impulse(node, h_ * own.w, h_ * other.w);
+    if (!(node.geometry.line_share > 0) || !(node.lambda[0] < 0)) return;
+    const auto turned = [this](const Vector3d& w, const Vector3d& arm) -> Vector3d {
+        return unit_exponential<double>(h_ * w) * arm;
+    };
+    add_tension_rows<double>(node.elimination, node.now.e[0], turned(own.w, node.arm()),
+                             turned(other.w, node.other_arm()),
+                             -node.lambda[0] * node.geometry.line_share, node.geometry.length, h_);
+}
+
 /// The arms meet in the point of the joint's a as far as their levers rest. `turn`, `other_turn`:
-/// h ω [rad]; `opened`: by how much the points have moved apart [m].
-void TreeNodes::place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn,
-                              const Vector3d& opened) {
-    const JointLever<double>&lever = node.lever(), &other = node.other_lever();
-    node.acting = node.arm + unit_exponential<double>(lever.angle(turn)).change(node.arm);
-    node.other_acting =
-        node.other_arm + unit_exponential<double>(other.angle(other_turn)).change(node.other_arm);
-    if (node.sign > 0)
-        node.other_acting += node.apart + other.share * opened;
-    else
-        node.acting -= node.apart + lever.share * opened;
+/// h ω [rad].
+void TreeNodes::place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn) {
+    const auto turned = [](const JointLever<double>& lever, const Vector3d& by,
+                           const Vector3d& arm) -> Vector3d {
+        return lever.share > 0 ? unit_exponential<double>(lever.angle(by)) * arm : arm;
+    };
+    const JointLever<double>& lever_b = node.geometry.lever_b;
+    node.acting = turned(node.lever(), turn, node.arm());
+    node.other_acting = turned(node.other_lever(), other_turn, node.other_arm());
+    (node.sign > 0 ? node.other_acting : node.acting) +=
+        node.geometry.apart + lever_b.share * (node.apart - node.geometry.apart);
 }
 
 /// With all that hangs on the body.
@@ -221,6 +233,7 @@ Vector3d TreeNodes::impulse_of(const Node& node) {
 
 void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool leaf) {
     Node& node = nodes_[index_[index]];
+    if (!node.free) find_rows(node);
     load_block(node, balance, leaf);
     if (node.free) return;
     RowsElimination<double>& e = node.elimination;

@@ -86,8 +86,7 @@ private:
         double sign;      ///< 1 where the body is the joint's a, else −1
         double mass;
         Symmetric3<double> inertia;     ///< world frame, at the start [kg m²]
-        Vector3d arm, other_arm;        ///< of the joint's point, at the start [m]
-        Vector3d apart;                 ///< child's point − parent's, at the start [m]
+        Vector3d apart;                 ///< a's point − b's at the preview [m]
         Change start, held;             ///< velocity at the start; of an immovable parent
         Change given, own, written;     ///< changes by others, by this solver, and their sum when
                                         ///< it was handed on
@@ -101,6 +100,8 @@ private:
         int first_axis_row;            ///< of theirs in `elimination`
         BodyBlock<double> block;
 
+        const Vector3d& arm() const { return sign > 0 ? geometry.r_a : geometry.r_b; }
+        const Vector3d& other_arm() const { return sign > 0 ? geometry.r_b : geometry.r_a; }
         JointLever<double>& lever() { return sign > 0 ? geometry.lever_a : geometry.lever_b; }
         JointLever<double>& other_lever() { return sign > 0 ? geometry.lever_b : geometry.lever_a; }
     };
@@ -119,8 +120,9 @@ private:
     static void add_axes(const World& world, Node& node);
     void begin_joint(const World& world, Node& node, const SubstepTime& time);
     void owe(Node& node, double reach);
-    static void place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn,
-                              const Vector3d& opened);
+    Velocity<double> velocity_beyond(const Node& node) const;
+    void find_rows(Node& node);
+    static void place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn);
     double violation_of(const Node& node) const;
     void load_block(Node& node, bool balance, bool leaf);
     static Vector3d impulse_of(const Node& node);
@@ -129,6 +131,7 @@ private:
     TreeTables& tables_;
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> index_;  ///< [node of the forest] in nodes_
+    bool carries_balls_;  ///< whether bodies that are solved side by side may hang by these
     bool driven_ = false;
     double h_ = 0, inverse_h_ = 0;
 };
