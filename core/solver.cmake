@@ -7,7 +7,7 @@ set(PLUMB_CORE_SOURCES
   kernels/dispatch.cpp
   effects/meetings.cpp effects/plan.cpp
   solve/elastic_system.cpp
-  step/choose_rebounds.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp step/detect_particles.cpp step/divided_trees.cpp
+  step/choose_restitution.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp step/detect_particles.cpp step/divided_trees.cpp
   step/air.cpp step/break_joints.cpp step/driven_axis.cpp step/follow_contacts.cpp step/impacts.cpp step/integrate.cpp
   step/island_group.cpp step/island_solver.cpp step/joint_state.cpp step/match_contacts.cpp step/move_particles.cpp step/move_scripted.cpp
   step/remember_velocities.cpp step/reuse_contacts.cpp step/rims.cpp step/row_solver.cpp step/step.cpp

@@ -54,13 +54,13 @@ Wish contact_reuse(const World& w) {
 Wish friction(const World& w) {
     const std::size_t n =
         count_surface_pairs(w, [](const SurfacePair& s) { return s.friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials rub (μ > 0)",
-                   "no pair of materials that can touch rubs");
+    return counted(contacts(w).wanted ? n : 0, "pairs of materials have friction (μ > 0)",
+                   "no pair of materials that can touch has friction");
 }
 Wish turning_friction(const World& w) {
     const std::size_t n = count_surface_pairs(
         w, [](const SurfacePair& s) { return s.rolling_friction > 0 || s.spinning_friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials resist turning",
+    return counted(contacts(w).wanted ? n : 0, "pairs of materials resist rolling or spinning",
                    "no pair of materials resists rolling or spinning");
 }
 Wish restitution(const World& w) {
@@ -77,7 +77,7 @@ Wish impacts(const World& w) {
     return {true, "collisions are solved before forces, so that no contact remembers them"};
 }
 Wish sticking_anchors(const World& w) {
-    if (!friction(w).wanted) return {false, "nothing rubs"};
+    if (!friction(w).wanted) return {false, "there is no friction"};
     if (!(w.settings.anchor_stiffness > 0)) return {false, "anchor_stiffness is 0"};
     return {true, "friction that sticks remembers where (anchor_stiffness > 0)"};
 }

@@ -92,7 +92,7 @@ const Table<Settings>& settings_table() {
         field<S>("collision_depth", Number{{0, 1e3}}, &S::collision_depth,
                  "depth ε: a pair collides when it approaches faster than √(2 g ε) [m]"),
         field<S>("anchor_stiffness", Number{{0, 1}}, &S::anchor_stiffness,
-                 "share of a sticking contact's drift undone a substep; 0: no anchors"),
+                 "share of a sticking contact's anchor slip undone a substep; 0: no anchors"),
         field<S>("gyroscopic",
                  Choice<Gyroscopic>{{{"conserving", Gyroscopic::conserving},
                                      {"implicit", Gyroscopic::implicit},

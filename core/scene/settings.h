@@ -50,7 +50,7 @@ struct Settings {
     double collision_depth =
         1e-4;  ///< ε: a pair collides when it approaches faster than √(2 g ε) [m]
     double anchor_stiffness =
-        0.02;  ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
+        0.02;  ///< β: share of a sticking contact's anchor slip undone a substep; 0 = no anchors
     Gyroscopic gyroscopic = Gyroscopic::conserving;
     bool leapfrog_start = false;  ///< half a push in the first substep: places are then of second
                                   ///< order in its length, velocities those of substeps' middles

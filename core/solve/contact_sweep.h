@@ -37,8 +37,8 @@ inline RowImpulse impulse_of(const ContactArrays<Real, W>& rows, std::uint32_t k
     if (!rows.frictions) return p;
     const FrictionRow<Real, W>& across = rows.frictions[k];
     p.tangents = tangents_of(row, across, lane);
-    p.x = double(across.held_x[lane]) + double(across.rubbed_x[lane]);
-    p.y = double(across.held_y[lane]) + double(across.rubbed_y[lane]);
+    p.x = double(across.lambda_velocity_x[lane]) + double(across.lambda_position_x[lane]);
+    p.y = double(across.lambda_velocity_y[lane]) + double(across.lambda_position_y[lane]);
     return p;
 }
 

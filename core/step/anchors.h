@@ -8,15 +8,16 @@
 
 namespace plumb {
 
-/// A contact begins to stick at `point`, with a drift behind it already [m].
+/// A contact begins to stick at `point`, with a slip behind it already [m].
 inline void set_anchors(ContactMemory& memory, const Bodies& b, const Contact& contact,
-                        const Vector3d& point, const Vector3d& drift) {
-    memory.stick_a = in_body(b, contact.a, point + 0.5 * drift);
-    memory.stick_b = in_body(b, contact.b, point - 0.5 * drift);
+                        const Vector3d& point, const Vector3d& slip) {
+    memory.stick_a = in_body(b, contact.a, point + 0.5 * slip);
+    memory.stick_b = in_body(b, contact.b, point - 0.5 * slip);
 }
 
 /// How far apart the points have come by now [m].
-inline Vector3d drift_of(const Bodies& b, const Contact& contact, const ContactMemory& memory) {
+inline Vector3d anchor_slip_of(const Bodies& b, const Contact& contact,
+                               const ContactMemory& memory) {
     return in_world(b, contact.a, memory.stick_a) - in_world(b, contact.b, memory.stick_b);
 }
 

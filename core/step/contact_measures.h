@@ -38,8 +38,8 @@ inline double gap_in_substep(const ContactTable& c, std::size_t i) {
 }
 
 /// Separating speed that restitution asks of a contact [m/s]; 0: none.
-inline double asked_rebound(const ContactTable& c, std::size_t i) {
-    return c.rebound.empty() || c.is_passing(i) ? 0 : c.rebound[i];
+inline double restitution_velocity_of(const ContactTable& c, std::size_t i) {
+    return c.restitution_velocity.empty() ? 0 : c.restitution_velocity[i];
 }
 
 /// Bounding radius of the smaller of the bodies that can move [m].

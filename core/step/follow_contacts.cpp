@@ -74,14 +74,14 @@ void let_go_of_what_rolled(World& world, std::size_t i) {
 }
 
 /// How far apart the points have come that met when a contact began to stick.
-void measure_drifts(World& world) {
+void measure_anchor_slips(World& world) {
     ContactTable& c = world.contacts;
-    c.drift.assign(c.found.size(), Vector3d::Zero());
+    c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
         if (!c.rims.empty()) let_go_of_what_rolled(world, i);
-        c.drift[i] = drift_of(world.bodies, contact, c.memory[i]);
+        c.anchor_slip[i] = anchor_slip_of(world.bodies, contact, c.memory[i]);
     }
 }
 
@@ -96,7 +96,7 @@ void follow_contacts(World& world, const Plan& plan, bool first_substep) {
         if (rims) follow_rims(world);
         measure(world);
     }
-    if (plan.runs(Effect::sticking_anchors)) measure_drifts(world);
+    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world);
 }
 
 }  // namespace plumb

@@ -23,7 +23,7 @@ bool may_collide(const World& world, double threshold) {
 }
 
 /// Whether the surfaces of a contact meet within h, too fast to be a contact at rest. What comes
-/// through before it rebounds does not.
+/// through before it bounces does not.
 bool collides(const World& world, std::size_t i, double threshold, double h) {
     const ContactTable& c = world.contacts;
     if (c.is_passing(i)) return false;

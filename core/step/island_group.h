@@ -82,7 +82,7 @@ private:
     Island island_of(const Member& member);
 
     Workers& workers_;
-    bool rubs_, resists_turning_;
+    bool has_friction_, resists_rolling_;
     ContactIslands found_;
     std::vector<std::uint8_t> jointed_;  // [dynamic row]
     std::vector<double> bears_;          // [dynamic row], see goes_on [N s]

@@ -57,7 +57,7 @@ void hand_on_impulses(ContactTable& c, const PairRuns& run, const std::vector<st
             c.memory[nearest(c.found, run.now, run.now_end, common_point(c.found_before[j]))];
         heir.normal_impulse += c.memory_before[j].normal_impulse;
         heir.friction_impulse += c.memory_before[j].friction_impulse;
-        heir.turning_impulse += c.memory_before[j].turning_impulse;
+        heir.rolling_impulse += c.memory_before[j].rolling_impulse;
         heir.exact |= c.memory_before[j].exact;
         heir.matched = true;
     }
@@ -82,7 +82,7 @@ std::size_t nearest_sticking(const ContactTable& c, const PairRuns& run, const V
 }
 
 /// A contact that slid begins to stick anew where it is. One that is new, or carried nothing, takes
-/// over the drift of the nearest contact of the pair that stuck, or what the pair has crept would
+/// over the slip of the nearest contact of the pair that stuck, or what the pair has crept would
 /// be forgotten with every feature that changes and every corner that lifts for a moment.
 void anchor_pair(World& world, const PairRuns& run) {
     ContactTable& c = world.contacts;
@@ -92,10 +92,10 @@ void anchor_pair(World& world, const PairRuns& run) {
         const bool slid = m.known && m.normal_impulse > 0;
         const Vector3d point = common_point(c.found[i]);
         const std::size_t from = slid ? run.old_end : nearest_sticking(c, run, point);
-        Vector3d drift = Vector3d::Zero();
+        Vector3d slip = Vector3d::Zero();
         if (from < run.old_end)
-            drift = drift_of(world.bodies, c.found_before[from], c.memory_before[from]);
-        set_anchors(m, world.bodies, c.found[i], point, drift);
+            slip = anchor_slip_of(world.bodies, c.found_before[from], c.memory_before[from]);
+        set_anchors(m, world.bodies, c.found[i], point, slip);
     }
 }
 

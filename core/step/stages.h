@@ -44,7 +44,8 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
 /// step before.
 void match_contacts(World& world, const Plan& plan);
 
-/// Gaps, common points and drifts at the start of a substep, from points that ride on the bodies.
+/// Gaps, common points and anchor slips at the start of a substep, from points that ride on the
+/// bodies.
 void follow_contacts(World& world, const Plan& plan, bool first_substep);
 
 /// Kinematic bodies' velocities over the coming substep of length h [s], from their scripts.
@@ -62,7 +63,7 @@ void remember_velocities(Bodies& bodies, const std::vector<std::uint32_t>& some)
 /// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich).
 /// Speeds are those before forces are added, so that a resting body does not bounce, whatever its
 /// e.
-void choose_rebounds(World& world, bool first_substep);
+void choose_restitution(World& world, bool first_substep);
 
 /// v ← v + f g + p F/m, ω ← ω + p I⁻¹ τ − h I⁻¹ (ω × Iω) (§3); and I⁻¹ in the world's frame.
 /// p = time.push(), f = `fall`: for how long forces push and gravity does [s], in most substeps h.

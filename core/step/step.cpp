@@ -70,7 +70,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::joints))
             timed(Stage::joints, [&] { count_turns(world, stepper.turning); });
         if (plan.runs(Effect::restitution))
-            timed(Stage::restitution, [&] { choose_rebounds(world, first); });
+            timed(Stage::restitution, [&] { choose_restitution(world, first); });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
         timed(Stage::integrate, [&] {
             const SubstepTime time = substep_time(world, h);

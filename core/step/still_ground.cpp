@@ -40,7 +40,7 @@ void StillGround::note(const World& world, double h) {
         if (!still || touches_[body] == nothing) touches_[body] = still ? fixed_only : else_too;
     };
     for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const bool bounces = !c.rebound.empty() && c.rebound[i] != 0;
+        const bool bounces = !c.restitution.empty() && c.restitution[i] != Restitution::none;
         meet(c.found[i].a, c.found[i].b, bounces);
         meet(c.found[i].b, c.found[i].a, bounces);
     }

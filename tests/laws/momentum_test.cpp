@@ -32,7 +32,7 @@ TEST_P(Momentum, SurvivesACollision) {
 }
 
 /// Balls, boxes and capsules on a grid, of 1 to 10^heaviest kg, drawn together and spun; they meet,
-/// rub, roll and bounce.
+/// slide, roll and bounce.
 struct FreeHeap {
     Scene scene;
 
