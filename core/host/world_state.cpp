@@ -49,7 +49,7 @@ void each_number_of_joints(Io& io, Table& table) {
         io(motor.target), io.count(motor.keys);
         for (auto& key : motor.keys) io(key.time), io(key.value);
     }
-    for (auto& coupling : table.couplings) io(coupling.impulse), io(coupling.owed);
+    for (auto& coupling : table.couplings) io(coupling.impulse), io(coupling.deferred);
 }
 
 template <class Io, class List>

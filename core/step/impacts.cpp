@@ -98,9 +98,9 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
         const std::uint32_t body = body_of_[row];
         const Change& d = changes_[row];
         const Vector3d &v = bodies.velocity_now[body], &w = bodies.angular_velocity_now[body];
-        b += bodies.mass[body] * v.dot(d.v) + turning_product(bodies, body, w, d.w);
+        b += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
         a +=
-            0.5 * (bodies.mass[body] * d.v.squaredNorm() + turning_product(bodies, body, d.w, d.w));
+            0.5 * (bodies.mass[body] * d.v.squaredNorm() + inertia_product(bodies, body, d.w, d.w));
     }
     return a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 1;
 }

@@ -32,9 +32,9 @@ struct JointLoad {
 JointLoad joint_load(const World& world, std::uint32_t joint);
 
 /// Joints that leave one rotation free, by index; their angles are counted through whole turns.
-std::vector<std::uint32_t> turning_joints(const World& world);
+std::vector<std::uint32_t> revolute_joints(const World& world);
 
-/// Follows the angles of turning joints; called once a substep.
-void count_turns(World& world, const std::vector<std::uint32_t>& turning);
+/// Follows the angles of revolute joints; called once a substep.
+void count_turns(World& world, const std::vector<std::uint32_t>& revolute);
 
 }  // namespace plumb

@@ -175,7 +175,7 @@ public:
         });
     }
 
-    /// Shock propagation begins from the sums of the passes, and what it adds is not felt below.
+    /// Shock propagation begins from the sums of the passes, and what it adds does not act below.
     void add_impulses(ContactSums& sums) override {
         (shocks_ ? *shock_ : *contacts_).add_impulses(sums);
         if (islands_) islands_->add_impulses(sums);

@@ -68,7 +68,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (sums) timed(Stage::remember, [&] { sums->begin_substep(world); });
         report.open_trees.clear();
         if (plan.runs(Effect::joints))
-            timed(Stage::joints, [&] { count_turns(world, stepper.turning); });
+            timed(Stage::joints, [&] { count_turns(world, stepper.revolute); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_restitution(world, first); });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });

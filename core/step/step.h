@@ -31,7 +31,7 @@ struct Stepper {
         : plan(make_plan(world)),
           workers(world.settings.threads),
           motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
-          turning(turning_joints(world)),
+          revolute(revolute_joints(world)),
           surfaces(world),
           air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           divided(plan.runs(Effect::divided_trees) ? DividedTrees(world, plan) : DividedTrees()),
@@ -44,7 +44,7 @@ struct Stepper {
     void renew(const World& world) {
         const Plan before = std::exchange(plan, make_plan(world));
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
-        turning = turning_joints(world);
+        revolute = revolute_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
         if (plan.runs(Effect::air_drag)) air = Air(world);
         if (plan.runs(Effect::divided_trees)) divided = DividedTrees(world, plan);
@@ -56,7 +56,7 @@ struct Stepper {
     Plan plan;
     Workers workers;
     MotionLists motion;
-    std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
+    std::vector<std::uint32_t> revolute;  ///< joints whose turns are counted
     SurfaceDetector surfaces;
     Air air;
     DividedTrees divided;

@@ -113,13 +113,13 @@ void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& t
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, time);
-    owe(node, h_ * world.settings.recovery_speed);
+    defer(node, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, time);
 }
 
 /// What is to be closed of old errors in this substep is bounded, as old overlap is. What a
 /// compliant row has stretched is no error.
-void TreeNodes::owe(Node& node, double reach) {
+void TreeNodes::defer(Node& node, double most) {
     const Velocity<double> rest{kZero, kZero};
     const JointRows<double> rows = joint_rows<double>(node.geometry, rest, rest, h_);
     double squared[2] = {0, 0};
@@ -129,7 +129,8 @@ void TreeNodes::owe(Node& node, double reach) {
     for (int k = 0; k < 6; ++k)
         if (is_stiff(k)) squared[k / 3] += rows.c[k] * rows.c[k];
     for (int k = 0; k < 6; ++k)
-        node.owed[k] = is_stiff(k) ? rows.c[k] * owed_share<double>(squared[k / 3], reach) : 0;
+        node.deferred[k] =
+            is_stiff(k) ? rows.c[k] * deferred_fraction<double>(squared[k / 3], most) : 0;
 }
 
 void TreeNodes::forget(std::uint32_t index) {
@@ -161,7 +162,7 @@ double TreeNodes::evaluate(std::uint32_t index, bool settle) {
     const Velocity<double>&child = own, &a = node.sign > 0 ? child : other,
           &b = node.sign > 0 ? other : child;
     node.now = joint_rows<double>(node.geometry, a, b, h_);
-    for (int k = 0; k < 6; ++k) node.now.c[k] -= node.owed[k];
+    for (int k = 0; k < 6; ++k) node.now.c[k] -= node.deferred[k];
     take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
     const Vector3d change = turn.change(node.arm),
                    other_change = unit_exponential<double>(h_ * other.w).change(node.other_arm);
@@ -206,7 +207,7 @@ void TreeNodes::load_block(Node& node, bool balance, bool leaf) {
     Symmetric3<double> stiffness{0, 0, 0, 0, 0, 0};
     if (!node.free)
         stiffness =
-            turning_stiffness<double>(node.acting, impulse_of(node), node.lever().share * h_);
+            angular_stiffness<double>(node.acting, impulse_of(node), node.lever().share * h_);
     add_body<double>(whole, node.mass, node.inertia, stiffness, node.own, balance);
     node.block = whole.block;
 }
@@ -240,7 +241,7 @@ void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool le
     add_rows(parent.block, e);
     for (const DrivenAxis& axis : node.axes) axis.push_parent(parent.block, node.sign, balance);
     parent.stiffness =
-        parent.stiffness + turning_stiffness<double>(node.other_acting, -impulse_of(node),
+        parent.stiffness + angular_stiffness<double>(node.other_acting, -impulse_of(node),
                                                      node.other_lever().share * h_);
     put_share(parent, row);
 }

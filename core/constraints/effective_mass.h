@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The mass or inertia that a drive moves while its joint holds: about a hinge that is not at the
-/// centre of mass it is more than the body's own.
+/// Effective mass or inertia of a drive under its joint, which holds meanwhile: about a hinge that
+/// is not at the centre of mass it is more than the body's own.
 #pragma once
 
 #include "constraints/joint_axis.h"
@@ -18,8 +18,8 @@ inline double row_response(const JointCoordinate& q, const InverseMass<double>& 
 
 /// 1/(J M⁻¹ Jᵀ − J M⁻¹ Kᵀ (K M⁻¹ Kᵀ + s)⁻¹ K M⁻¹ Jᵀ) with K the rows that the joint takes away, at
 /// the start of the substep; 0 where nothing can move.
-inline double felt_mass(const JointGeometry<double>& joint, const JointCoordinate& q,
-                        const InverseMass<double>& a, const InverseMass<double>& b) {
+inline double effective_mass(const JointGeometry<double>& joint, const JointCoordinate& q,
+                             const InverseMass<double>& a, const InverseMass<double>& b) {
     const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
     const JointRows<double> rows = joint_rows<double>(joint, rest, rest, 1);
     const Vector3d on_a = a.inertia * q.turn_a, on_b = b.inertia * q.turn_b;
