@@ -5,7 +5,7 @@ set(PLUMB_CORE_SOURCES
   world/mass_properties.cpp world/shape_store.cpp world/tears.cpp
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
-  effects/meetings.cpp effects/plan.cpp
+  effects/filter_reachability.cpp effects/plan.cpp
   solve/elastic_system.cpp
   step/choose_restitution.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp step/detect_particles.cpp step/divided_trees.cpp
   step/air.cpp step/break_joints.cpp step/driven_axis.cpp step/follow_contacts.cpp step/impacts.cpp step/integrate.cpp

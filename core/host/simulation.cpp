@@ -16,12 +16,12 @@ namespace plumb {
 namespace {
 
 /// What edits need of a scene.
-Scene stock_of(const Scene& scene) {
-    Scene stock;
-    stock.materials = scene.materials, stock.material_pairs = scene.material_pairs;
-    stock.geometries = scene.geometries;
-    stock.remarks = scene.remarks;
-    return stock;
+Scene assets_of(const Scene& scene) {
+    Scene assets;
+    assets.materials = scene.materials, assets.material_pairs = scene.material_pairs;
+    assets.geometries = scene.geometries;
+    assets.remarks = scene.remarks;
+    return assets;
 }
 
 template <class Spec>
@@ -45,7 +45,7 @@ std::uint32_t index_of(const std::vector<Entry>& table, std::uint32_t id, std::u
 
 Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
                          std::string version)
-    : stock(stock_of(scene)),
+    : assets(assets_of(scene)),
       world(build_world(scene)),
       stepper(world),
       owned(std::move(plugin)),
@@ -53,7 +53,7 @@ Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, 
       collider_name(std::move(name)),
       collider_version(std::move(version)) {
     auto& warnings = stepper.plan.warnings;
-    warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    warnings.insert(warnings.begin(), assets.remarks.begin(), assets.remarks.end());
     note_broken_joints();
     add_names(body_names, scene.bodies), add_names(joint_names, scene.joints);
     if (!stepper.plan.runs(Effect::contacts)) return;
@@ -66,7 +66,7 @@ void Simulation::Parts::renew() {
     assign_rows(world);
     stepper.renew(world);
     auto& warnings = stepper.plan.warnings;
-    warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    warnings.insert(warnings.begin(), assets.remarks.begin(), assets.remarks.end());
     note_broken_joints();
     outdated = false;
 }
@@ -76,11 +76,10 @@ void Simulation::Parts::note_broken_joints() {
     for (const Joint& joint : world.joints.joints) broken.push_back(joint.broken);
 }
 
-std::uint32_t Simulation::Parts::place(std::uint32_t body) const {
-    if (const auto found = world.places.find(body)) return *found;
+std::uint32_t Simulation::Parts::slot(std::uint32_t body) const {
+    if (const auto found = world.slots.find(body)) return *found;
     const std::string name = "body " + std::to_string(body);
-    throw std::out_of_range(world.places.knew(body) ? name + " was removed"
-                                                    : "there is no " + name);
+    throw std::out_of_range(world.slots.knew(body) ? name + " was removed" : "there is no " + name);
 }
 
 std::uint32_t Simulation::Parts::joint_index(std::uint32_t joint) const {

@@ -100,7 +100,7 @@ struct PassSettings {
     bool warm_start;    // begin with the impulses of the substep before
     bool shared_cone;   // one friction bound for both passes
     bool shared_push;   // the push of both passes together stays repulsive, not of each alone
-    bool forwards;      // direction of this sweep
+    bool forwards;      // direction of this iteration
     std::uint32_t iteration = 0;  // of the pass
     bool alone = false;           // nothing but one group changes velocities in this pass
 };

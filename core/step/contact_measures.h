@@ -46,7 +46,7 @@ inline double restitution_velocity_of(const ContactTable& c, std::size_t i) {
 inline double smaller_radius(const Bodies& b, const Contact& c) {
     double radius = std::numeric_limits<double>::infinity();
     for (const std::uint32_t body : {c.a, c.b})
-        if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.reach[body]);
+        if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.bounding_radius[body]);
     return radius;
 }
 

@@ -8,7 +8,7 @@
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
-#include "solve/contact_sweep.h"
+#include "solve/contact_iteration.h"
 #include "solve/fill_mass.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
@@ -69,7 +69,7 @@ public:
     }
 
     /// Impulses that the contacts remember of the step before. `exact` as in `load`: of an island
-    /// that was solved exactly and comes back to the sweeps, it says which contacts go on.
+    /// that was solved exactly and comes back to the iterations, it says which contacts go on.
     void load_impulses(const World& world, const IslandGroup* exact) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
@@ -107,7 +107,7 @@ public:
             row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
             clamped_ += -static_cast<Real>(c.gap[contact]) > pass.recovery;
             if (-c.gap[contact] > trusted_[contact])
-                doubt(rows, k, lane, -c.gap[contact] / trusted_[contact]);
+                damp_impulses(rows, k, lane, -c.gap[contact] / trusted_[contact]);
             if (!rows.frictions || c.anchor_slip.empty()) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
             const auto [x, y] = tangents_of(row, across, lane);
@@ -152,14 +152,14 @@ public:
     }
     void iterate_velocities(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                             std::uint32_t worker) override {
-        sweep(kernels_.solve_velocities, bodies, pass, worker);
+        iterate(kernels_.solve_velocities, bodies, pass, worker);
     }
     void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        sweep(kernels_.solve_positions, bodies, pass, worker);
+        iterate(kernels_.solve_positions, bodies, pass, worker);
     }
 
-    /// One sweep in which each batch is solved `rounds` times before the next.
+    /// One iteration in which each batch is solved `rounds` times before the next.
     void rounds_iteration(const BodyRows<Real>& bodies, PassSettings<Real> pass,
                           std::uint32_t rounds, std::uint32_t worker) {
         const ContactArrays<Real, W> rows = batches_.arrays();
@@ -173,8 +173,8 @@ public:
     /// A contact that its impulses could not keep from a deep overlap is squeezed by more than they
     /// can hold: they would grow with every substep, and fly apart where they act askew. `overlap`:
     /// over the trusted one.
-    static void doubt(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
-                      double overlap) {
+    static void damp_impulses(const ContactArrays<Real, W>& rows, std::uint32_t k,
+                              std::uint32_t lane, double overlap) {
         const Real kept = static_cast<Real>(std::max(kLeastKept, 2 - overlap));
         each_sum(rows, k, [&](Real* sum) { sum[lane] *= kept; });
     }
@@ -325,12 +325,12 @@ private:
     /// Runs a kernel over all blocks in one go each batch, all workers together.
     void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
              const PassSettings<Real>& pass) {
-        workers_.run([&](std::uint32_t worker) { sweep(kernel, bodies, pass, worker); });
+        workers_.run([&](std::uint32_t worker) { iterate(kernel, bodies, pass, worker); });
     }
 
-    void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
-               const PassSettings<Real>& pass, std::uint32_t worker) {
-        sweep_batches(kernel, batches_, bodies, pass, workers_, worker);
+    void iterate(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
+                 const PassSettings<Real>& pass, std::uint32_t worker) {
+        iterate_batches(kernel, batches_, bodies, pass, workers_, worker);
     }
 
     ContactVariant variant_;

@@ -12,9 +12,9 @@ namespace {
 /// How far a body may come in dt beyond what the margin covers already [m].
 double sweep(const World& world, std::size_t i, double dt) {
     const Bodies& b = world.bodies;
-    if (b.motion[i] == Motion::fixed || !(b.reach[i] > 0)) return 0;
+    if (b.motion[i] == Motion::fixed || !(b.bounding_radius[i] > 0)) return 0;
     const double turn = std::min(b.angular_velocity[i].norm() * dt, 2.0);
-    const double spin = turn * b.reach[i];
+    const double spin = turn * b.bounding_radius[i];
     const double travel = b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
     return std::max(0.0, travel - world.settings.margin / 2);
 }

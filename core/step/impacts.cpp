@@ -15,8 +15,9 @@ bool may_collide(const World& world, double threshold) {
     const Bodies& b = world.bodies;
     double fastest = 0;
     for (std::size_t i = 0; i < b.size(); ++i) {
-        const double squared = b.velocity_now[i].squaredNorm() +
-                               b.reach[i] * b.reach[i] * b.angular_velocity_now[i].squaredNorm();
+        const double squared =
+            b.velocity_now[i].squaredNorm() +
+            b.bounding_radius[i] * b.bounding_radius[i] * b.angular_velocity_now[i].squaredNorm();
         fastest = std::max(fastest, squared);
     }
     return 8 * fastest > threshold * threshold;

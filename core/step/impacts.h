@@ -4,12 +4,12 @@
 /// An impact tells nothing of the forces to come. Solved together with them, its impulses would be
 /// what the next substep begins from, and iterations cannot take all of that back: what fell would
 /// be thrown up again. So islands in which bodies collide are first solved for velocities without
-/// forces and from nothing, in two phases (Poisson's law): sweeps bring the approach to rest
+/// forces and from nothing, in two phases (Poisson's law): iterations bring the approach to rest
 /// (compression), then each contact that collides gives back e times its impulse (restitution), and
-/// sweeps let friction, and contacts that approach anew, follow. Each single update of compression
-/// loses energy, and giving back at most what was taken cannot gain any but by what sweeps leave:
-/// where an island has more energy at the end than before, its impulses are scaled down to where it
-/// has not.
+/// iterations let friction, and contacts that approach anew, follow. Each single update of
+/// compression loses energy, and giving back at most what was taken cannot gain any but by what
+/// iterations leave: where an island has more energy at the end than before, its impulses are
+/// scaled down to where it has not.
 #pragma once
 
 #include "schedule/contact_islands.h"

@@ -140,8 +140,9 @@ bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
 bool IslandGroup::is_slow(const World& world, const Contact& contact) const {
     const Bodies& b = world.bodies;
     const std::uint32_t body = b.motion[contact.a] == Motion::dynamic ? contact.a : contact.b;
-    const double speed = b.velocity[body].norm() + b.reach[body] * b.angular_velocity[body].norm();
-    return speed <= calm_speed(world, b.reach[body], pull_on(world, body));
+    const double speed =
+        b.velocity[body].norm() + b.bounding_radius[body] * b.angular_velocity[body].norm();
+    return speed <= calm_speed(world, b.bounding_radius[body], pull_on(world, body));
 }
 
 void IslandGroup::find_upset(const World& world, const ContactIsland& island,
@@ -215,7 +216,7 @@ bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
         const Contact& c = world.contacts.found[pair.first];
         for (const std::uint32_t body : {c.a, c.b}) {
             if (b.motion[body] != Motion::dynamic) continue;
-            radius = std::max(radius, b.reach[body]);
+            radius = std::max(radius, b.bounding_radius[body]);
             pull = std::max(pull, pull_on(world, body));
         }
     }

@@ -25,7 +25,7 @@ double joint_rate_before(const Bodies& bodies, const Joint& joint, const JointCo
 
 /// Force at the joint's point of a and torque on a, from b; world frame [N], [N m]. Motors,
 /// springs, limits and friction of the joint are part of it. The mean of the last two substeps:
-/// iterations sweep forwards and backwards in turn, and so does what they have not settled.
+/// iterations run forwards and backwards in turn, and so does what they have not settled.
 struct JointLoad {
     Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
 };

@@ -43,7 +43,7 @@ struct Watched {
     std::uint32_t small, large;
 };
 Watched watched(const Bodies& b, std::uint32_t i, std::uint32_t j) {
-    return b.reach[i] < b.reach[j] ? Watched{i, j} : Watched{j, i};
+    return b.bounding_radius[i] < b.bounding_radius[j] ? Watched{i, j} : Watched{j, i};
 }
 
 void measure_pose(KeptPair& pair, const Bodies& b) {
@@ -59,9 +59,9 @@ double turned(const KeptPair& then, const KeptPair& now) {
 }
 
 /// Bound on how far any point of the smaller body has moved in the other's frame [m].
-double motion(const KeptPair& then, const KeptPair& now, double reach) {
+double motion(const KeptPair& then, const KeptPair& now, double radius) {
     // A turn by θ moves a point at distance r by the chord 2 r sin(θ/2).
-    return (now.offset - then.offset).norm() + turned(then, now) * reach;
+    return (now.offset - then.offset).norm() + turned(then, now) * radius;
 }
 
 /// Whether the contacts that `then` has will do at the poses of `now`. Contacts on a rim that turns
@@ -69,10 +69,10 @@ double motion(const KeptPair& then, const KeptPair& now, double reach) {
 bool will_do(const KeptPair& then, const KeptPair& now, const World& world, bool exact) {
     const Bodies& b = world.bodies;
     const double distance = world.settings.reuse_distance;
-    const double reach = b.reach[watched(b, now.a, now.b).small];
-    const double moved = motion(then, now, reach);
+    const double radius = b.bounding_radius[watched(b, now.a, now.b).small];
+    const double moved = motion(then, now, radius);
     if ((has_rim(world, now.a) || has_rim(world, now.b)) &&
-        turned(then, now) * reach > kLag * distance)
+        turned(then, now) * radius > kLag * distance)
         return false;
     if (exact && moved > kStill * distance && (is_round(world, now.a) || is_round(world, now.b)))
         return false;

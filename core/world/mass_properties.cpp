@@ -133,8 +133,8 @@ MassProperties mass_properties(const Geometry& g) {
     return {};
 }
 
-double reach_from(const Geometry& g, const Vector3d& centre) {
-    double reach = 0;
+double bounding_radius(const Geometry& g, const Vector3d& centre) {
+    double radius = 0;
     switch (g.kind) {
         case ShapeKind::plane:
             return std::numeric_limits<double>::infinity();
@@ -148,20 +148,21 @@ double reach_from(const Geometry& g, const Vector3d& centre) {
         case ShapeKind::cone:
             return centre.norm() + std::hypot(g.half_height, g.radius);
         case ShapeKind::height_field:
-            for (double y : g.heights) reach = std::max(reach, std::abs(y));
+            for (double y : g.heights) radius = std::max(radius, std::abs(y));
             return centre.norm() + std::hypot(g.columns * g.spacing_x, g.rows * g.spacing_z) / 2 +
-                   reach;
+                   radius;
         case ShapeKind::hull:
         case ShapeKind::mesh:
-            for (const Vector3d& v : g.vertices) reach = std::max(reach, (v - centre).norm());
-            return reach;
+            for (const Vector3d& v : g.vertices) radius = std::max(radius, (v - centre).norm());
+            return radius;
         case ShapeKind::compound:
             for (const GeometryPart& p : g.parts)
-                reach = std::max(reach, reach_from(p.geometry, p.local.rotation.conjugate() *
-                                                                   (centre - p.local.position)));
-            return reach;
+                radius =
+                    std::max(radius, bounding_radius(p.geometry, p.local.rotation.conjugate() *
+                                                                     (centre - p.local.position)));
+            return radius;
     }
-    return reach;
+    return radius;
 }
 
 }  // namespace plumb

@@ -17,6 +17,6 @@ struct MassProperties {
 MassProperties mass_properties(const Geometry& geometry);
 
 /// Radius about `centre` that holds the geometry [m]; infinite for a plane.
-double reach_from(const Geometry& geometry, const Vector3d& centre);
+double bounding_radius(const Geometry& geometry, const Vector3d& centre);
 
 }  // namespace plumb

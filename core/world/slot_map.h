@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// Which place of a table each identifier has, where entries come and go.
+/// Which slot of a table each identifier has, where entries come and go.
 ///
-/// Identifiers are counted up and never used twice; places are. An entry keeps its place as long as
-/// it lives; the next takes the lowest vacant one, or else goes to the end. Vacant places at the
-/// end fall away. Until something is removed, identifiers and places are the same numbers.
+/// Identifiers are counted up and never used twice; slots are. An entry keeps its slot as long as
+/// it lives; the next takes the lowest vacant one, or else goes to the end. Vacant slots at the
+/// end fall away. Until something is removed, identifiers and slots are the same numbers.
 #pragma once
 
 #include <algorithm>
@@ -14,10 +14,10 @@
 
 namespace plumb {
 
-class Places {
+class SlotMap {
 public:
     struct Entry {
-        std::uint32_t id, place;
+        std::uint32_t id, slot;
     };
 
     /// What the next `add` gives.
@@ -36,7 +36,7 @@ public:
 
     void remove(std::uint32_t id) {
         const auto at = position(id);
-        vacant_.insert(at->place);
+        vacant_.insert(at->slot);
         entries_.erase(at);
         while (!vacant_.empty() && *vacant_.rbegin() + 1 == size_) vacant_.erase(--size_);
     }
@@ -45,10 +45,10 @@ public:
     void forget_last() { --next_id_; }
 
     std::optional<std::uint32_t> find(std::uint32_t id) const {
-        if (id < entries_.size() && entries_[id].id == id) return entries_[id].place;
+        if (id < entries_.size() && entries_[id].id == id) return entries_[id].slot;
         const auto at = position(id);
         if (at == entries_.end() || at->id != id) return std::nullopt;
-        return at->place;
+        return at->slot;
     }
 
     /// Whether there ever was one of this identifier.

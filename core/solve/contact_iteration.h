@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Sweeps over batches of contact rows, and what both kinds of contacts read from a row.
+/// Iterations over batches of contact rows, and what both kinds of contacts read from a row.
 #pragma once
 
 #include "kernels/contact_kernels.h"
@@ -68,9 +68,9 @@ inline void solve_batch(ContactPass<Real, W> kernel, const ContactArrays<Real, W
 
 /// One pass over the batches in order, or backwards.
 template <class Real, int W>
-inline void sweep_batches(ContactPass<Real, W> kernel, ContactBatches<Real, W>& batches,
-                          const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
-                          Workers& workers, std::uint32_t worker) {
+inline void iterate_batches(ContactPass<Real, W> kernel, ContactBatches<Real, W>& batches,
+                            const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                            Workers& workers, std::uint32_t worker) {
     const ContactArrays<Real, W> rows = batches.arrays();
     const std::vector<BlockRange>& ranges = batches.ranges();
     for (std::size_t i = 0; i < ranges.size(); ++i)

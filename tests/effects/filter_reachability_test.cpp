@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "effects/meetings.h"
+#include "effects/filter_reachability.h"
 #include "scene/build.h"
 
 #include <gtest/gtest.h>
@@ -20,26 +20,26 @@ BodySpec ball(Motion motion, std::uint32_t group, std::uint32_t mask) {
     body.group = group, body.mask = mask;
     return body;
 }
-std::size_t meeting(const std::vector<BodySpec>& bodies) {
-    return bodies_that_meet(build_world(scene_of(bodies)));
+std::size_t collidable(const std::vector<BodySpec>& bodies) {
+    return collidable_bodies(build_world(scene_of(bodies)));
 }
 
-TEST(Meetings, NeedTwoBodiesOfWhichOneIsDynamic) {
+TEST(FilterReachability, NeedsTwoBodiesOfWhichOneIsDynamic) {
     const BodySpec moving = ball(Motion::dynamic, 1, ~0u), fixed = ball(Motion::fixed, 1, ~0u);
-    EXPECT_EQ(meeting({moving}), 0u);
-    EXPECT_EQ(meeting({moving, moving}), 2u);
-    EXPECT_EQ(meeting({moving, fixed}), 2u);
-    EXPECT_EQ(meeting({fixed, fixed}), 0u);
+    EXPECT_EQ(collidable({moving}), 0u);
+    EXPECT_EQ(collidable({moving, moving}), 2u);
+    EXPECT_EQ(collidable({moving, fixed}), 2u);
+    EXPECT_EQ(collidable({fixed, fixed}), 0u);
 }
 
-TEST(Meetings, NeedFiltersThatAgreeBothWays) {
+TEST(FilterReachability, NeedsFiltersThatAgreeBothWays) {
     const BodySpec red = ball(Motion::dynamic, 1, 2), blue = ball(Motion::dynamic, 2, 1),
                    deaf = ball(Motion::dynamic, 1, 0), loner = ball(Motion::dynamic, 2, 2);
-    EXPECT_EQ(meeting({red, blue}), 2u);
-    EXPECT_EQ(meeting({red, red, red}), 0u);
-    EXPECT_EQ(meeting({deaf, deaf, blue}), 0u);
-    EXPECT_EQ(meeting({red, loner}), 0u);
-    EXPECT_EQ(meeting({loner, loner, red}), 2u);
+    EXPECT_EQ(collidable({red, blue}), 2u);
+    EXPECT_EQ(collidable({red, red, red}), 0u);
+    EXPECT_EQ(collidable({deaf, deaf, blue}), 0u);
+    EXPECT_EQ(collidable({red, loner}), 0u);
+    EXPECT_EQ(collidable({loner, loner, red}), 2u);
 }
 
 }  // namespace

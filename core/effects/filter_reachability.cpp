@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "effects/meetings.h"
+#include "effects/filter_reachability.h"
 
 #include <algorithm>
 #include <map>
@@ -24,7 +24,7 @@ struct Kind {
 std::vector<Kind> kinds_of(const Bodies& bodies) {
     std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::size_t> counts;
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        if (bodies.reach[i] > 0)
+        if (bodies.bounding_radius[i] > 0)
             ++counts[{bodies.group[i], bodies.mask[i], bodies.motion[i] == Motion::dynamic}];
     std::vector<Kind> kinds;
     for (const auto& [key, count] : counts)
@@ -34,7 +34,7 @@ std::vector<Kind> kinds_of(const Bodies& bodies) {
 
 }  // namespace
 
-std::size_t bodies_that_meet(const World& world) {
+std::size_t collidable_bodies(const World& world) {
     const std::vector<Kind> kinds = kinds_of(world.bodies);
     std::size_t bodies = 0;
     for (const Kind& kind : kinds)
