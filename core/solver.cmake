@@ -6,13 +6,13 @@ set(PLUMB_CORE_SOURCES
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/filter_reachability.cpp effects/plan.cpp
+  contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_room.cpp contacts/detect.cpp
+  contacts/detect_particles.cpp contacts/follow_contacts.cpp contacts/impacts.cpp contacts/match_contacts.cpp contacts/reuse_contacts.cpp
+  contacts/rims.cpp contacts/still_ground.cpp contacts/surface_detector.cpp
   solve/elastic_system.cpp
-  step/choose_restitution.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp step/detect_particles.cpp step/divided_trees.cpp
-  step/air.cpp step/break_joints.cpp step/driven_axis.cpp step/follow_contacts.cpp step/impacts.cpp step/integrate.cpp
-  step/island_group.cpp step/island_solver.cpp step/joint_state.cpp step/match_contacts.cpp step/move_particles.cpp step/move_scripted.cpp
-  step/remember_velocities.cpp step/reuse_contacts.cpp step/rims.cpp step/row_solver.cpp step/step.cpp
-  step/still_ground.cpp step/surface_detector.cpp step/tear.cpp step/tree_nodes.cpp
-  step/tree_solver.cpp
+  step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/integrate.cpp step/island_group.cpp
+  step/island_solver.cpp step/joint_state.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp
+  step/row_solver.cpp step/step.cpp step/tear.cpp step/tree_nodes.cpp step/tree_solver.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/shape_support.cpp)
 

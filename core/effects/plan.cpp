@@ -203,7 +203,8 @@ struct Registered {
     Wish (*wish)(const World&);
 };
 
-/// In the order of `Effect`. A new effect is a line here, a name there and its stage in step/.
+/// In the order of `Effect`. A new effect is a line here, a name there and its stage in contacts/
+/// or step/.
 constexpr std::array<Registered, kEffectCount> kEffects{{
     {"contacts", contacts},
     {"contact_reuse", contact_reuse},

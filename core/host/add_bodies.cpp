@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/add_bodies.h"
 
+#include "contacts/contact_room.h"
 #include "scene/error.h"
-#include "step/contact_room.h"
 
 #include <cstdint>
 #include <vector>

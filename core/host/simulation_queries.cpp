@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Questions to the collider, at the poses of now.
+#include "contacts/contact_room.h"
 #include "host/simulation_parts.h"
 #include "scene/error.h"
-#include "step/contact_room.h"
 
 #include <algorithm>
 #include <stdexcept>

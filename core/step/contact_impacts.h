@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// The part of a contact solver's rows in impacts (step/impacts.h): what their compression begins
-/// from, the restitution after it, and the way back to the substep.
+/// The part of a contact solver's rows in impacts (contacts/impacts.h): what their compression
+/// begins from, the restitution after it, and the way back to the substep.
 #pragma once
 
 #include "constraints/connector.h"
+#include "contacts/contact_measures.h"
+#include "contacts/impacts.h"
 #include "schedule/contact_batches.h"
 #include "step/contact_impulses.h"
-#include "step/contact_measures.h"
-#include "step/impacts.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
 

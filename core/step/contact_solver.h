@@ -3,6 +3,10 @@
 /// back.
 #pragma once
 
+#include "contacts/contact_measures.h"
+#include "contacts/contact_pairs.h"
+#include "contacts/contact_sums.h"
+#include "contacts/impacts.h"
 #include "effects/plan.h"
 #include "kernels/contact_kernels.h"
 #include "schedule/contact_batches.h"
@@ -12,10 +16,6 @@
 #include "solve/fill_mass.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
-#include "step/contact_measures.h"
-#include "step/contact_pairs.h"
-#include "step/contact_sums.h"
-#include "step/impacts.h"
 #include "step/island_group.h"
 #include "step/velocity_table.h"
 #include "world/world.h"

@@ -4,7 +4,7 @@
 #include "constraints/connector.h"
 #include "constraints/contact.h"
 #include "constraints/friction.h"
-#include "step/contact_measures.h"
+#include "contacts/contact_measures.h"
 
 #include <algorithm>
 #include <cmath>

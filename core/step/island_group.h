@@ -8,10 +8,10 @@
 /// creep.
 #pragma once
 
+#include "contacts/contact_sums.h"
 #include "effects/plan.h"
 #include "schedule/contact_islands.h"
 #include "schedule/workers.h"
-#include "step/contact_sums.h"
 #include "step/island_solver.h"
 #include "world/world.h"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/row_solver.h"
 
+#include "contacts/impacts.h"
 #include "math/root.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
@@ -10,7 +11,6 @@
 #include "solve/particle_contact_group.h"
 #include "solve/surface_contact_group.h"
 #include "step/contact_solver.h"
-#include "step/impacts.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/step.h"
 
-#include "step/rims.h"
+#include "contacts/rims.h"
 #include "step/substep_time.h"
 
 #include <cmath>

@@ -2,18 +2,19 @@
 /// The time step.
 #pragma once
 
+#include "contacts/contact_stages.h"
+#include "contacts/contact_sums.h"
+#include "contacts/still_ground.h"
+#include "contacts/surface_detector.h"
 #include "effects/ledger.h"
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
 #include "step/air.h"
-#include "step/contact_sums.h"
 #include "step/divided_trees.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
-#include "step/still_ground.h"
-#include "step/surface_detector.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "step/contact_faults.h"
-#include "step/reuse_contacts.h"
-#include "step/stages.h"
+#include "contacts/contact_faults.h"
+#include "contacts/contact_stages.h"
+#include "contacts/reuse_contacts.h"
 
 #include <algorithm>
 #include <cmath>

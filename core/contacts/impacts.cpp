@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "step/impacts.h"
+#include "contacts/impacts.h"
 
-#include "step/contact_measures.h"
+#include "contacts/contact_measures.h"
 #include "world/body_momentum.h"
 
 #include <algorithm>

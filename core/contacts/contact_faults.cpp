@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/contact_faults.h"
+#include "contacts/contact_faults.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Contacts of particles with bodies, deformable by deformable, for each has its own filter.
-#include "step/stages.h"
+#include "contacts/contact_stages.h"
 
 #include <algorithm>
 #include <cmath>

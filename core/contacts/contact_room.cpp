@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/contact_room.h"
+#include "contacts/contact_room.h"
 
 #include <algorithm>
 #include <cstring>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Contacts of this step and of the step before are both sorted, so one walk along both finds what
 /// stayed.
-#include "step/anchors.h"
-#include "step/stages.h"
+#include "contacts/anchors.h"
+#include "contacts/contact_stages.h"
 
 namespace plumb {
 namespace {

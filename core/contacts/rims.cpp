@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/rims.h"
+#include "contacts/rims.h"
 
 #include "math/rotation.h"
 #include "world/round_shapes.h"

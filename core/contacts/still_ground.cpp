@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/still_ground.h"
+#include "contacts/still_ground.h"
 
 #include "world/body_momentum.h"
 

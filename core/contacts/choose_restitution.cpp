@@ -6,8 +6,8 @@
 /// surfaces touching: a collision that is still open is let through, or it would bounce early and
 /// from too high. The recovery of the overlap that this makes adds no speed (the kernels leave
 /// parting bodies alone).
-#include "step/contact_measures.h"
-#include "step/stages.h"
+#include "contacts/contact_measures.h"
+#include "contacts/contact_stages.h"
 
 namespace plumb {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/contact_pairs.h"
+#include "contacts/contact_pairs.h"
 
 #include <algorithm>
 

@@ -2,9 +2,9 @@
 /// Contacts are detected once a step; through its substeps their points ride on the bodies, and
 /// with them the gap and the common point at which the contact acts. Only a point of now keeps
 /// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
-#include "step/anchors.h"
-#include "step/rims.h"
-#include "step/stages.h"
+#include "contacts/anchors.h"
+#include "contacts/contact_stages.h"
+#include "contacts/rims.h"
 
 namespace plumb {
 namespace {

@@ -4,7 +4,7 @@
 /// on it.
 #pragma once
 
-#include "step/contact_measures.h"
+#include "contacts/contact_measures.h"
 
 #include <algorithm>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/surface_detector.h"
+#include "contacts/surface_detector.h"
 
 #include "math/triangle.h"
 #include "world/point_place.h"

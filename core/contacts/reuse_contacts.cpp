@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/reuse_contacts.h"
+#include "contacts/reuse_contacts.h"
 
 #include "world/round_shapes.h"
 
