@@ -1,8 +1,8 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp math/sparse_ldlt.cpp
-  world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/corner_points.cpp world/derived.cpp world/edit_world.cpp
-  world/mass_properties.cpp world/shape_store.cpp world/tears.cpp
+  world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
+  world/shape_store.cpp world/tears.cpp
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/filter_reachability.cpp effects/plan.cpp
@@ -29,4 +29,4 @@ endif()
 add_library(plumb_core STATIC ${PLUMB_CORE_SOURCES})
 add_library(plumb::core ALIAS plumb_core)
 set_target_properties(plumb_core PROPERTIES EXPORT_NAME core)
-target_link_libraries(plumb_core PUBLIC plumb::scene spdlog::spdlog Threads::Threads PRIVATE $<BUILD_INTERFACE:plumb_options>)
+target_link_libraries(plumb_core PUBLIC plumb::geometry spdlog::spdlog Threads::Threads PRIVATE $<BUILD_INTERFACE:plumb_options>)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/surface_detector.h"
 
-#include "math/triangle.h"
+#include "geometry/triangle.h"
 #include "world/point_place.h"
 
 #include <algorithm>

@@ -3,8 +3,8 @@
 /// and of the same one, and the corners of bodies.
 #pragma once
 
+#include "geometry/corner_points.h"
 #include "schedule/box_grid.h"
-#include "world/corner_points.h"
 #include "world/world.h"
 
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "world/body_row.h"
 
+#include "geometry/mass_properties.h"
 #include "math/principal.h"
 #include "scene/error.h"
-#include "world/mass_properties.h"
 
 #include <cmath>
 #include <cstdio>

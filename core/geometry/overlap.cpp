@@ -2,12 +2,12 @@
 /// Minkowski portal refinement: the shapes overlap where their difference A − B holds the origin. A
 /// ray from a point inside the difference to the origin leaves through a portal, a triangle of
 /// points of its surface, which is moved outwards until the origin lies before or behind it.
-#include "reader/overlap.h"
+#include "geometry/overlap.h"
 
 #include <cmath>
 #include <utility>
 
-namespace plumb::reader {
+namespace plumb {
 
 namespace {
 
@@ -151,4 +151,4 @@ bool overlap(const Geometry& a, const Placement& at_a, const Geometry& b, const 
     return Portal(difference).holds_origin();
 }
 
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -11,7 +11,7 @@
 #include <cmath>
 #include <cstdint>
 
-namespace plumb::reader {
+namespace plumb {
 
 class Random {
 public:
@@ -57,4 +57,4 @@ private:
     std::uint64_t state_;
 };
 
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "world/mass_properties.h"
+#include "geometry/mass_properties.h"
 
 #include <algorithm>
 #include <cmath>

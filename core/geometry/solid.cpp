@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "reader/solid.h"
+#include "geometry/solid.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
-namespace plumb::reader {
+namespace plumb {
 
 namespace {
 
@@ -25,7 +25,7 @@ void add_fan(Solid& solid, const std::vector<Vector3d>& polygon, bool cut) {
 }
 
 /// A facet that has corners on both sides.
-void split(const Facet& facet, const std::array<double, 3>& d, OpenHalves& halves) {
+void split(const SolidFacet& facet, const std::array<double, 3>& d, OpenHalves& halves) {
     std::vector<Vector3d> below, above;
     for (std::size_t i = 0; i < 3; ++i) {
         const std::size_t k = (i + 1) % 3;
@@ -68,7 +68,7 @@ struct Axes {
 std::vector<Edge> edges_in(const Solid& solid, const Plane& plane, const Axes& axes,
                            double tolerance) {
     std::vector<Edge> edges;
-    for (const Facet& facet : solid) {
+    for (const SolidFacet& facet : solid) {
         for (std::size_t i = 0; i < 3; ++i) {
             const Vector3d &p = facet.corners[i], &q = facet.corners[(i + 1) % 3];
             if (height(p, plane, tolerance) != 0 || height(q, plane, tolerance) != 0) continue;
@@ -95,7 +95,7 @@ std::vector<double> stations(const std::vector<Edge>& edges, double tolerance) {
 
 OpenHalves cut_open(const Solid& solid, const Plane& plane, double tolerance) {
     OpenHalves halves;
-    for (const Facet& facet : solid) {
+    for (const SolidFacet& facet : solid) {
         std::array<double, 3> d;
         for (std::size_t i = 0; i < 3; ++i) d[i] = height(facet.corners[i], plane, tolerance);
         const auto [low, high] = std::minmax({d[0], d[1], d[2]});
@@ -164,7 +164,7 @@ double spread_of(const Solid& solid, const Vector3d& from) {
 std::vector<Vector3d> corners_of(const Solid& solid) {
     std::vector<Vector3d> points;
     points.reserve(3 * solid.size());
-    for (const Facet& facet : solid)
+    for (const SolidFacet& facet : solid)
         points.insert(points.end(), facet.corners.begin(), facet.corners.end());
     const auto before = [](const Vector3d& a, const Vector3d& b) {
         return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
@@ -174,4 +174,4 @@ std::vector<Vector3d> corners_of(const Solid& solid) {
     return points;
 }
 
-}  // namespace plumb::reader
+}  // namespace plumb

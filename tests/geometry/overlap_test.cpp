@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// Overlap of shapes against formulas, a little nearer and a little farther than where they touch.
-#include "reader/overlap.h"
+#include "geometry/overlap.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "reader/random.h"
+#include "math/random.h"
 #include "scene/build.h"
 
 namespace plumb::test {
@@ -14,12 +14,11 @@ namespace plumb::test {
 namespace {
 
 using Eigen::Vector3d;
-using reader::overlap;
 
 /// Expects shapes to overlap at b's place less 1 mm, and not at the place plus 1 mm, along `away`.
 void expect_touch(const Geometry& a, const Geometry& b, const Vector3d& away, double distance,
                   const Eigen::Quaterniond& turn_b = Eigen::Quaterniond::Identity()) {
-    reader::Random random(7);
+    plumb::Random random(7);
     for (int i = 0; i < 50; ++i) {
         const Placement all{Vector3d(random.between(-1, 1), random.between(-1, 1), 3),
                             random.rotation()};

@@ -4,11 +4,11 @@
 
 #include <stdexcept>
 
-namespace plumb::reader {
+namespace plumb {
 
 /// A mesh or a set of points that is no shape; `what()` is one sentence.
 class BadShape : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-}  // namespace plumb::reader
+}  // namespace plumb

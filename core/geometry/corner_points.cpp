@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "world/corner_points.h"
+#include "geometry/corner_points.h"
 
 #include "scene/coincident_points.h"
 

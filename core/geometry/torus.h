@@ -2,9 +2,13 @@
 /// A torus about the y axis, as a compound of convex wedges that contain it.
 #pragma once
 
-#include "reader/drafts.h"
+#include "scene/geometry.h"
 
-namespace plumb::reader {
+#include <Eigen/Core>
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
 
 struct Torus {
     double ring_radius = 0;       ///< of the circle that the tube's centre runs along [m]
@@ -16,7 +20,7 @@ struct Torus {
 /// Wedges side by side, whose union contains the torus and touches it on each side of each wedge.
 std::vector<GeometryPart> wedges_of(const Torus& torus);
 
-void read_torus(ShapeDraft& draft, const Node& node);
-SchemaJson torus_schema();
+/// Corners of a wedge's outline, in the plane of the distance from the axis and y [m].
+std::vector<Eigen::Vector2d> outline_of(const Torus& torus);
 
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -4,7 +4,7 @@
 
 #include "scene/geometry.h"
 
-namespace plumb::reader {
+namespace plumb {
 
 /// Shapes that overlap by less touch [m].
 inline constexpr double kTouching = 1e-4;
@@ -13,4 +13,4 @@ inline constexpr double kTouching = 1e-4;
 /// compounds of them; a mesh counts as its convex hull, and every other kind overlaps with nothing.
 bool overlap(const Geometry& a, const Placement& at_a, const Geometry& b, const Placement& at_b);
 
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -6,14 +6,14 @@
 /// the middle to 1 at the ends. The tube's circle fits in at each φ if the outline holds the circle
 /// and the circle stretched by 1/c away from the axis. The outline is the polygon of `sides`
 /// tangents to the two.
-#include "reader/torus.h"
+#include "geometry/torus.h"
 
 #include <cmath>
 #include <numbers>
 
-#include "reader/hull.h"
+#include "geometry/hull.h"
 
-namespace plumb::reader {
+namespace plumb {
 
 namespace {
 
@@ -29,8 +29,9 @@ double support(const Torus& torus, double t) {
     return std::max(circle, stretched);
 }
 
-/// Corners of the outline, in the plane (ρ, y) [m].
-std::vector<Vector2d> outline(const Torus& torus) {
+}  // namespace
+
+std::vector<Vector2d> outline_of(const Torus& torus) {
     std::vector<Vector2d> corners;
     for (std::uint32_t i = 0; i < torus.sides; ++i) {
         const double t = 2 * kPi * i / torus.sides, u = 2 * kPi * (i + 1) / torus.sides;
@@ -41,25 +42,8 @@ std::vector<Vector2d> outline(const Torus& torus) {
     return corners;
 }
 
-const Table<Torus>& torus_table() {
-    using T = Torus;
-    static const Table<T> table = {
-        field<T>("ring_radius", Number{kLength}, &T::ring_radius,
-                 "of the circle that the tube's centre runs along, about y [m]",
-                 Presence::required),
-        field<T>("tube_radius", Number{kLength}, &T::tube_radius, "[m], below ring_radius",
-                 Presence::required),
-        field<T>("segments", Whole<std::uint32_t>{{6, 256}}, &T::segments,
-                 "convex wedges along the ring"),
-        field<T>("sides", Whole<std::uint32_t>{{4, 256}}, &T::sides, "of a wedge's outline"),
-    };
-    return table;
-}
-
-}  // namespace
-
 std::vector<GeometryPart> wedges_of(const Torus& torus) {
-    const std::vector<Vector2d> corners = outline(torus);
+    const std::vector<Vector2d> corners = outline_of(torus);
     std::vector<GeometryPart> wedges;
     for (std::uint32_t i = 0; i < torus.segments; ++i) {
         std::vector<Eigen::Vector3d> points;
@@ -77,19 +61,4 @@ std::vector<GeometryPart> wedges_of(const Torus& torus) {
     return wedges;
 }
 
-void read_torus(ShapeDraft& draft, const Node& node) {
-    Torus torus;
-    read_object(torus, node, torus_table());
-    for (const Vector2d& corner : outline(torus)) {
-        if (corner.x() > 1e-3 * torus.ring_radius) continue;
-        node.fail(
-            "the torus has no hole: \"tube_radius\", with the corners of its outline, must "
-            "stay below \"ring_radius\"");
-    }
-    draft.geometry.kind = ShapeKind::compound;
-    draft.geometry.parts = wedges_of(torus);
-}
-
-SchemaJson torus_schema() { return object_schema(torus_table()); }
-
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/hull.h"
+#include "geometry/hull.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 #include <cmath>
 #include <numbers>
 
-#include "reader/bad_shape.h"
-#include "reader/random.h"
+#include "geometry/bad_shape.h"
+#include "math/random.h"
 
-namespace plumb::reader {
+namespace plumb {
 
 namespace {
 
@@ -124,4 +124,4 @@ TEST(Hull, SaysWhyThereIsNone) {
     EXPECT_NE(reason_for(box_corners({1, 1, 1e-11}, {0, 0, 0})).find("flat"), std::string::npos);
 }
 
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -6,16 +6,16 @@
 #include <array>
 #include <vector>
 
-namespace plumb::reader {
+namespace plumb {
 
 /// A triangle of a solid's boundary, counter-clockwise from outside.
-struct Facet {
+struct SolidFacet {
     std::array<Eigen::Vector3d, 3> corners;  ///< [m]
     bool cut;                                ///< made by a cut, not part of the first surface
 };
 
 /// Facets that close up; edges may meet others along a part of their length.
-using Solid = std::vector<Facet>;
+using Solid = std::vector<SolidFacet>;
 
 /// Points p with normal · p = offset.
 struct Plane {
@@ -44,4 +44,4 @@ double spread_of(const Solid& solid, const Eigen::Vector3d& from);
 /// All corners, each once [m].
 std::vector<Eigen::Vector3d> corners_of(const Solid& solid);
 
-}  // namespace plumb::reader
+}  // namespace plumb

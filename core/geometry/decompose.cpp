@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/decompose.h"
+#include "geometry/decompose.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -7,11 +7,11 @@
 #include <map>
 #include <optional>
 
-#include "reader/bad_shape.h"
-#include "reader/hull.h"
-#include "reader/solid.h"
+#include "geometry/bad_shape.h"
+#include "geometry/hull.h"
+#include "geometry/solid.h"
 
-namespace plumb::reader {
+namespace plumb {
 
 namespace {
 
@@ -47,7 +47,7 @@ double volume_of(const Hull& hull) {
 std::vector<Vector3d> outer_corners(const Solid& solid, const std::vector<Plane>& cuts,
                                     double tolerance) {
     Solid outer;
-    for (const Facet& facet : solid) {
+    for (const SolidFacet& facet : solid) {
         if (!facet.cut) outer.push_back(facet);
         if (!facet.cut || cuts.size() < 2) continue;
         for (const Vector3d& p : facet.corners) {
@@ -169,7 +169,7 @@ public:
         for (const auto& t : mesh.triangles)
             solid.push_back(
                 {{mesh.vertices[t[0]], mesh.vertices[t[1]], mesh.vertices[t[2]]}, false});
-        volume_ = reader::volume_of(solid, bounds.center());
+        volume_ = plumb::volume_of(solid, bounds.center());
         if (!(volume_ > 0)) {
             throw BadShape(
                 "the mesh has no volume, or is inside out: its triangles must be counter-clockwise "
@@ -191,8 +191,8 @@ public:
             close_at(halves.below, *plane, 1, tolerance_);
             close_at(halves.above, *plane, -1, tolerance_);
             const Vector3d from = plane->offset * plane->normal;
-            const double below = reader::volume_of(halves.below, from);
-            const double above = reader::volume_of(halves.above, from);
+            const double below = plumb::volume_of(halves.below, from);
+            const double above = plumb::volume_of(halves.above, from);
             std::vector<Plane> cuts = worst->cuts;
             cuts.push_back(*plane);
             *worst = part_of(std::move(halves.below), cuts, below, tolerance_);
@@ -240,8 +240,8 @@ private:
         const OpenHalves halves = cut_open(part.solid, plane, tolerance_);
         if (halves.below.empty() || halves.above.empty()) return {};
         const Vector3d from = plane.offset * plane.normal;
-        const double below = reader::volume_of(halves.below, from);
-        const double above = reader::volume_of(halves.above, from);
+        const double below = plumb::volume_of(halves.below, from);
+        const double above = plumb::volume_of(halves.above, from);
         if (std::min(below, above) < kLeastShare * volume_) return {};
         if (std::abs(below + above - part.volume) > kVolumeError * volume_) return {};
         try {
@@ -283,17 +283,6 @@ private:
     std::vector<Part> parts_;
 };
 
-const Table<DecomposeOptions>& decompose_table() {
-    using D = DecomposeOptions;
-    static const Table<D> table = {
-        field<D>("excess", Number{{1e-6, 1}}, &D::excess,
-                 "cut until the hulls exceed the mesh's volume by no more than this share of it"),
-        field<D>("max_parts", Whole<std::uint32_t>{{1, 1024}}, &D::max_parts,
-                 "no more cuts when there are so many parts"),
-    };
-    return table;
-}
-
 }  // namespace
 
 Geometry decomposed(const Geometry& mesh, const DecomposeOptions& options) {
@@ -312,14 +301,4 @@ Geometry decomposed(const Geometry& mesh, const DecomposeOptions& options) {
     return compound;
 }
 
-void read_decompose(DecomposeOptions& options, const Node& node) {
-    if (node.json().is_boolean()) return;
-    if (!node.json().is_object()) node.fail_wanting("true, false or an object with options");
-    read_object(options, node, decompose_table());
-}
-
-SchemaJson decompose_schema() {
-    return {{"anyOf", {{{"type", "boolean"}}, object_schema(decompose_table())}}};
-}
-
-}  // namespace plumb::reader
+}  // namespace plumb

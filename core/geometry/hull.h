@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace plumb::reader {
+namespace plumb {
 
 struct Hull {
     std::vector<Eigen::Vector3d> vertices;  ///< corners of the hull, some of the points given [m]
@@ -19,4 +19,4 @@ struct Hull {
 /// qhull gives up.
 Hull convex_hull(const std::vector<Eigen::Vector3d>& points);
 
-}  // namespace plumb::reader
+}  // namespace plumb

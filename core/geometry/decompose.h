@@ -7,9 +7,11 @@
 /// on the mesh alone.
 #pragma once
 
-#include "reader/drafts.h"
+#include "scene/geometry.h"
 
-namespace plumb::reader {
+#include <cstdint>
+
+namespace plumb {
 
 struct DecomposeOptions {
     double excess = 0.05;          ///< volume of the hulls beyond the mesh's, as a share of it
@@ -20,8 +22,4 @@ struct DecomposeOptions {
 /// within the hulls. Throws BadShape when the mesh is open, inside out, or cannot be cut.
 Geometry decomposed(const Geometry& mesh, const DecomposeOptions& options);
 
-/// true, or an object with options.
-void read_decompose(DecomposeOptions& options, const Node& node);
-SchemaJson decompose_schema();
-
-}  // namespace plumb::reader
+}  // namespace plumb

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/hull.h"
+#include "geometry/hull.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,13 +8,13 @@
 #include <set>
 #include <string>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 
 extern "C" {
 #include <libqhull_r/libqhull_r.h>
 }
 
-namespace plumb::reader {
+namespace plumb {
 
 namespace {
 
@@ -196,4 +196,4 @@ Hull convex_hull(const std::vector<Vector3d>& points) {
     return compact(outcome.faces, points);
 }
 
-}  // namespace plumb::reader
+}  // namespace plumb
