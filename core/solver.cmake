@@ -14,7 +14,7 @@ set(PLUMB_CORE_SOURCES
   step/island_solver.cpp step/joint_state.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp
   step/row_solver.cpp step/step.cpp step/tear.cpp step/tree_nodes.cpp step/tree_solver.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp
-  measure/shape_support.cpp)
+  measure/shape_support.cpp measure/within_reach.cpp)
 
 # One unit an instruction set; what a processor cannot run is never called (kernels/dispatch.cpp).
 plumb_kernel_unit(baseline kernels/unit_baseline.cpp)

@@ -7,9 +7,9 @@
 #include "app/statistics.h"
 #include "app/summary.h"
 #include "app/verbs.h"
-#include "app/within_reach.h"
 #include "host/collider_call.h"
 #include "host/simulation.h"
+#include "measure/within_reach.h"
 
 #include <nlohmann/json.hpp>
 

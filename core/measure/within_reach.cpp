@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-#include "app/within_reach.h"
+#include "measure/within_reach.h"
 
-namespace plumb::app {
+namespace plumb {
 
 bool within_reach(const World& world) {
     constexpr double kFar = 1e30;  // [m], [m/s], [rad/s]
@@ -19,4 +19,4 @@ bool within_reach(const World& world) {
     return true;
 }
 
-}  // namespace plumb::app
+}  // namespace plumb

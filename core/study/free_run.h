@@ -5,9 +5,9 @@
 /// stay alike are heights and energies.
 #pragma once
 
-#include "app/comparison.h"
+#include "study/comparison.h"
 
-namespace plumb::app {
+namespace plumb::study {
 
 /// Two runs against each other, [sample]: distances between the same moving bodies and deformables
 /// (study/trajectory.h) [m].
@@ -25,10 +25,13 @@ struct FreeRuns {
     std::vector<std::uint64_t> diverged_after;
 };
 
-/// `sources`: of colliders in processes of their own, asked through them; the others run as
-/// plugins of this process. Throws ColliderError when a collider goes on failing.
+/// Told of each step and the contacts of the last run; where it says false, all runs end there.
+using FreeRunWatch = std::function<bool(std::uint64_t step, std::uint32_t contacts)>;
+
+/// `watch` may be empty. `sources`: of colliders in processes of their own, asked through them; the
+/// others run as plugins of this process. Throws ColliderError when a collider goes on failing.
 FreeRuns free_runs(const Scene& scene, const ColliderLibrary& colliders,
                    const std::vector<std::unique_ptr<ContactSource>>& sources,
-                   const std::vector<bool>& own_process, Progress& progress);
+                   const std::vector<bool>& own_process, const FreeRunWatch& watch = {});
 
-}  // namespace plumb::app
+}  // namespace plumb::study

@@ -3,12 +3,12 @@
 /// have in common.
 #pragma once
 
-#include "app/comparison.h"
+#include "study/comparison.h"
 
 #include <string>
 #include <vector>
 
-namespace plumb::app {
+namespace plumb::study {
 
 /// One aspect of two contact sets.
 struct AspectRow {
@@ -56,4 +56,4 @@ std::string answer_text(const std::vector<Contact>& contacts);
 /// "1.23 mm"
 std::string length_text(double metres);
 
-}  // namespace plumb::app
+}  // namespace plumb::study

@@ -4,9 +4,9 @@
 
 #include "world/world.h"
 
-namespace plumb::app {
+namespace plumb {
 
 /// Whether all bodies and particles are where a recording, in single precision, can still tell.
 bool within_reach(const World& world);
 
-}  // namespace plumb::app
+}  // namespace plumb

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-#include "app/free_run.h"
+#include "study/free_run.h"
 
-#include "app/interrupt.h"
-#include "app/within_reach.h"
 #include "host/source_proximity.h"
+#include "measure/within_reach.h"
 #include "scene/error.h"
 #include "study/trajectory.h"
 
@@ -11,7 +10,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace plumb::app {
+namespace plumb::study {
 namespace {
 
 constexpr std::uint64_t kSamples = 200;
@@ -54,18 +53,18 @@ bool advance(Run& run, std::uint32_t& contacts) {
     return report.finite && within_reach(run.simulation->world());
 }
 
-void add_drift(Drift& drift, const study::Moment& first, const study::Moment& second) {
-    const std::vector<double> apart = study::distances(first, second);
+void add_drift(Drift& drift, const Moment& first, const Moment& second) {
+    const std::vector<double> apart = distances(first, second);
     const double sum = std::accumulate(apart.begin(), apart.end(), 0.0);
     drift.mean.push_back(apart.empty() ? 0 : sum / static_cast<double>(apart.size()));
-    drift.largest.push_back(study::largest_distance(first, second));
+    drift.largest.push_back(largest_distance(first, second));
 }
 
 void take_sample(FreeRuns& result, const std::vector<Run>& runs) {
     result.times.push_back(runs.front().simulation->time());
-    std::vector<study::Moment> moments;
+    std::vector<Moment> moments;
     for (std::size_t i = 0; i < runs.size(); ++i) {
-        moments.push_back(study::moment_of(runs[i].simulation->world()));
+        moments.push_back(moment_of(runs[i].simulation->world()));
         result.height[i].push_back(moments[i].height);
         result.energy[i].push_back(moments[i].energy);
     }
@@ -77,7 +76,7 @@ void take_sample(FreeRuns& result, const std::vector<Run>& runs) {
 
 FreeRuns free_runs(const Scene& scene, const ColliderLibrary& colliders,
                    const std::vector<std::unique_ptr<ContactSource>>& sources,
-                   const std::vector<bool>& own_process, Progress& progress) {
+                   const std::vector<bool>& own_process, const FreeRunWatch& watch) {
     std::vector<Run> runs = start_runs(scene, colliders, sources, own_process);
     FreeRuns result;
     result.height.resize(runs.size());
@@ -99,11 +98,10 @@ FreeRuns free_runs(const Scene& scene, const ColliderLibrary& colliders,
             result.diverged_after[k] = i;
         }
         if (!finite) break;
-        result.was_interrupted = interrupted();
+        result.was_interrupted = watch && !watch(i, contacts);
         if (i % every == 0 || i == steps || result.was_interrupted) take_sample(result, runs);
-        progress.show(i, contacts, "free runs");
     }
     return result;
 }
 
-}  // namespace plumb::app
+}  // namespace plumb::study

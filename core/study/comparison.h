@@ -6,7 +6,6 @@
 /// back-ends themselves say (raw). Every two of them are then measured against each other.
 #pragma once
 
-#include "app/progress.h"
 #include "host/contact_source.h"
 #include "host/simulation.h"
 #include "measure/contact_comparison.h"
@@ -17,7 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace plumb::app {
+namespace plumb::study {
 
 /// What a collider answered, clipped or raw, over all poses.
 struct AnswerFigures {
@@ -70,9 +69,14 @@ struct ComparisonPlan {
     bool judge_raw = false;         ///< as ComparisonResult::raw_judged
 };
 
-/// Runs the scene to its end (or an interrupt) and compares. Throws ColliderError when a collider
-/// gives no more answers.
-ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simulation,
-                                   Progress& progress);
+/// Told of each step, of its contacts, and whether all agree so far; where it says false, the
+/// comparison ends there, as interrupted.
+using ComparisonWatch = std::function<bool(std::uint64_t step, std::uint32_t contacts, bool agree)>;
 
-}  // namespace plumb::app
+/// Runs the scene to its end, or to where `watch` (may be empty) ends it, and compares.
+/// `simulation`: of the plan's scene, with the driver's collider. Throws ColliderError when a
+/// collider gives no more answers.
+ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simulation,
+                                   const ComparisonWatch& watch = {});
+
+}  // namespace plumb::study

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/comparison.h"
+#include "study/comparison.h"
 
-#include "app/interrupt.h"
-#include "app/within_reach.h"
+#include "measure/within_reach.h"
 
 #include <algorithm>
 #include <cmath>
 
-namespace plumb::app {
+namespace plumb::study {
 namespace {
 
 std::vector<ComparedBody> compared_bodies(const Scene& scene, const World& world) {
@@ -89,11 +88,6 @@ private:
     std::vector<ContactAnswer> answers_;
 };
 
-/// What the progress bar says of the answers so far.
-std::string so_far(const ComparisonResult& result) {
-    return result.agrees() ? "all agree so far" : "they differ";
-}
-
 }  // namespace
 
 bool ComparisonResult::answered(std::size_t collider) const {
@@ -115,7 +109,7 @@ bool ComparisonResult::agrees() const {
 }
 
 ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simulation,
-                                   Progress& progress) {
+                                   const ComparisonWatch& watch) {
     ComparisonResult result = empty_result(plan, simulation.world());
     Look look(plan, result);
     const Settings& settings = plan.scene.settings;
@@ -124,16 +118,16 @@ ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simul
         if (i % plan.every == 0) look.at(simulation.world());
         if (i == steps) break;
         const StepReport report = simulation.step();
-        progress.show(i + 1, report.contacts, so_far(result));
+        const bool goes_on = !watch || watch(i + 1, report.contacts, result.agrees());
         if (!report.finite || !within_reach(simulation.world())) {
             result.diverged_after = simulation.steps();
             break;
         }
-        result.was_interrupted = interrupted();
+        result.was_interrupted = !goes_on;
     }
     result.steps = simulation.steps();
     result.time = simulation.time();
     return result;
 }
 
-}  // namespace plumb::app
+}  // namespace plumb::study

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "app/comparison_rows.h"
+#include "study/comparison_rows.h"
 
 #include <cmath>
 #include <cstdio>
 #include <utility>
 
-namespace plumb::app {
+namespace plumb::study {
 namespace {
 
 template <class... Args>
@@ -175,4 +175,4 @@ std::string answer_text(const std::vector<Contact>& contacts) {
            (c.flags & kContactApproximate ? ", said to be approximate" : "");
 }
 
-}  // namespace plumb::app
+}  // namespace plumb::study
