@@ -9,6 +9,7 @@
 #include "app/progress.h"
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "host/log.h"
 #include "output/comparison_page.h"
 #include "output/file.h"
 #include "scene/error.h"
@@ -147,7 +148,7 @@ std::string divergence(const study::ComparisonResult& result, const study::FreeR
 /// Says how the comparison ended where that was not as planned, and returns the exit code.
 int exit_code(const study::ComparisonResult& result, const study::FreeRuns* runs) {
     const std::string diverged = divergence(result, runs);
-    if (!diverged.empty()) std::fprintf(stderr, "plumb: %s\n", diverged.c_str());
+    if (!diverged.empty()) logger()->error(diverged);
     if (interrupted()) return kInterrupted;
     if (!diverged.empty()) return kDiverged;
     return result.agrees() ? kDone : kDiffer;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/simulation.h"
 
+#include "host/log.h"
 #include "host/simulation_parts.h"
 #include "measure/measure.h"
 #include "scene/error.h"
@@ -56,9 +57,9 @@ Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, 
     warnings.insert(warnings.begin(), assets.remarks.begin(), assets.remarks.end());
     note_broken_joints();
     add_names(body_names, scene.bodies), add_names(joint_names, scene.joints);
-    if (!stepper.plan.runs(Effect::contacts)) return;
-    add_bodies(proximity, world, collider_name);
-    filled = true;
+    filled = stepper.plan.runs(Effect::contacts);
+    if (filled) add_bodies(proximity, world, collider_name);
+    tell_warnings();
 }
 
 void Simulation::Parts::renew() {
@@ -67,6 +68,7 @@ void Simulation::Parts::renew() {
     stepper.renew(world);
     auto& warnings = stepper.plan.warnings;
     warnings.insert(warnings.begin(), assets.remarks.begin(), assets.remarks.end());
+    tell_warnings();
     note_broken_joints();
     outdated = false;
 }
@@ -117,6 +119,7 @@ Simulation::Simulation(const Scene& scene, const ColliderLibrary& colliders,
                                      version ? version : "");
     parts_->collider_reason = choice.reason;
     parts_->library = colliders;
+    if (!choice.reason.empty()) logger()->debug("collider {}: {}", info.name, choice.reason);
 }
 
 Simulation::~Simulation() = default;
@@ -129,6 +132,7 @@ StepReport Simulation::step() {
     parts_->placed = false;
     parts_->outdated = report.torn_elements > 0;
     parts_->stats = parts_->proximity.stats();
+    parts_->tell_step(report);
     if (parts_->record) parts_->record->take(parts_->world, parts_->stepper);
     return report;
 }

@@ -34,12 +34,18 @@ struct Simulation::Parts {
     std::optional<ContactRecord> record;  ///< where contacts are watched
     DetectStats stats{};                  ///< of the last step
     Names body_names, joint_names;
+    std::vector<std::string> told;  ///< warnings of the plan that were logged
 
     Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
           std::string version);
 
     /// Brings the stepper up to date with the edits made.
     void renew();
+
+    /// Logs the warnings of the plan that were not logged before.
+    void tell_warnings();
+    /// Logs what went wrong in a step.
+    void tell_step(const StepReport& report) const;
 
     /// Once the stepper is of the world as it is now.
     void note_broken_joints();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/free_run.h"
 
+#include "host/log.h"
 #include "host/source_proximity.h"
 #include "measure/within_reach.h"
 #include "scene/error.h"
@@ -77,6 +78,7 @@ void take_sample(FreeRuns& result, const std::vector<Run>& runs) {
 FreeRuns free_runs(const Scene& scene, const ColliderLibrary& colliders,
                    const std::vector<std::unique_ptr<ContactSource>>& sources,
                    const std::vector<bool>& own_process, const FreeRunWatch& watch) {
+    const ErrorsOnly quiet;  // the driver's run has told all
     std::vector<Run> runs = start_runs(scene, colliders, sources, own_process);
     FreeRuns result;
     result.height.resize(runs.size());

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/run_point.h"
 
+#include "host/log.h"
 #include "host/simulation.h"
 #include "scene/error.h"
 #include "study/sweep_plan.h"
@@ -71,6 +72,7 @@ Outcome run_point(const Subject& subject, const Point& point, const ColliderLibr
     try {
         Scene scene = subject.scene;
         scene.settings = settings_at(subject, point);
+        const ErrorsOnly quiet;
         Simulation simulation(scene, colliders, point.collider);
         return made(subject, simulation, judged, stop);
     } catch (const SceneError& e) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/self_reference.h"
 
+#include "host/log.h"
 #include "host/simulation.h"
 #include "measure/deformation.h"
 #include "scene/error.h"
@@ -48,6 +49,7 @@ double interval_of(const Settings& s) {
 Trajectory recorded(const Scene& scene, double interval, double duration,
                     const ColliderLibrary& colliders, const ReferenceOptions& options,
                     Clock::time_point deadline) {
+    const ErrorsOnly quiet;
     Simulation simulation(scene, colliders, options.collider);
     Trajectory t{interval, {moment_of(simulation.world())}};
     const auto steps = static_cast<std::uint64_t>(std::llround(duration / scene.settings.dt));
