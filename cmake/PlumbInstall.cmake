@@ -5,14 +5,14 @@ set(PLUMB_CMAKE_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/plumb")
 set(PLUMB_PLUGIN_DIR "lib/plumb/plugins")  # as seen from bin/, core/host/collider_library.cpp looks here
 set(PLUMB_BACKEND_DIR "lib/plumb/backends")  # beside, plugins/bullet/load_backend.cpp looks here
 
-install(TARGETS plumb_interfaces plumb_scene plumb_core plumb_host EXPORT plumbTargets
+install(TARGETS plumb_interfaces plumb_scene plumb_geometry plumb_core plumb_host EXPORT plumbTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/interfaces/plumb" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}")
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/core/" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/plumb/core"
   FILES_MATCHING PATTERN "*.h"
   PATTERN "app" EXCLUDE PATTERN "kernels" EXCLUDE)
 # What needs packages beyond those of the solver: find_package(plumb COMPONENTS reader output study).
-install(TARGETS plumb_reader plumb_output plumb_study EXPORT plumbStudyTargets
+install(TARGETS plumb_hulls plumb_reader plumb_output plumb_study EXPORT plumbStudyTargets
   ARCHIVE DESTINATION "${CMAKE_INSTALL_LIBDIR}")
 install(EXPORT plumbStudyTargets NAMESPACE plumb:: DESTINATION "${PLUMB_CMAKE_DIR}")
 install(TARGETS plumb_app RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")

@@ -1,20 +1,20 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp math/sparse_ldlt.cpp
-  world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/corner_points.cpp world/derived.cpp world/edit_world.cpp
-  world/mass_properties.cpp world/shape_store.cpp world/tears.cpp
+  world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
+  world/shape_store.cpp world/tears.cpp
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
-  effects/meetings.cpp effects/plan.cpp
+  effects/filter_reachability.cpp effects/plan.cpp
+  contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_room.cpp contacts/detect.cpp
+  contacts/detect_particles.cpp contacts/follow_contacts.cpp contacts/impacts.cpp contacts/match_contacts.cpp contacts/reuse_contacts.cpp
+  contacts/rims.cpp contacts/still_ground.cpp contacts/surface_detector.cpp
   solve/elastic_system.cpp
-  step/choose_rebounds.cpp step/contact_faults.cpp step/contact_pairs.cpp step/contact_room.cpp step/detect.cpp step/detect_particles.cpp step/divided_trees.cpp
-  step/air.cpp step/break_joints.cpp step/driven_axis.cpp step/follow_contacts.cpp step/impacts.cpp step/integrate.cpp
-  step/island_group.cpp step/island_solver.cpp step/joint_state.cpp step/match_contacts.cpp step/move_particles.cpp step/move_scripted.cpp
-  step/remember_velocities.cpp step/reuse_contacts.cpp step/rims.cpp step/row_solver.cpp step/step.cpp
-  step/still_ground.cpp step/surface_detector.cpp step/tear.cpp step/tree_nodes.cpp
-  step/tree_solver.cpp
+  step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/integrate.cpp step/island_group.cpp
+  step/island_solver.cpp step/joint_state.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp
+  step/row_solver.cpp step/step.cpp step/tear.cpp step/tree_nodes.cpp step/tree_solver.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp
-  measure/shape_support.cpp)
+  measure/shape_support.cpp measure/within_reach.cpp)
 
 # One unit an instruction set; what a processor cannot run is never called (kernels/dispatch.cpp).
 plumb_kernel_unit(baseline kernels/unit_baseline.cpp)
@@ -29,4 +29,4 @@ endif()
 add_library(plumb_core STATIC ${PLUMB_CORE_SOURCES})
 add_library(plumb::core ALIAS plumb_core)
 set_target_properties(plumb_core PROPERTIES EXPORT_NAME core)
-target_link_libraries(plumb_core PUBLIC plumb::scene spdlog::spdlog Threads::Threads PRIVATE $<BUILD_INTERFACE:plumb_options>)
+target_link_libraries(plumb_core PUBLIC plumb::geometry spdlog::spdlog Threads::Threads PRIVATE $<BUILD_INTERFACE:plumb_options>)

@@ -4,7 +4,7 @@ add_library(plumb_study STATIC
   study/cases/friction.cpp study/cases/gears.cpp study/cases/parabola.cpp study/cases/pendulum.cpp study/cases/rolling.cpp
   study/cases/springs.cpp study/cases/stack.cpp study/cases/tops.cpp
   study/cases/balloons.cpp study/cases/beams.cpp study/cases/cloth.cpp study/cases/ropes.cpp
-  study/findings.cpp study/gauges.cpp study/journal.cpp study/point.cpp study/run_point.cpp study/self_reference.cpp
+  study/comparison.cpp study/comparison_rows.cpp study/findings.cpp study/free_run.cpp study/gauges.cpp study/journal.cpp study/point.cpp study/run_point.cpp study/self_reference.cpp
   study/study_charts.cpp study/study_json.cpp study/sweep.cpp study/sweep_plan.cpp study/trajectory.cpp study/tune.cpp)
 add_library(plumb::study ALIAS plumb_study)
 set_target_properties(plumb_study PROPERTIES EXPORT_NAME study)

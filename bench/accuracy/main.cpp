@@ -38,7 +38,7 @@ Result run(const study::Subject& subject, const Engine& engine, const Fineness& 
            bool judged, double limit) {
     World world = build_world(subject.scene);
     world.settings.dt = fineness.dt;
-    const auto turning = turning_joints(world);
+    const auto revolute = revolute_joints(world);
     const auto peer = engine.make(subject.scene, world, fineness);
     std::vector<std::unique_ptr<study::Judge>> judges;
     for (const study::Metric& metric : subject.metrics)
@@ -59,7 +59,7 @@ Result run(const study::Subject& subject, const Engine& engine, const Fineness& 
         peer->read(world);
         world.time = static_cast<double>(++world.steps) * fineness.dt;
         if (!within_reach(world)) return {{}, 0, "diverged"};
-        count_turns(world, turning);
+        count_turns(world, revolute);
         for (const auto& judge : judges) judge->look(world);
     }
     for (const auto& judge : judges) {

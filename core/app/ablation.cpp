@@ -3,6 +3,7 @@
 
 #include "app/interrupt.h"
 #include "app/statistics.h"
+#include "host/log.h"
 #include "measure/measure.h"
 #include "study/trajectory.h"
 
@@ -85,6 +86,7 @@ std::vector<AblatedEffect> ablate(const Scene& scene, const ColliderLibrary& col
     // both runs of a pair are on the collider that was chosen once
     RunOptions same = options;
     same.collider = simulation.collider_name();
+    const ErrorsOnly quiet;  // each lack is on purpose
     std::vector<AblatedEffect> effects;
     for (const Decision& d : simulation.plan().decisions)
         if (d.runs && !interrupted())

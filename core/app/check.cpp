@@ -52,8 +52,6 @@ int check(const RunOptions& options) {
         scene.materials.size(), simulation.collider_name().c_str());
     print_decomposed(scene);
     print_deformables(scene);
-    for (const std::string& warning : simulation.plan().warnings)
-        std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
     return kDone;
 }
 

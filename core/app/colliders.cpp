@@ -4,6 +4,7 @@
 #include "app/plugin_path.h"
 #include "app/verbs.h"
 #include "host/collider_library.h"
+#include "host/log.h"
 
 #include <nlohmann/json.hpp>
 
@@ -89,7 +90,7 @@ int list_json(const std::string& path) {
 
 int list(const std::string& path, bool pairs) {
     const ColliderLibrary library(path);
-    if (library.all().empty()) std::fprintf(stderr, "plumb: no collision plugin was found\n");
+    if (library.all().empty()) logger()->error("no collision plugin was found");
     for (const ColliderInfo& c : library.all()) {
         if (!c.table) {
             std::printf("%-12s refused: %s\n    %s\n", c.name.c_str(), c.refusal.c_str(),

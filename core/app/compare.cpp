@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: MIT
 /// plumb compare: the contact sets of several colliders, measured against each other on the same
 /// poses.
-#include "app/comparison.h"
 #include "app/comparison_json.h"
-#include "app/comparison_rows.h"
 #include "app/comparison_text.h"
 #include "app/contact_sources.h"
 #include "app/distinct_files.h"
-#include "app/free_run.h"
 #include "app/interrupt.h"
+#include "app/progress.h"
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "host/log.h"
 #include "output/comparison_page.h"
 #include "output/file.h"
 #include "scene/error.h"
 #include "scene/nearest.h"
+#include "study/comparison.h"
+#include "study/comparison_rows.h"
+#include "study/free_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -59,9 +61,10 @@ void check(const Options& o) {
 }
 
 /// The shapes that the findings need drawn; nullptr for all others.
-std::vector<const Geometry*> drawn_shapes(const Scene& scene, const ComparisonResult& result) {
+std::vector<const Geometry*> drawn_shapes(const Scene& scene,
+                                          const study::ComparisonResult& result) {
     std::vector<const Geometry*> shapes(scene.geometries.size());
-    for (const Finding& f : findings_of(result))
+    for (const study::Finding& f : study::findings_of(result))
         for (const std::uint32_t body : {f.disagreement.a, f.disagreement.b}) {
             const std::uint32_t geometry = scene.bodies[body].geometry;
             shapes[geometry] = &scene.geometries[geometry];
@@ -107,21 +110,28 @@ struct Prepared {
     }
 };
 
-ComparisonResult compared(const Options& o, Prepared& p, std::uint64_t steps) {
+study::ComparisonResult compared(const Options& o, Prepared& p, std::uint64_t steps) {
     Progress progress(steps, o.quiet);
-    return compare_colliders(
+    return study::compare_colliders(
         {p.scene, p.sources.all, p.sources.own_process, p.driver, o.every, o.judge_raw},
-        *p.simulation, progress);
+        *p.simulation, [&](std::uint64_t step, std::uint32_t contacts, bool agree) {
+            progress.show(step, contacts, agree ? "all agree so far" : "they differ");
+            return !interrupted();
+        });
 }
 
-std::optional<FreeRuns> run_freely(const Options& o, Prepared& p, std::uint64_t steps) {
+std::optional<study::FreeRuns> run_freely(const Options& o, Prepared& p, std::uint64_t steps) {
     if (!o.free_run || interrupted()) return std::nullopt;
     Progress progress(steps, o.quiet);
-    return free_runs(p.scene, p.colliders, p.sources.all, p.sources.own_process, progress);
+    return study::free_runs(p.scene, p.colliders, p.sources.all, p.sources.own_process,
+                            [&](std::uint64_t step, std::uint32_t contacts) {
+                                progress.show(step, contacts, "free runs");
+                                return !interrupted();
+                            });
 }
 
 /// Which runs diverged, as one sentence; "" where none did.
-std::string divergence(const ComparisonResult& result, const FreeRuns* runs) {
+std::string divergence(const study::ComparisonResult& result, const study::FreeRuns* runs) {
     std::string text;
     const auto add = [&](const std::string& run, std::uint64_t step) {
         if (step == 0) return;
@@ -136,9 +146,9 @@ std::string divergence(const ComparisonResult& result, const FreeRuns* runs) {
 }
 
 /// Says how the comparison ended where that was not as planned, and returns the exit code.
-int exit_code(const ComparisonResult& result, const FreeRuns* runs) {
+int exit_code(const study::ComparisonResult& result, const study::FreeRuns* runs) {
     const std::string diverged = divergence(result, runs);
-    if (!diverged.empty()) std::fprintf(stderr, "plumb: %s\n", diverged.c_str());
+    if (!diverged.empty()) logger()->error(diverged);
     if (interrupted()) return kInterrupted;
     if (!diverged.empty()) return kDiverged;
     return result.agrees() ? kDone : kDiffer;
@@ -152,8 +162,8 @@ int compare(const Options& o) {
     const auto steps = static_cast<std::uint64_t>(std::llround(s.duration / s.dt));
 
     catch_interrupts();
-    const ComparisonResult result = compared(o, p, steps);
-    const std::optional<FreeRuns> runs = run_freely(o, p, steps);
+    const study::ComparisonResult result = compared(o, p, steps);
+    const std::optional<study::FreeRuns> runs = run_freely(o, p, steps);
 
     auto json = comparison_json(p.scene, p.simulation->world().bodies, result);
     if (runs) json["free_run"] = free_runs_json(result, *runs);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/comparison_json.h"
 
-#include "app/comparison_rows.h"
 #include "measure/measure.h"
+#include "study/comparison_rows.h"
 #include "world/contacts.h"
 
 namespace plumb::app {
@@ -15,7 +15,7 @@ Json to_json(const Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 Json step_or_null(std::uint64_t step) { return step > 0 ? Json(step) : Json(); }
 
-Json answer_figures(const AnswerFigures& f, std::uint64_t poses) {
+Json answer_figures(const study::AnswerFigures& f, std::uint64_t poses) {
     double sum = 0;
     for (const double ms : f.milliseconds) sum += ms;
     const double count = static_cast<double>(std::max<std::uint64_t>(1, poses));
@@ -42,7 +42,7 @@ Json totals_json(const ComparisonTotals& t, const ComparisonKind& kind, bool mes
            {"only_first", t.only_first}, {"only_second", t.only_second},    {"grazing", t.grazing},
            {"apart", t.apart},           {"ambiguous_normals", t.ambiguous}};
     j["rows"] = Json::array();
-    for (const AspectRow& row : rows_of(t, kind, meshes)) {
+    for (const study::AspectRow& row : study::rows_of(t, kind, meshes)) {
         Json r{{"key", row.key},           {"label", row.label},   {"tolerance", row.tolerance},
                {"compared", row.compared}, {"within", row.within}, {"verdict", row.verdict}};
         if (row.wanted >= 0) r["wanted"] = row.wanted;
@@ -77,35 +77,35 @@ Json body_json(const Scene& scene, const Bodies& bodies, std::uint32_t i, const 
     const Placement& local = bodies.geometry_in_body[i];
     const Quaterniond q = rotation * local.rotation;
     return {{"index", i},
-            {"name", body_name(scene, i)},
-            {"shape", shape_text(scene, i)},
+            {"name", study::body_name(scene, i)},
+            {"shape", study::shape_text(scene, i)},
             {"geometry", scene.bodies[i].geometry},
             {"position", to_json(Vector3d(to_eigen(pose.position) + rotation * local.position))},
             {"rotation", {q.x(), q.y(), q.z(), q.w()}}};
 }
 
-Json finding_json(const Scene& scene, const Bodies& bodies, const ComparisonResult& r,
-                  const Finding& f) {
+Json finding_json(const Scene& scene, const Bodies& bodies, const study::ComparisonResult& r,
+                  const study::Finding& f) {
     const Disagreement& d = f.disagreement;
     return {{"colliders", {r.colliders[f.first].info.name, r.colliders[f.second].info.name}},
             {"set", f.raw ? "raw" : "clipped"},
             {"judged", f.judged},
-            {"aspect", name_of(d.aspect)},
+            {"aspect", study::name_of(d.aspect)},
             {"error", d.error},
             {"tolerance", d.tolerance},
-            {"words", difference_text(f)},
+            {"words", study::difference_text(f)},
             {"step", d.step},
             {"time", d.time},
             {"bodies",
              {body_json(scene, bodies, d.a, d.pose_a), body_json(scene, bodies, d.b, d.pose_b)}},
             {"answers",
-             {{{"words", answer_text(d.first)}, {"contacts", contacts_json(d.first)}},
-              {{"words", answer_text(d.second)}, {"contacts", contacts_json(d.second)}}}}};
+             {{{"words", study::answer_text(d.first)}, {"contacts", contacts_json(d.first)}},
+              {{"words", study::answer_text(d.second)}, {"contacts", contacts_json(d.second)}}}}};
 }
 
 }  // namespace
 
-Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonResult& r) {
+Json comparison_json(const Scene& scene, const Bodies& bodies, const study::ComparisonResult& r) {
     Json j{{"scene", scene.name},
            {"description", scene.description},
            {"agrees", r.agrees()},
@@ -119,7 +119,7 @@ Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonR
            {"dt", scene.settings.dt},
            {"margin", scene.settings.margin}};
     j["colliders"] = Json::array();
-    for (const ColliderFigures& c : r.colliders)
+    for (const study::ColliderFigures& c : r.colliders)
         j["colliders"].push_back({{"name", c.info.name},
                                   {"version", c.info.version},
                                   {"precision", c.info.precision},
@@ -127,7 +127,7 @@ Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonR
                                   {"clipped", answer_figures(c.clipped, r.poses)},
                                   {"raw", answer_figures(c.raw, r.poses)}});
     j["pairs"] = Json::array();
-    for (const PairFigures& pair : r.pairs) {
+    for (const study::PairFigures& pair : r.pairs) {
         const SourceInfo &first = r.colliders[pair.first].info,
                          &second = r.colliders[pair.second].info;
         const bool single = first.precision == "single" || second.precision == "single";
@@ -138,19 +138,19 @@ Json comparison_json(const Scene& scene, const Bodies& bodies, const ComparisonR
                               {"raw", sets_json(pair.raw, {single, true})}});
     }
     j["disagreements"] = Json::array();
-    for (const Finding& f : findings_of(r))
+    for (const study::Finding& f : study::findings_of(r))
         j["disagreements"].push_back(finding_json(scene, bodies, r, f));
     return j;
 }
 
-Json free_runs_json(const ComparisonResult& r, const FreeRuns& runs) {
+Json free_runs_json(const study::ComparisonResult& r, const study::FreeRuns& runs) {
     Json j{{"times", runs.times}, {"colliders", Json::array()}, {"pairs", Json::array()}};
     for (std::size_t i = 0; i < r.colliders.size(); ++i)
         j["colliders"].push_back({{"name", r.colliders[i].info.name},
                                   {"height", runs.height[i]},
                                   {"energy", runs.energy[i]},
                                   {"diverged_after_step", step_or_null(runs.diverged_after[i])}});
-    for (const Drift& d : runs.drifts)
+    for (const study::Drift& d : runs.drifts)
         j["pairs"].push_back({{"first", r.colliders[d.first].info.name},
                               {"second", r.colliders[d.second].info.name},
                               {"mean", d.mean},

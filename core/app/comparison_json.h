@@ -2,8 +2,8 @@
 /// A comparison as data: what --json writes and the page reads.
 #pragma once
 
-#include "app/comparison.h"
-#include "app/free_run.h"
+#include "study/comparison.h"
+#include "study/free_run.h"
 
 #include <nlohmann/json.hpp>
 
@@ -11,9 +11,10 @@ namespace plumb::app {
 
 /// `bodies`: of a world of the scene, for where shapes sit in their bodies.
 nlohmann::ordered_json comparison_json(const Scene& scene, const Bodies& bodies,
-                                       const ComparisonResult& result);
+                                       const study::ComparisonResult& result);
 
 /// How free runs drift apart; the colliders are those of `result`.
-nlohmann::ordered_json free_runs_json(const ComparisonResult& result, const FreeRuns& runs);
+nlohmann::ordered_json free_runs_json(const study::ComparisonResult& result,
+                                      const study::FreeRuns& runs);
 
 }  // namespace plumb::app

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/comparison_text.h"
 
-#include "app/comparison_rows.h"
 #include "measure/measure.h"
+#include "study/comparison_rows.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -40,18 +40,18 @@ std::string share_of(std::uint64_t part, std::uint64_t whole) {
     return whole > 0 ? percent(static_cast<double>(part) / static_cast<double>(whole)) : "–";
 }
 
-double own_normals(const AnswerFigures& f) {
+double own_normals(const study::AnswerFigures& f) {
     return f.contacts > 0
                ? 1 - static_cast<double>(f.sum.shared_normals) / static_cast<double>(f.contacts)
                : 1;
 }
 
-std::string collider_table(const ComparisonResult& r) {
+std::string collider_table(const study::ComparisonResult& r) {
     std::string text = cell("collider", 14, false) + cell("version", 18, false) +
                        cell("ms a pose", 10) + cell("raw ms", 9) + cell("contacts", 10) +
                        cell("back-end", 10) + cell("clip", 10) + cell("fallback", 10) +
                        cell("own normals", 13) + "\n";
-    for (const ColliderFigures& c : r.colliders) {
+    for (const study::ColliderFigures& c : r.colliders) {
         const DetectStats& s = c.clipped.sum;
         const double poses = static_cast<double>(std::max<std::uint64_t>(1, r.poses));
         text += cell(c.info.name + (c.own_process ? " *" : ""), 14, false) +
@@ -67,12 +67,12 @@ std::string collider_table(const ComparisonResult& r) {
     text +=
         "ms: median inside the collider's call; contacts: mean a pose, by where they come from;\n"
         "own normals: contacts whose normal is the back-end's own, or the plane's.\n";
-    for (const ColliderFigures& c : r.colliders)
+    for (const study::ColliderFigures& c : r.colliders)
         if (c.own_process) text += "* " + c.info.name + " ran in a process of its own.\n";
     return text;
 }
 
-std::string figure(double value, const AspectRow& row) {
+std::string figure(double value, const study::AspectRow& row) {
     if (row.unit.empty() || row.compared == 0) return "–";
     if (row.unit == "ratio") return printed("%.4f", value);
     return printed("%.2g %s", value, row.unit.c_str());
@@ -83,7 +83,7 @@ std::string totals_table(const ComparisonTotals& t, const ComparisonKind& kind, 
     std::string text = cell("  " + title, 25, false) + cell("tolerance", 11) + cell("wanted", 8) +
                        cell("compared", 10) + cell("within", 10) + cell("median", 12) +
                        cell("99 %", 12) + cell("worst", 12) + "\n";
-    for (const AspectRow& row : rows_of(t, kind, meshes)) {
+    for (const study::AspectRow& row : study::rows_of(t, kind, meshes)) {
         text += cell("    " + row.label, 25, false) + cell(row.tolerance, 11) +
                 cell(row.wanted < 0 ? "–" : percent(row.wanted), 8) +
                 cell(std::to_string(row.compared), 10) +
@@ -108,14 +108,14 @@ std::string comparison_tables(const ContactComparison& c, const ComparisonKind& 
     return text.empty() ? "  " + what + ": neither reports any pair\n" : text;
 }
 
-std::string pair_verdict(const ComparisonResult& r, const PairFigures& pair) {
+std::string pair_verdict(const study::ComparisonResult& r, const study::PairFigures& pair) {
     if (!r.alike(pair)) return ": THEY DIFFER\n";
     for (const std::size_t i : {pair.first, pair.second})
         if (!r.answered(i)) return ": NO VERDICT, " + r.colliders[i].info.name + " failed\n";
     return ": they agree\n";
 }
 
-std::string pair_section(const ComparisonResult& r, const PairFigures& pair) {
+std::string pair_section(const study::ComparisonResult& r, const study::PairFigures& pair) {
     const SourceInfo &first = r.colliders[pair.first].info, &second = r.colliders[pair.second].info;
     const bool single = first.precision == "single" || second.precision == "single";
     return "\n" + first.name + " and " + second.name + pair_verdict(r, pair) +
@@ -123,25 +123,27 @@ std::string pair_section(const ComparisonResult& r, const PairFigures& pair) {
            comparison_tables(pair.raw, {single, true}, r.raw_judged);
 }
 
-std::string finding_text(const Scene& scene, const ComparisonResult& r, const Finding& f) {
+std::string finding_text(const Scene& scene, const study::ComparisonResult& r,
+                         const study::Finding& f) {
     const Disagreement& d = f.disagreement;
     const std::string &first = r.colliders[f.first].info.name,
                       &second = r.colliders[f.second].info.name;
     const int width = static_cast<int>(std::max(first.size(), second.size())) + 1;
-    return printed("  %s, ", name_of(d.aspect)) + first + " and " + second + ": " +
-           difference_text(f) + "\n    " + body_name(scene, d.a) + " (" + shape_text(scene, d.a) +
-           ") and " + body_name(scene, d.b) + " (" + shape_text(scene, d.b) +
+    return printed("  %s, ", study::name_of(d.aspect)) + first + " and " + second + ": " +
+           study::difference_text(f) + "\n    " + study::body_name(scene, d.a) + " (" +
+           study::shape_text(scene, d.a) + ") and " + study::body_name(scene, d.b) + " (" +
+           study::shape_text(scene, d.b) +
            printed(") at %.4g s, step %llu\n", d.time, static_cast<unsigned long long>(d.step)) +
-           "    " + cell(first + ":", width, false) + " " + answer_text(d.first) + "\n    " +
-           cell(second + ":", width, false) + " " + answer_text(d.second) + "\n";
+           "    " + cell(first + ":", width, false) + " " + study::answer_text(d.first) + "\n    " +
+           cell(second + ":", width, false) + " " + study::answer_text(d.second) + "\n";
 }
 
-std::string finding_list(const Scene& scene, const ComparisonResult& r,
-                         const std::vector<Finding>& findings, bool raw) {
+std::string finding_list(const Scene& scene, const study::ComparisonResult& r,
+                         const std::vector<study::Finding>& findings, bool raw) {
     std::string text;
     std::size_t left_out = 0;
     std::map<std::tuple<std::size_t, std::size_t, Aspect>, std::size_t> listed;
-    for (const Finding& f : findings) {
+    for (const study::Finding& f : findings) {
         if (f.raw != raw) continue;
         const bool enough =
             listed[{f.first, f.second, f.disagreement.aspect}]++ >= (raw ? kListedRaw : kListed);
@@ -155,11 +157,11 @@ std::string finding_list(const Scene& scene, const ComparisonResult& r,
            (raw ? "raw (what the back-ends themselves say):\n" : "clipped:\n") + text + rest;
 }
 
-std::string troubles(const ComparisonResult& r) {
+std::string troubles(const study::ComparisonResult& r) {
     std::string text;
-    for (const ColliderFigures& c : r.colliders) {
+    for (const study::ColliderFigures& c : r.colliders) {
         for (const bool raw : {false, true}) {
-            const AnswerFigures& f = raw ? c.raw : c.clipped;
+            const study::AnswerFigures& f = raw ? c.raw : c.clipped;
             if (f.failures > 0)
                 text +=
                     c.info.name + (raw ? ", raw" : "") +
@@ -176,16 +178,17 @@ std::string troubles(const ComparisonResult& r) {
     return text;
 }
 
-std::string verdict(const ComparisonResult& r) {
+std::string verdict(const study::ComparisonResult& r) {
     if (r.agrees()) return "\nThe colliders agree.\n";
-    const bool all_alike = std::all_of(r.pairs.begin(), r.pairs.end(),
-                                       [&](const PairFigures& pair) { return r.alike(pair); });
+    const bool all_alike =
+        std::all_of(r.pairs.begin(), r.pairs.end(),
+                    [&](const study::PairFigures& pair) { return r.alike(pair); });
     return all_alike ? "\nNo verdict: not all colliders gave whole answers.\n"
                      : "\nThe colliders differ.\n";
 }
 
 /// The samples nearest to fifths of the time: a chart in few rows.
-std::string free_run_text(const ComparisonResult& r, const FreeRuns& runs) {
+std::string free_run_text(const study::ComparisonResult& r, const study::FreeRuns& runs) {
     const std::size_t last = runs.times.size() - 1;
     std::string text =
         printed("\nFree runs: each collider drives a run of its own\n%-38s", "  time");
@@ -197,7 +200,7 @@ std::string free_run_text(const ComparisonResult& r, const FreeRuns& runs) {
         for (std::size_t k = 0; k <= 5; ++k)
             text += cell(printed("%.3g %s", values[k * last / 5], unit), 12);
     };
-    for (const Drift& d : runs.drifts) {
+    for (const study::Drift& d : runs.drifts) {
         const std::string names =
             r.colliders[d.first].info.name + ", " + r.colliders[d.second].info.name;
         row(names + ": apart, mean", d.mean, "m");
@@ -212,20 +215,21 @@ std::string free_run_text(const ComparisonResult& r, const FreeRuns& runs) {
 
 }  // namespace
 
-std::string comparison_text(const Scene& scene, const ComparisonResult& r, const FreeRuns* runs) {
+std::string comparison_text(const Scene& scene, const study::ComparisonResult& r,
+                            const study::FreeRuns* runs) {
     std::string text =
         scene.name +
         printed(": %llu poses over %.4g s", static_cast<unsigned long long>(r.poses), r.time) +
         ", driven by " + r.colliders[r.driver].info.name + "; margin " +
-        length_text(scene.settings.margin) + "\n\n" + collider_table(r);
-    for (const PairFigures& pair : r.pairs) text += pair_section(r, pair);
+        study::length_text(scene.settings.margin) + "\n\n" + collider_table(r);
+    for (const study::PairFigures& pair : r.pairs) text += pair_section(r, pair);
     text +=
         "\nL: longest side of the smaller body; s.: sagitta, e.: longest edge of the meshes' "
         "facets.\n"
         "Raw answers are what the back-ends themselves say; they do not count for the verdict, nor "
         "do\n"
         "normals deeper than 5 % L.\n";
-    const std::vector<Finding> findings = findings_of(r);
+    const std::vector<study::Finding> findings = study::findings_of(r);
     text += finding_list(scene, r, findings, false) + finding_list(scene, r, findings, true);
     const std::string trouble = troubles(r);
     if (!trouble.empty()) text += printed("\n%s", trouble.c_str());

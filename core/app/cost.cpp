@@ -7,6 +7,7 @@
 #include "app/study_options.h"
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "host/log.h"
 #include "scene/error.h"
 #include "scene/nearest.h"
 #include "study/cases.h"
@@ -93,7 +94,7 @@ std::vector<study::Subject> subjects_of(const Options& o, const ColliderLibrary&
                                              known ? known->reference_substeps : o.reference));
         } catch (const study::NoReference& e) {
             if (e.reason == study::NoReference::stopped || names.size() == 1) throw;
-            std::fprintf(stderr, "plumb: left out: %s\n", e.what());
+            logger()->warn("left out: {}", e.what());
             continue;
         }
         if (!o.metric.empty()) choose_metric(subjects.back(), o.metric);
@@ -127,7 +128,7 @@ void print_findings(const study::StudyTable& table, const Shard& shard) {
 int finish(const Options& o, const study::StudyTable& table, const Shard& shard) {
     const std::vector<std::string> remarks = write_study(table, o.out);
     print_findings(table, shard);
-    for (const std::string& remark : remarks) std::fprintf(stderr, "plumb: %s\n", remark.c_str());
+    for (const std::string& remark : remarks) logger()->warn(remark);
     if (interrupted()) return kInterrupted;
     const study::Row* refused = nullptr;
     bool diverged = false;
@@ -137,15 +138,14 @@ int finish(const Options& o, const study::StudyTable& table, const Shard& shard)
         if (r.status == study::Status::refused) refused = &r;
     }
     if (diverged) {
-        std::fprintf(stderr, "plumb: every point that was run diverged\n");
+        logger()->error("every point that was run diverged");
         return kDiverged;
     }
     if (refused) {
-        std::fprintf(stderr, "plumb: every point is refused: %s\n", refused->note.c_str());
+        logger()->error("every point is refused: {}", refused->note);
         return kColliderUnable;
     }
-    std::fprintf(stderr, "plumb: the budget of %s was too small for a single point\n",
-                 o.budget.c_str());
+    logger()->error("the budget of {} was too small for a single point", o.budget);
     return kUsage;
 }
 

@@ -175,8 +175,6 @@ int tell(const Options& o) {
         std::fputs(text.c_str(), stdout);
     else
         print(j, o);
-    for (const std::string& warning : simulation->plan().warnings)
-        std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
     return interrupted() ? kInterrupted : kDone;
 }
 

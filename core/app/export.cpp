@@ -2,6 +2,7 @@
 /// plumb export: makes a replay, a picture or a table of a recording, such as one that a crash left
 /// behind.
 #include "app/verbs.h"
+#include "host/log.h"
 #include "output/exporters.h"
 
 #include <cstdio>
@@ -28,10 +29,8 @@ Verb add_export(CLI::App& command) {
     return [options] {
         const Recording recording = read_recording(options->recording);
         if (recording.dropped_bytes > 0)
-            std::fprintf(stderr,
-                         "plumb: %s: the last %llu bytes are no whole frame and are left out\n",
-                         options->recording.c_str(),
-                         static_cast<unsigned long long>(recording.dropped_bytes));
+            logger()->warn("{}: the last {} bytes are no whole frame and are left out",
+                           options->recording, recording.dropped_bytes);
         for (const std::string& file : options->files) export_recording(file, recording);
         std::printf("%s: %zu frames\n", options->recording.c_str(), recording.frames.size());
         return static_cast<int>(kDone);

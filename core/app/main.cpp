@@ -3,6 +3,7 @@
 #include "app/usage.h"
 #include "app/verbs.h"
 #include "host/collider_call.h"
+#include "host/log.h"
 #include "output/error.h"
 #include "scene/error.h"
 
@@ -12,6 +13,7 @@
 #include <exception>
 #include <new>
 #include <string>
+#include <vector>
 
 namespace plumb::app {
 namespace {
@@ -43,8 +45,22 @@ constexpr const char* kFooter =
     "completed).";
 
 int complain(int code, const std::string& sentence) {
-    std::fprintf(stderr, "plumb: %s\n", sentence.c_str());
+    logger()->error(sentence);
     return code;
+}
+
+constexpr std::array kLevels{"trace", "debug", "info", "warn", "error", "off"};
+
+/// What of the messages is written, for every verb.
+void add_log_level(CLI::App& command) {
+    command
+        .add_option_function<std::string>(
+            "--log-level",
+            [](const std::string& level) { logger()->set_level(spdlog::level::from_str(level)); },
+            "least level of the messages on stderr: trace, debug, info, warn, error or off; info "
+            "unless told")
+        ->check(CLI::IsMember(std::vector<std::string>(kLevels.begin(), kLevels.end())))
+        ->type_name("LEVEL");
 }
 
 /// Results that did not get through are no results, also where they tell that colliders differ.
@@ -75,6 +91,7 @@ int guarded(const Verb& verb) {
 }  // namespace
 
 int program(int argc, char** argv) {
+    logger()->set_level(spdlog::level::info);
     CLI::App app{"Plumb: position-based rigid body dynamics on interchangeable collision back-ends",
                  "plumb"};
     app.set_version_flag("--version", "plumb " PLUMB_VERSION);
@@ -87,6 +104,7 @@ int program(int argc, char** argv) {
         commands[i] = app.add_subcommand(kVerbs[i].name, kVerbs[i].description);
         commands[i]->group("Verbs");
         verbs[i] = kVerbs[i].add(*commands[i]);
+        add_log_level(*commands[i]);
     }
     try {
         app.parse(argc, argv);

@@ -7,9 +7,10 @@
 #include "app/statistics.h"
 #include "app/summary.h"
 #include "app/verbs.h"
-#include "app/within_reach.h"
 #include "host/collider_call.h"
+#include "host/log.h"
 #include "host/simulation.h"
+#include "measure/within_reach.h"
 
 #include <nlohmann/json.hpp>
 
@@ -129,30 +130,21 @@ std::string faults_in_words(const Statistics& statistics) {
 /// What is worth knowing although the run went on.
 void warn(const Simulation& simulation, const Statistics& statistics) {
     if (statistics.rejected_contacts > 0)
-        std::fprintf(stderr,
-                     "plumb: warning: collider \"%s\" gave contacts that were left out: %s\n",
-                     simulation.collider_name().c_str(), faults_in_words(statistics).c_str());
+        logger()->warn("collider \"{}\" gave contacts that were left out: {}",
+                       simulation.collider_name(), faults_in_words(statistics));
     if (statistics.collider_failures > 0)
-        std::fprintf(stderr, "plumb: warning: collider \"%s\" failed in %llu of %llu steps: %s\n",
-                     simulation.collider_name().c_str(),
-                     static_cast<unsigned long long>(statistics.collider_failures),
-                     static_cast<unsigned long long>(simulation.steps()),
-                     statistics.first_failure.c_str());
+        logger()->warn("collider \"{}\" failed in {} of {} steps: {}", simulation.collider_name(),
+                       statistics.collider_failures, simulation.steps(), statistics.first_failure);
     if (statistics.unsolved_trees > 0)
-        std::fprintf(stderr,
-                     "plumb: warning: trees of joints were left open in %llu solves, by %.3g m or "
-                     "rad at the most, that of joint %u; more substeps, or \"joints\": "
-                     "\"iterate\", may help\n",
-                     static_cast<unsigned long long>(statistics.unsolved_trees),
-                     statistics.tree_error, statistics.open_joint);
+        logger()->warn(
+            "trees of joints were left open in {} solves, by {:.3g} m or rad at the most, that of "
+            "joint {}; more substeps, or \"joints\": \"iterate\", may help",
+            statistics.unsolved_trees, statistics.tree_error, statistics.open_joint);
 }
 
 void greet(const Simulation& simulation, const Outputs& outputs) {
-    for (const std::string& warning : simulation.plan().warnings)
-        std::fprintf(stderr, "plumb: warning: %s\n", warning.c_str());
     if (!outputs.quiet && !simulation.collider_reason().empty())
-        std::fprintf(stderr, "plumb: collider %s: %s\n", simulation.collider_name().c_str(),
-                     simulation.collider_reason().c_str());
+        logger()->info("collider {}: {}", simulation.collider_name(), simulation.collider_reason());
 }
 
 /// A run under way.
@@ -180,7 +172,7 @@ int complete(const Run& run, Ending ending) {
     if (!recorder.failure().empty() && ending.code != kDiverged)
         ending = {kCannotWrite, recorder.failure()};
     if (ending.code != kColliderUnable) warn(run.simulation, run.statistics);
-    if (!ending.sentence.empty()) std::fprintf(stderr, "plumb: %s\n", ending.sentence.c_str());
+    if (!ending.sentence.empty()) logger()->error(ending.sentence);
     return ending.code;
 }
 

@@ -4,6 +4,7 @@
 #include "app/interrupt.h"
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "host/log.h"
 #include "math/fnv1a.h"
 #include "output/file.h"
 #include "reader/reader.h"
@@ -88,7 +89,7 @@ int with_references(const std::function<int()>& verb) {
     try {
         return verb();
     } catch (const study::NoReference& e) {
-        std::fprintf(stderr, "plumb: %s\n", e.what());
+        logger()->error(e.what());
         if (e.reason == study::NoReference::stopped) return kInterrupted;
         return e.reason == study::NoReference::runs_off ? kDiverged : kUsage;
     }

@@ -76,7 +76,8 @@ bool may_meet(const BodySpec& a, const BodySpec& b) {
 bool is_behind(const World& world, std::size_t body, std::size_t plane) {
     const Placement surface = geometry_placement(world.bodies, plane);
     const Vector3d normal = surface.rotation * Vector3d::UnitY();
-    return normal.dot(world.bodies.position[body] - surface.position) < -world.bodies.reach[body];
+    return normal.dot(world.bodies.position[body] - surface.position) <
+           -world.bodies.bounding_radius[body];
 }
 
 /// How many dynamic bodies went through a fixed plane; null where there is none.

@@ -7,6 +7,7 @@
 #include "app/study_options.h"
 #include "app/usage.h"
 #include "app/verbs.h"
+#include "host/log.h"
 
 #include <cstdio>
 #include <memory>
@@ -81,26 +82,23 @@ int not_reached(const Options& o, const study::Subject& subject, const study::Tu
     }
     const char* unit = subject.metrics.front().unit.c_str();
     if (!exact && result.ran_out) {
-        std::fprintf(stderr, "plumb: %sno run ended\n", over.c_str());
+        logger()->error("{}no run ended", over);
         return kUsage;
     }
     if (!exact) {
         const bool refused = failed && failed->outcome.status == study::Status::refused;
-        std::fprintf(stderr, "plumb: %s %s at all settings that were tried: %s\n",
-                     subject.name.c_str(), refused ? "is refused" : "diverges",
-                     failed ? failed->outcome.note.c_str() : "");
+        logger()->error("{} {} at all settings that were tried: {}", subject.name,
+                        refused ? "is refused" : "diverges", failed ? failed->outcome.note : "");
         return refused ? kColliderUnable : kDiverged;
     }
     if (o.time > 0)
-        std::fprintf(
-            stderr,
-            "plumb: %sno settings were found within %g µs a simulated second that reach it; "
-            "the cheapest took %.0f µs, the most exact left %.3g %s\n",
-            over.c_str(), o.time, cheap->outcome.cost.total, exact->error(), unit);
+        logger()->error(
+            "{}no settings were found within {:g} µs a simulated second that reach it; the "
+            "cheapest took {:.0f} µs, the most exact left {:.3g} {}",
+            over, o.time, cheap->outcome.cost.total, exact->error(), unit);
     else
-        std::fprintf(stderr,
-                     "plumb: %sno settings were found that reach it; the least error was %.3g %s\n",
-                     over.c_str(), exact->error(), unit);
+        logger()->error("{}no settings were found that reach it; the least error was {:.3g} {}",
+                        over, exact->error(), unit);
     return kUsage;
 }
 

@@ -4,12 +4,13 @@
 ///
 ///   λ_i(rate) = −(rate + bias_i)/softness_i, kept within its bounds:
 ///
-/// a falling line with flat ends, or a step where the softness is 0. Their sum is a falling
-/// staircase, which meets the line of a rate that impulses change by K,
+/// a falling line with flat ends, or a step where the softness is 0. Their sum is a set-valued
+/// force law that falls by slopes and steps, and meets the line of a rate that impulses change by
+/// K,
 ///
 ///   rate′ = rate + K (λ′ − λ),
 ///
-/// in one point. On what piece of the staircase that point lies is what a Newton step has to know.
+/// in one point. On what piece of the law that point lies is what a Newton step has to know.
 #pragma once
 
 #include "constraints/drive_rows.h"
@@ -41,7 +42,7 @@ struct AxisDrive {
     }
 };
 
-/// Where the staircase is met.
+/// Where the force law is met.
 struct AxisAnswer {
     double rate = 0, impulse = 0;
     bool is_step = false;  ///< the rate is given and the impulse is whatever it needs

@@ -11,7 +11,7 @@
 #pragma once
 
 #include "constraints/points.h"
-#include "world/inner_edges.h"
+#include "geometry/inner_edges.h"
 #include "world/particles.h"
 
 #include <algorithm>

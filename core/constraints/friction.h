@@ -52,24 +52,24 @@ inline Planar<T> project_on_disc(const Planar<T>& f, const T& radius) {
     return {f.x * scale, f.y * scale};
 }
 
-/// Adds to f what stops the velocity u, keeps `held` + f inside of the cone, and returns what was
-/// added. `held` is friction of the other pass that shares the same cone, or zero.
+/// Adds to f what stops the velocity u, keeps `other` + f inside of the cone, and returns what was
+/// added. `other` is friction of the other pass that shares the same cone, or zero.
 ///
 /// A contact that can stick is solved as a block. One that slides goes along −u by the least mass
 /// of any direction and back onto the cone, so that friction comes to oppose the sliding: the
 /// block's step would settle where K⁻¹ u, not u, is along f, and brake too little.
 template <class T>
-inline Planar<T> rub(Planar<T>& f, const Planar<T>& held, const Planar<T>& u,
-                     const TangentMass<T>& mass, const T& bound) {
-    const Planar<T> now{held.x + f.x, held.y + f.y};
+inline Planar<T> solve_friction(Planar<T>& f, const Planar<T>& other, const Planar<T>& u,
+                                const TangentMass<T>& mass, const T& bound) {
+    const Planar<T> now{other.x + f.x, other.y + f.y};
     const Planar<T> stick{now.x - (mass.xx * u.x + mass.xy * u.y),
                           now.y - (mass.xy * u.x + mass.yy * u.y)};
     const Planar<T> slide =
         project_on_disc<T>({now.x - mass.least * u.x, now.y - mass.least * u.y}, bound);
     const T wish = stick.x * stick.x + stick.y * stick.y, most = bound * bound;
     const Planar<T> before = f;
-    f = {select_greater(wish, most, slide.x, stick.x) - held.x,
-         select_greater(wish, most, slide.y, stick.y) - held.y};
+    f = {select_greater(wish, most, slide.x, stick.x) - other.x,
+         select_greater(wish, most, slide.y, stick.y) - other.y};
     return {f.x - before.x, f.y - before.y};
 }
 

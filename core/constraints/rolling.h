@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Rolling and spinning friction: torques against turning at a contact, bounded by a lever times
-/// the push.
+/// Rolling and spinning friction: torques against the relative rotation at a contact, bounded by a
+/// lever times the push.
 ///
 ///   w  angular velocity of a against b [rad/s]
 ///   τ  summed torque impulse on a [N m s]; across the normal |τ| ≤ ρ λ, about it |τ| ≤ σ λ
@@ -23,7 +23,7 @@ inline void apply_torque(Velocity<T>& body, const InverseMass<T>& inverse,
 
 /// How fast a turns against b about `d` per unit of torque impulse about `e`.
 template <class T>
-inline T turning_response(const InverseMass<T>& a, const InverseMass<T>& b, const Vector3<T>& d,
+inline T angular_response(const InverseMass<T>& a, const InverseMass<T>& b, const Vector3<T>& d,
                           const Vector3<T>& e) {
     return dot(d, Vector3<T>((a.inertia + b.inertia) * e));
 }
@@ -38,7 +38,7 @@ inline TangentMass<T> rolling_inertia(const T& xx, const T& xy, const T& yy, Inv
     return {m.xx * size, m.xy * size, m.yy * size, m.least * size};
 }
 
-/// Adds to τ what stops the turning rate w about one axis, within ±bound, and returns what was
+/// Adds to τ what stops the angular rate w about one axis, within ±bound, and returns what was
 /// added.
 template <class T>
 inline T resist_spin(T& torque, const T& w, const T& effective_inertia, const T& bound) {

@@ -8,8 +8,8 @@
 ///
 /// Eliminating the child leaves S λ = d − J_p Δv_p − J_c M̂_c⁻¹ b_c with S = J_c M̂_c⁻¹ J_cᵀ + s, and
 /// the parent gains J_pᵀ S⁻¹ J_p. A ball joint is eliminated in coordinates of its own, the
-/// velocity u of its point and ω, where J_c = [E 0]: what is left of the child is the mass S⁻¹ that
-/// is felt at the point.
+/// velocity u of its point and ω, where J_c = [E 0]: what is left of the child is its
+/// articulated mass at the point, the Schur complement S⁻¹.
 #pragma once
 
 #include "constraints/joint_rows.h"
@@ -19,12 +19,12 @@
 
 namespace plumb {
 
-/// The part of an old error that is left for later steps, where one may close it by `reach` [m],
+/// The part of an old error that is left for later steps, where one may close it by `most` [m],
 /// [rad]: from 0 to 1.
 template <class T>
-inline T owed_share(const T& squared, const T& reach) {
+inline T deferred_fraction(const T& squared, const T& most) {
     const T size = sqrt(squared);
-    return select_greater(size, reach, T(1) - reach / max(size, T(1e-300)), T(0));
+    return select_greater(size, most, T(1) - most / max(size, T(1e-300)), T(0));
 }
 
 /// M̂ = [a b; bᵀ d] over (v, ω), and the right-hand side (f, t).
@@ -106,7 +106,7 @@ inline Vector3<T> times_cross(const Symmetric3<T>& m, const Vector3<T>& r, int j
                       m.xz * r[1] - m.yz * r[0]);
 }
 
-/// A mass felt at the point of arm r, and an impulse there, become part of a body.
+/// An articulated mass at the point of arm r, and an impulse there, become part of a body.
 template <class T>
 inline void add_at_point(BodyBlock<T>& body, const Symmetric3<T>& mass, const Vector3<T>& r,
                          const Vector3<T>& impulse) {
@@ -155,8 +155,8 @@ struct Factors3 {
 /// A body on a ball joint, eliminated: S⁻¹ u = λ + free.
 template <class T>
 struct BallElimination {
-    Symmetric3<T> mass;    ///< S⁻¹: felt at the point [kg]
-    Vector3<T> free;       ///< and the impulse felt there without the joint's own [N s]
+    Symmetric3<T> mass;    ///< S⁻¹: articulated mass at the point [kg]
+    Vector3<T> free;       ///< and the impulse there without the joint's own [N s]
     Vector3<T> across[3];  /// columns: what ω has to do with u
     Factors3<T> turn;      ///< of ω alone
     Vector3<T> torque;     ///< right-hand side of ω about the point [N m s]

@@ -12,7 +12,7 @@ namespace plumb {
 /// Stiffness of a turn against an impulse P at arm r, whose torque r × P turns with the arm:
 /// −∂(r × P)/∂ω = h ((P·r) E − r Pᵀ), the symmetric part.
 template <class T>
-inline Symmetric3<T> turning_stiffness(const Vector3<T>& r, const Vector3<T>& p, T h) {
+inline Symmetric3<T> angular_stiffness(const Vector3<T>& r, const Vector3<T>& p, T h) {
     const Vector3<T> x = r * h;
     const T along = dot(x, p), half = T(0.5);
     return {along - x[0] * p[0],

@@ -20,7 +20,7 @@ enum class Stage : std::uint32_t {
     impacts,            ///< collisions, before forces
     integrate,          ///< forces and gyroscopic term
     air_drag,           ///< drag of the air
-    begin,              ///< gaps, drifts and velocities at the start of the substep
+    begin,              ///< gaps, anchor slips and velocities at the start of the substep
     velocities,         ///< velocity pass
     positions,          ///< position pass over contacts
     joints,             ///< joints that are iterated, and their drives, turns and breaking

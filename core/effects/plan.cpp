@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "effects/plan.h"
 
-#include "effects/meetings.h"
+#include "effects/filter_reachability.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
 #include "world/round_shapes.h"
@@ -41,7 +41,7 @@ Wish contacts(const World& w) {
     if (w.particles.size() > 0 && shaped_bodies(w) > 0)
         return {true,
                 std::to_string(shaped_bodies(w)) + " bodies have shapes that particles may meet"};
-    return counted(bodies_that_meet(w), "bodies have shapes that may meet others",
+    return counted(collidable_bodies(w), "bodies have shapes that may meet others",
                    "no two bodies have shapes that may meet");
 }
 Wish contact_reuse(const World& w) {
@@ -54,13 +54,13 @@ Wish contact_reuse(const World& w) {
 Wish friction(const World& w) {
     const std::size_t n =
         count_surface_pairs(w, [](const SurfacePair& s) { return s.friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials rub (μ > 0)",
-                   "no pair of materials that can touch rubs");
+    return counted(contacts(w).wanted ? n : 0, "pairs of materials have friction (μ > 0)",
+                   "no pair of materials that can touch has friction");
 }
 Wish turning_friction(const World& w) {
     const std::size_t n = count_surface_pairs(
         w, [](const SurfacePair& s) { return s.rolling_friction > 0 || s.spinning_friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials resist turning",
+    return counted(contacts(w).wanted ? n : 0, "pairs of materials resist rolling or spinning",
                    "no pair of materials resists rolling or spinning");
 }
 Wish restitution(const World& w) {
@@ -77,7 +77,7 @@ Wish impacts(const World& w) {
     return {true, "collisions are solved before forces, so that no contact remembers them"};
 }
 Wish sticking_anchors(const World& w) {
-    if (!friction(w).wanted) return {false, "nothing rubs"};
+    if (!friction(w).wanted) return {false, "there is no friction"};
     if (!(w.settings.anchor_stiffness > 0)) return {false, "anchor_stiffness is 0"};
     return {true, "friction that sticks remembers where (anchor_stiffness > 0)"};
 }
@@ -96,7 +96,7 @@ Wish still_ground(const World& w) {
     if (!w.settings.shared_push)
         return {false, "what stands still may give energy, as in the paper (shared_push)"};
     const auto stands = [&](std::size_t i) {
-        return w.bodies.motion[i] == Motion::fixed && w.bodies.reach[i] > 0;
+        return w.bodies.motion[i] == Motion::fixed && w.bodies.bounding_radius[i] > 0;
     };
     return counted(count_bodies(w, stands), "fixed bodies give no energy to what touches them",
                    "nothing with a shape is fixed");
@@ -125,7 +125,7 @@ Wish joint_trees(const World& w) {
     const std::size_t iterated = w.joints.size() - forest.edges - forest.loops;
     const std::string left_out =
         "bodies that hang together are iterated where more than one joint in ten closes a loop, a "
-        "coupling ties two joints, or they are a figure without motors";
+        "coupling ties two joints, or they are a ragdoll without motors";
     return counted(
         forest.edges,
         "joints form trees, " + std::to_string(forest.loops) + " close loops" +
@@ -151,7 +151,7 @@ Wish exact_deformables(const World& w) {
     const std::string most = std::to_string(w.settings.exact_deformables);
     if (n > w.settings.exact_deformables)
         return {false, std::to_string(n) + " particles are more than " + most +
-                           " (exact_deformables), so that all are swept"};
+                           " (exact_deformables), so that all are iterated"};
     return {true, std::to_string(n) + " particles, at most " + most +
                       ", are solved as one system (exact_deformables)"};
 }
@@ -203,7 +203,8 @@ struct Registered {
     Wish (*wish)(const World&);
 };
 
-/// In the order of `Effect`. A new effect is a line here, a name there and its stage in step/.
+/// In the order of `Effect`. A new effect is a line here, a name there and its stage in contacts/
+/// or step/.
 constexpr std::array<Registered, kEffectCount> kEffects{{
     {"contacts", contacts},
     {"contact_reuse", contact_reuse},

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/add_bodies.h"
 
+#include "contacts/contact_room.h"
 #include "scene/error.h"
-#include "step/contact_room.h"
 
 #include <cstdint>
 #include <vector>
@@ -39,11 +39,11 @@ void check_raw(Proximity& proximity, const World& world, const std::string& coll
 
 }  // namespace
 
-BodyRow shape_row(const Bodies& b, std::uint32_t place) {
+BodyRow shape_row(const Bodies& b, std::uint32_t slot) {
     BodyRow row;
-    row.id = b.id[place], row.motion = b.motion[place];
-    row.geometry = b.geometry[place], row.geometry_in_body = b.geometry_in_body[place];
-    row.group = b.group[place], row.mask = b.mask[place];
+    row.id = b.id[slot], row.motion = b.motion[slot];
+    row.geometry = b.geometry[slot], row.geometry_in_body = b.geometry_in_body[slot];
+    row.group = b.group[slot], row.mask = b.mask[slot];
     return row;
 }
 
@@ -62,7 +62,7 @@ void add_bodies(Proximity& proximity, const World& world, const std::string& col
     }
 }
 
-void add_body(Proximity& proximity, const World& world, std::uint32_t place, const BodyRow& row,
+void add_body(Proximity& proximity, const World& world, std::uint32_t slot, const BodyRow& row,
               const std::string& collider) {
     if (row.geometry == kNoIndex) return;
     ShapePlacement placement{};
@@ -72,13 +72,13 @@ void add_body(Proximity& proximity, const World& world, std::uint32_t place, con
     placement.mobility = static_cast<Mobility>(row.motion);
     placement.group = row.group;
     placement.mask = row.mask;
-    check(proximity.add(place, placement), collider, "shape of " + name_of(row.id));
+    check(proximity.add(slot, placement), collider, "shape of " + name_of(row.id));
 }
 
-void remove_body(Proximity& proximity, const World& world, std::uint32_t place,
+void remove_body(Proximity& proximity, const World& world, std::uint32_t slot,
                  const std::string& collider) {
-    if (world.bodies.geometry[place] == kNoIndex) return;
-    check(proximity.remove(place), collider, "removal of " + name_of(world.bodies.id[place]));
+    if (world.bodies.geometry[slot] == kNoIndex) return;
+    check(proximity.remove(slot), collider, "removal of " + name_of(world.bodies.id[slot]));
 }
 
 void exclude_pair(Proximity& proximity, const World& world, std::uint64_t key, bool excluded,

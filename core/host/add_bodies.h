@@ -13,19 +13,19 @@
 namespace plumb {
 
 /// What a row of the table says of its body's shape.
-BodyRow shape_row(const Bodies& bodies, std::uint32_t place);
+BodyRow shape_row(const Bodies& bodies, std::uint32_t slot);
 
-/// Adds every body that has a shape, under its place, and excludes the pairs that are kept apart.
+/// Adds every body that has a shape, in its slot, and excludes the pairs that are kept apart.
 /// The world's shapes must outlive the collider's use of them. Where the collider refuses one, or
 /// the raw contacts that the settings ask for, it is left without any.
 void add_bodies(Proximity& proximity, const World& world, const std::string& collider);
 
-/// Adds one body, if it has a shape, under its coming place.
-void add_body(Proximity& proximity, const World& world, std::uint32_t place, const BodyRow& row,
+/// Adds one body, if it has a shape, in its coming slot.
+void add_body(Proximity& proximity, const World& world, std::uint32_t slot, const BodyRow& row,
               const std::string& collider);
 
 /// Removes one body, if it has a shape.
-void remove_body(Proximity& proximity, const World& world, std::uint32_t place,
+void remove_body(Proximity& proximity, const World& world, std::uint32_t slot,
                  const std::string& collider);
 
 /// Excludes a pair of bodies, given as pair_key, if both have shapes, or lets it in again.

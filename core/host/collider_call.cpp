@@ -2,8 +2,8 @@
 #include "host/collider_call.h"
 
 #include "host/exception_text.h"
+#include "host/log.h"
 
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <mutex>
@@ -62,7 +62,7 @@ std::string sentence() {
     if (calls().end)
         calls().end(said);
     else
-        std::fprintf(stderr, "plumb: %s\n", said.c_str());
+        logger()->critical(said);
     pass_on(calls().before);
 }
 

@@ -4,6 +4,7 @@
 #include "host/collider_call.h"
 #include "host/conflicts.h"
 #include "host/exception_text.h"
+#include "host/log.h"
 #include "host/shape_pairs.h"
 #include "host/watched_collider.h"
 #include "scene/error.h"
@@ -98,7 +99,11 @@ void ColliderLibrary::add(const fs::path& file) {
                             [&](const ColliderInfo& c) { return c.table && c.name == name; });
     };
     const auto shadowed_by = usable(plugin_name_of(file));
-    if (shadowed_by != colliders_.end() && shadowed_by->file.filename() == file.filename()) return;
+    if (shadowed_by != colliders_.end() && shadowed_by->file.filename() == file.filename()) {
+        logger()->debug("plugin {} is skipped: {} stands before it", file.string(),
+                        shadowed_by->file.string());
+        return;
+    }
     ColliderInfo info = load_plugin(file);
     const auto first = info.table ? usable(info.name) : colliders_.end();
     if (first != colliders_.end()) {
@@ -107,6 +112,10 @@ void ColliderLibrary::add(const fs::path& file) {
         info.name = plugin_name_of(file);
         info.table = nullptr;
     }
+    if (info.table)
+        logger()->debug("plugin {} is collider \"{}\"", file.string(), info.name);
+    else
+        logger()->debug("plugin {} is refused: {}", file.string(), info.refusal);
     colliders_.push_back(std::move(info));
 }
 

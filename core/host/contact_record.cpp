@@ -68,7 +68,7 @@ void ContactRecord::take_contacts(const World& world, const Stepper& stepper) {
         c.touches = table.memory_before[i].normal_impulse > 0 || c.gap <= 0;
         put_in_order(c);
     }
-    // places and identifiers part once bodies were removed
+    // slots and identifiers part once bodies were removed
     const auto before = [](const BodyContact& x, const BodyContact& y) {
         return pair_of(x) < pair_of(y);
     };

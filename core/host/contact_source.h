@@ -3,8 +3,8 @@
 /// another (remote_source.h).
 #pragma once
 
+#include "contacts/contact_room.h"
 #include "host/collider_library.h"
-#include "step/contact_room.h"
 #include "world/world.h"
 
 #include <cstdint>

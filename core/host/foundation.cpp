@@ -69,7 +69,7 @@ void add_settings(Hash& hash, const Settings& s) {
 
 void add_bodies(Hash& hash, const World& world) {
     const Bodies& b = world.bodies;
-    hash << world.places.next().id << b.id << b.motion << b.mass << b.inertia << b.geometry_in_body
+    hash << world.slots.next().id << b.id << b.motion << b.mass << b.inertia << b.geometry_in_body
          << b.geometry << b.material << b.group << b.mask;
     for (const MotionScript& script : b.script) {
         hash << script.loop << script.keyframes.size();

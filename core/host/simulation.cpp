@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/simulation.h"
 
+#include "host/log.h"
 #include "host/simulation_parts.h"
 #include "measure/measure.h"
 #include "scene/error.h"
@@ -16,12 +17,12 @@ namespace plumb {
 namespace {
 
 /// What edits need of a scene.
-Scene stock_of(const Scene& scene) {
-    Scene stock;
-    stock.materials = scene.materials, stock.material_pairs = scene.material_pairs;
-    stock.geometries = scene.geometries;
-    stock.remarks = scene.remarks;
-    return stock;
+Scene assets_of(const Scene& scene) {
+    Scene assets;
+    assets.materials = scene.materials, assets.material_pairs = scene.material_pairs;
+    assets.geometries = scene.geometries;
+    assets.remarks = scene.remarks;
+    return assets;
 }
 
 template <class Spec>
@@ -45,7 +46,7 @@ std::uint32_t index_of(const std::vector<Entry>& table, std::uint32_t id, std::u
 
 Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
                          std::string version)
-    : stock(stock_of(scene)),
+    : assets(assets_of(scene)),
       world(build_world(scene)),
       stepper(world),
       owned(std::move(plugin)),
@@ -53,12 +54,12 @@ Simulation::Parts::Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, 
       collider_name(std::move(name)),
       collider_version(std::move(version)) {
     auto& warnings = stepper.plan.warnings;
-    warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    warnings.insert(warnings.begin(), assets.remarks.begin(), assets.remarks.end());
     note_broken_joints();
     add_names(body_names, scene.bodies), add_names(joint_names, scene.joints);
-    if (!stepper.plan.runs(Effect::contacts)) return;
-    add_bodies(proximity, world, collider_name);
-    filled = true;
+    filled = stepper.plan.runs(Effect::contacts);
+    if (filled) add_bodies(proximity, world, collider_name);
+    tell_warnings();
 }
 
 void Simulation::Parts::renew() {
@@ -66,7 +67,8 @@ void Simulation::Parts::renew() {
     assign_rows(world);
     stepper.renew(world);
     auto& warnings = stepper.plan.warnings;
-    warnings.insert(warnings.begin(), stock.remarks.begin(), stock.remarks.end());
+    warnings.insert(warnings.begin(), assets.remarks.begin(), assets.remarks.end());
+    tell_warnings();
     note_broken_joints();
     outdated = false;
 }
@@ -76,11 +78,10 @@ void Simulation::Parts::note_broken_joints() {
     for (const Joint& joint : world.joints.joints) broken.push_back(joint.broken);
 }
 
-std::uint32_t Simulation::Parts::place(std::uint32_t body) const {
-    if (const auto found = world.places.find(body)) return *found;
+std::uint32_t Simulation::Parts::slot(std::uint32_t body) const {
+    if (const auto found = world.slots.find(body)) return *found;
     const std::string name = "body " + std::to_string(body);
-    throw std::out_of_range(world.places.knew(body) ? name + " was removed"
-                                                    : "there is no " + name);
+    throw std::out_of_range(world.slots.knew(body) ? name + " was removed" : "there is no " + name);
 }
 
 std::uint32_t Simulation::Parts::joint_index(std::uint32_t joint) const {
@@ -118,6 +119,7 @@ Simulation::Simulation(const Scene& scene, const ColliderLibrary& colliders,
                                      version ? version : "");
     parts_->collider_reason = choice.reason;
     parts_->library = colliders;
+    if (!choice.reason.empty()) logger()->debug("collider {}: {}", info.name, choice.reason);
 }
 
 Simulation::~Simulation() = default;
@@ -130,6 +132,7 @@ StepReport Simulation::step() {
     parts_->placed = false;
     parts_->outdated = report.torn_elements > 0;
     parts_->stats = parts_->proximity.stats();
+    parts_->tell_step(report);
     if (parts_->record) parts_->record->take(parts_->world, parts_->stepper);
     return report;
 }

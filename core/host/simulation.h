@@ -198,7 +198,7 @@ public:
 
     /// The body's index in the tables of `world()` and in Frame::bodies, as long as it lives;
     /// Bodies::id and Frame::ids tell the way back.
-    std::uint32_t place_of(std::uint32_t body) const;
+    std::uint32_t slot_of(std::uint32_t body) const;
 
 private:
     struct Parts;

@@ -44,19 +44,19 @@ void Simulation::Parts::check_pairs(const BodyRow& row, const std::string& name)
     };
     for (std::uint32_t i = 0; i < b.size(); ++i)
         if (b.geometry[i] != kNoIndex) put(std::to_string(b.id[i]), shape_row(b, i));
-    put(name.empty() ? std::to_string(world.places.next().id) : name, row);
-    pairs.geometries.swap(stock.geometries);
+    put(name.empty() ? std::to_string(world.slots.next().id) : name, row);
+    pairs.geometries.swap(assets.geometries);
     try {
         library->check_abilities(library->find(collider_name), pairs);
     } catch (...) {
-        pairs.geometries.swap(stock.geometries);
+        pairs.geometries.swap(assets.geometries);
         throw;
     }
-    pairs.geometries.swap(stock.geometries);
+    pairs.geometries.swap(assets.geometries);
 }
 
-void Simulation::Parts::hand_over(std::uint32_t place, const BodyRow& row) {
-    if (filled) return plumb::add_body(proximity, world, place, row, collider_name);
+void Simulation::Parts::hand_over(std::uint32_t slot, const BodyRow& row) {
+    if (filled) return plumb::add_body(proximity, world, slot, row, collider_name);
     outdated = true;
     renew();
     if (!stepper.plan.runs(Effect::contacts)) return;
@@ -66,30 +66,30 @@ void Simulation::Parts::hand_over(std::uint32_t place, const BodyRow& row) {
 
 std::uint32_t Simulation::add_geometry(const Geometry& geometry) {
     parts_->world.shapes.add(geometry);
-    parts_->stock.geometries.push_back(geometry);
-    return static_cast<std::uint32_t>(parts_->stock.geometries.size()) - 1;
+    parts_->assets.geometries.push_back(geometry);
+    return static_cast<std::uint32_t>(parts_->assets.geometries.size()) - 1;
 }
 
 std::uint32_t Simulation::add_material(const Material& material) {
     check_material(material);
-    parts_->stock.materials.push_back(material);
-    combine_surfaces(parts_->world, parts_->stock);
+    parts_->assets.materials.push_back(material);
+    combine_surfaces(parts_->world, parts_->assets);
     parts_->outdated = true;
-    return static_cast<std::uint32_t>(parts_->stock.materials.size()) - 1;
+    return static_cast<std::uint32_t>(parts_->assets.materials.size()) - 1;
 }
 
 std::uint32_t Simulation::add_body(const BodySpec& body) {
     World& world = parts_->world;
-    const auto [id, place] = world.places.next();
-    BodyRow row = make_body(parts_->stock, body, "/bodies/" + std::to_string(id));
+    const auto [id, slot] = world.slots.next();
+    BodyRow row = make_body(parts_->assets, body, "/bodies/" + std::to_string(id));
     row.id = id;
     parts_->check_pairs(row, body.name);
     insert_body(world, row);
     try {
-        parts_->hand_over(place, row);
+        parts_->hand_over(slot, row);
     } catch (...) {
-        erase_body(world, place);
-        world.places.forget_last();
+        erase_body(world, slot);
+        world.slots.forget_last();
         parts_->outdated = true;
         throw;
     }
@@ -101,12 +101,12 @@ std::uint32_t Simulation::add_body(const BodySpec& body) {
 
 void Simulation::remove_body(std::uint32_t body) {
     World& world = parts_->world;
-    const std::uint32_t place = parts_->place(body);
-    if (parts_->filled) plumb::remove_body(parts_->proximity, world, place, parts_->collider_name);
+    const std::uint32_t slot = parts_->slot(body);
+    if (parts_->filled) plumb::remove_body(parts_->proximity, world, slot, parts_->collider_name);
     const std::vector<Joint>& joints = world.joints.joints;
     for (auto i = static_cast<std::uint32_t>(joints.size()); i-- > 0;)
-        if (joints[i].a == place || joints[i].b == place) erase_joint(world, i);
-    erase_body(world, place);
+        if (joints[i].a == slot || joints[i].b == slot) erase_joint(world, i);
+    erase_body(world, slot);
     parts_->outdated = true;
     parts_->placed = false;
 }
@@ -114,8 +114,8 @@ void Simulation::remove_body(std::uint32_t body) {
 std::uint32_t Simulation::add_joint(const JointSpec& joint) {
     World& world = parts_->world;
     JointSpec placed = joint;
-    placed.body_a = parts_->place(joint.body_a);
-    if (joint.body_b != kNoIndex) placed.body_b = parts_->place(joint.body_b);
+    placed.body_a = parts_->slot(joint.body_a);
+    if (joint.body_b != kNoIndex) placed.body_b = parts_->slot(joint.body_b);
     JointDraft draft = make_joint(world, placed, "/joints/" + std::to_string(world.joints.next_id));
     if (parts_->filled && draft.joint.keeps_apart)
         exclude_pair(parts_->proximity, world, kept_apart(draft.joint), true,

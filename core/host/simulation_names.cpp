@@ -37,7 +37,7 @@ std::optional<std::uint32_t> Simulation::find_joint(const std::string& name) con
                        [this](std::uint32_t id) { return has_joint(id); });
 }
 std::optional<std::uint32_t> Simulation::find_material(const std::string& name) const {
-    return first_named(parts_->stock.materials, name, [](const Material& m) { return m.name; });
+    return first_named(parts_->assets.materials, name, [](const Material& m) { return m.name; });
 }
 std::optional<std::uint32_t> Simulation::find_deformable(const std::string& name) const {
     return first_named(parts_->world.deformables, name,

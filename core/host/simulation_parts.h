@@ -20,7 +20,7 @@ using Names = std::multimap<std::string, std::uint32_t>;
 void expect_placement(const Placement& placement);
 
 struct Simulation::Parts {
-    Scene stock;  ///< the scene's geometries, materials and remarks, without its bodies and joints
+    Scene assets;  ///< the scene's geometries, materials and remarks, without its bodies and joints
     World world;
     Stepper stepper;
     ProximityPtr owned;
@@ -34,12 +34,18 @@ struct Simulation::Parts {
     std::optional<ContactRecord> record;  ///< where contacts are watched
     DetectStats stats{};                  ///< of the last step
     Names body_names, joint_names;
+    std::vector<std::string> told;  ///< warnings of the plan that were logged
 
     Parts(const Scene& scene, ProximityPtr plugin, Proximity& p, std::string name,
           std::string version);
 
     /// Brings the stepper up to date with the edits made.
     void renew();
+
+    /// Logs the warnings of the plan that were not logged before.
+    void tell_warnings();
+    /// Logs what went wrong in a step.
+    void tell_step(const StepReport& report) const;
 
     /// Once the stepper is of the world as it is now.
     void note_broken_joints();
@@ -52,9 +58,9 @@ struct Simulation::Parts {
     /// then leaves all as it was.
     void exclude_only(std::vector<std::uint64_t> keys);
 
-    /// The place of a body in its table; the index of a joint or a coupling in its. Throw
+    /// The slot of a body in its table; the index of a joint or a coupling in its. Throw
     /// std::out_of_range where there is none.
-    std::uint32_t place(std::uint32_t body) const;
+    std::uint32_t slot(std::uint32_t body) const;
     std::uint32_t joint_index(std::uint32_t joint) const;
     std::uint32_t coupling_index(std::uint32_t coupling) const;
     const Joint& joint(std::uint32_t id) const { return world.joints.joints[joint_index(id)]; }
@@ -70,7 +76,7 @@ struct Simulation::Parts {
 
     /// Hands a body that was just inserted to the collider, with all others where it has none yet
     /// and now needs them.
-    void hand_over(std::uint32_t place, const BodyRow& row);
+    void hand_over(std::uint32_t slot, const BodyRow& row);
 };
 
 }  // namespace plumb

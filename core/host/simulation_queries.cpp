@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Questions to the collider, at the poses of now.
+#include "contacts/contact_room.h"
 #include "host/simulation_parts.h"
 #include "scene/error.h"
-#include "step/contact_room.h"
 
 #include <algorithm>
 #include <stdexcept>
@@ -76,7 +76,7 @@ std::optional<RayHit> Simulation::cast_ray(const Eigen::Vector3d& origin,
 }
 
 Contact Simulation::closest(std::uint32_t body_a, std::uint32_t body_b) {
-    const std::uint32_t a = parts_->place(body_a), b = parts_->place(body_b);
+    const std::uint32_t a = parts_->slot(body_a), b = parts_->slot(body_b);
     Contact contact{};
     parts_->expect_answer(parts_->at_poses_of_now().closest(a, b, &contact), "closest points");
     contact.a = a < b ? body_a : body_b, contact.b = a < b ? body_b : body_a;
@@ -88,13 +88,13 @@ std::vector<std::uint32_t> Simulation::overlaps(std::uint32_t geometry, const Pl
                                                 std::uint32_t mask) {
     Parts& p = *parts_;
     const Bodies& bodies = p.world.bodies;
-    if (geometry >= p.stock.geometries.size())
+    if (geometry >= p.assets.geometries.size())
         throw std::out_of_range("there is no geometry " + std::to_string(geometry));
     expect_placement(placement);
     Proximity& proximity = p.at_poses_of_now();
     auto guest = static_cast<std::uint32_t>(bodies.size());
     BodyRow row;
-    row.id = p.world.places.next().id;
+    row.id = p.world.slots.next().id;
     row.motion = Motion::dynamic, row.geometry = geometry;
     row.group = ~0u, row.mask = mask;
     p.check_pairs(row, "asked about");

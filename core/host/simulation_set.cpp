@@ -15,8 +15,8 @@ void expect_finite(const Eigen::Vector3d& v, const char* what) {
     if (!v.allFinite()) throw std::invalid_argument(std::string(what) + " must be finite numbers");
 }
 
-bool follows_keyframes(const Bodies& b, std::uint32_t place) {
-    return b.motion[place] == Motion::kinematic && !b.script[place].keyframes.empty();
+bool follows_keyframes(const Bodies& b, std::uint32_t slot) {
+    return b.motion[slot] == Motion::kinematic && !b.script[slot].keyframes.empty();
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ void expect_placement(const Placement& placement) {
 }
 
 bool Simulation::has_body(std::uint32_t body) const {
-    return parts_->world.places.find(body).has_value();
+    return parts_->world.slots.find(body).has_value();
 }
 
 bool Simulation::has_joint(std::uint32_t joint) const {
@@ -37,48 +37,48 @@ bool Simulation::has_joint(std::uint32_t joint) const {
                        [joint](const Joint& j) { return j.id == joint; });
 }
 
-std::uint32_t Simulation::place_of(std::uint32_t body) const { return parts_->place(body); }
+std::uint32_t Simulation::slot_of(std::uint32_t body) const { return parts_->slot(body); }
 
 BodyState Simulation::body_state(std::uint32_t body) const {
     const Bodies& b = parts_->world.bodies;
-    const std::uint32_t place = parts_->place(body);
-    return {geometry_placement(b, place), b.velocity[place], b.angular_velocity[place]};
+    const std::uint32_t slot = parts_->slot(body);
+    return {geometry_placement(b, slot), b.velocity[slot], b.angular_velocity[slot]};
 }
 
 void Simulation::set_placement(std::uint32_t body, const Placement& placement) {
     World& world = parts_->world;
     Bodies& b = world.bodies;
-    const std::uint32_t place = parts_->place(body);
+    const std::uint32_t slot = parts_->slot(body);
     expect_placement(placement);
-    if (follows_keyframes(b, place))
+    if (follows_keyframes(b, slot))
         throw std::invalid_argument("a body that follows keyframes cannot be placed");
     const Placement outer{placement.position, placement.rotation.normalized()};
-    const Placement now = outer * inverse(b.geometry_in_body[place]);
-    b.position[place] = now.position, b.orientation[place] = now.rotation;
-    forget_contacts(world, place);
+    const Placement now = outer * inverse(b.geometry_in_body[slot]);
+    b.position[slot] = now.position, b.orientation[slot] = now.rotation;
+    forget_contacts(world, slot);
     parts_->placed = false;
 }
 
 void Simulation::set_velocity(std::uint32_t body, const Eigen::Vector3d& v,
                               const Eigen::Vector3d& w) {
     Bodies& b = parts_->world.bodies;
-    const std::uint32_t place = parts_->place(body);
+    const std::uint32_t slot = parts_->slot(body);
     expect_finite(v, "a velocity"), expect_finite(w, "an angular velocity");
-    if (b.motion[place] == Motion::fixed)
+    if (b.motion[slot] == Motion::fixed)
         throw std::invalid_argument("a fixed body has no velocity");
-    if (follows_keyframes(b, place))
+    if (follows_keyframes(b, slot))
         throw std::invalid_argument("a body that follows keyframes has their velocity");
-    b.velocity[place] = v, b.angular_velocity[place] = w;
+    b.velocity[slot] = v, b.angular_velocity[slot] = w;
 }
 
 void Simulation::set_force(std::uint32_t body, const Eigen::Vector3d& force,
                            const Eigen::Vector3d& torque) {
     Bodies& b = parts_->world.bodies;
-    const std::uint32_t place = parts_->place(body);
+    const std::uint32_t slot = parts_->slot(body);
     expect_finite(force, "a force"), expect_finite(torque, "a torque");
-    if (b.motion[place] != Motion::dynamic)
+    if (b.motion[slot] != Motion::dynamic)
         throw std::invalid_argument("only a dynamic body yields to a force");
-    b.force[place] = force, b.torque[place] = torque;
+    b.force[slot] = force, b.torque[slot] = torque;
 }
 
 void Simulation::set_motor_target(std::uint32_t joint, std::uint32_t axis, double target) {

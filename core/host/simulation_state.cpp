@@ -122,7 +122,7 @@ std::string Simulation::save() const {
 
     std::string bytes(kMagic);
     put(bytes, kStateVersion);
-    put(bytes, foundation(p.world, p.stock.geometries));
+    put(bytes, foundation(p.world, p.assets.geometries));
     put(bytes, static_cast<std::uint64_t>(state.size()));
     put(bytes, hash_of(state));
     return bytes + state;
@@ -130,7 +130,7 @@ std::string Simulation::save() const {
 
 void Simulation::restore(std::string_view bytes) {
     Parts& p = *parts_;
-    StateReader reader(state_in(bytes, foundation(p.world, p.stock.geometries)));
+    StateReader reader(state_in(bytes, foundation(p.world, p.assets.geometries)));
     Keys excluded;
     std::vector<std::uint8_t> broken;
     each_number_of_list(reader, excluded);

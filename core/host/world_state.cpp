@@ -49,7 +49,7 @@ void each_number_of_joints(Io& io, Table& table) {
         io(motor.target), io.count(motor.keys);
         for (auto& key : motor.keys) io(key.time), io(key.value);
     }
-    for (auto& coupling : table.couplings) io(coupling.impulse), io(coupling.owed);
+    for (auto& coupling : table.couplings) io(coupling.impulse), io(coupling.deferred);
 }
 
 template <class Io, class List>
@@ -69,7 +69,7 @@ void each_number_of_memory(Io& io, Table& table) {
     io.count(table.memory_before);
     for (auto& m : table.memory_before) {
         io(m.normal_impulse), io(m.gap);
-        vector(io, m.friction_impulse), vector(io, m.turning_impulse);
+        vector(io, m.friction_impulse), vector(io, m.rolling_impulse);
         vector(io, m.stick_a), vector(io, m.stick_b);
         io(m.sticks), io(m.exact), io(m.jammed), io(m.known), io(m.matched);
     }

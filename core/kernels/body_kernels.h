@@ -38,10 +38,10 @@ struct BodyKernels {
                                double push);
     using Move = void (*)(const BodyColumns&, BodyList, double h);
 
-    Integrate integrate;          ///< without the gyroscopic term
-    Integrate integrate_turning;  ///< with it, angular momentum kept
+    Integrate integrate;             ///< without the gyroscopic term
+    Integrate integrate_gyroscopic;  ///< with it, angular momentum kept
     Move move;
-    Move move_turning;  ///< the angular momentum decides the rate that is left
+    Move move_gyroscopic;  ///< the angular momentum decides the rate that is left
 };
 
 /// `lanes`: 1, 4, 8 or 16, of those that this processor runs.

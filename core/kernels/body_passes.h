@@ -40,8 +40,8 @@ template <int W>
 }
 
 template <int W>
-[[gnu::flatten]] void integrate_turning(const BodyColumns& b, BodyList list,
-                                        const double (&gravity)[3], double h, double push) {
+[[gnu::flatten]] void integrate_gyroscopic(const BodyColumns& b, BodyList list,
+                                           const double (&gravity)[3], double h, double push) {
     using T = Number<double, W>;
     for (std::size_t i = 0; i < list.count; i += W) {
         const ItemGroup<W> group(list, i);
@@ -94,7 +94,7 @@ inline T turns_freely(const Vector3<T>& change, const Vector3<T>& rate, const T&
 
 /// As `move`; L ← L + R I Rᵀ Δω decides the rate that is left. Δω is what the passes changed.
 template <int W>
-[[gnu::flatten]] void move_turning(const BodyColumns& b, BodyList list, double h) {
+[[gnu::flatten]] void move_gyroscopic(const BodyColumns& b, BodyList list, double h) {
     using T = Number<double, W>;
     for (std::size_t i = 0; i < list.count; i += W) {
         const ItemGroup<W> group(list, i);
@@ -124,7 +124,7 @@ template <int W>
 
 template <int W>
 constexpr BodyKernels all_body_kernels() {
-    return {integrate<W>, integrate_turning<W>, move<W>, move_turning<W>};
+    return {integrate<W>, integrate_gyroscopic<W>, move<W>, move_gyroscopic<W>};
 }
 
 }  // namespace plumb::kernels

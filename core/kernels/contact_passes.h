@@ -103,18 +103,18 @@ void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const 
                 store(across.mass_least, tangent.least);
                 store(across.coupling_x, k_of(x, n));
                 store(across.coupling_y, k_of(y, n));
-                if constexpr (V == ContactVariant::turning) {
-                    TurningRow<Real, W>& turning = arrays.turnings[k];
+                if constexpr (V == ContactVariant::rolling) {
+                    RollingRow<Real, W>& rolling = arrays.rollings[k];
                     const TangentMass<T> inertia = rolling_inertia<T>(
-                        turning_response<T>(mass.a, mass.b, x, x),
-                        turning_response<T>(mass.a, mass.b, x, y),
-                        turning_response<T>(mass.a, mass.b, y, y), inverse_or_zero<T>);
-                    store(turning.inertia_xx, inertia.xx);
-                    store(turning.inertia_xy, inertia.xy);
-                    store(turning.inertia_yy, inertia.yy);
-                    store(turning.inertia_least, inertia.least);
-                    store(turning.inertia_n,
-                          inverse_or_zero<T>(turning_response<T>(mass.a, mass.b, n, n)));
+                        angular_response<T>(mass.a, mass.b, x, x),
+                        angular_response<T>(mass.a, mass.b, x, y),
+                        angular_response<T>(mass.a, mass.b, y, y), inverse_or_zero<T>);
+                    store(rolling.inertia_xx, inertia.xx);
+                    store(rolling.inertia_xy, inertia.xy);
+                    store(rolling.inertia_yy, inertia.yy);
+                    store(rolling.inertia_least, inertia.least);
+                    store(rolling.inertia_n,
+                          inverse_or_zero<T>(angular_response<T>(mass.a, mass.b, n, n)));
                 }
             }
         }
@@ -148,23 +148,25 @@ void begin(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
             if constexpr (V != ContactVariant::frictionless) {
                 FrictionRow<Real, W>& across = arrays.frictions[k];
                 const Tangents<T> t = load_tangents(across, n);
-                store(across.velocity_x, T(dot<T>(t.x, u) + load(across.drift_x)));
-                store(across.velocity_y, T(dot<T>(t.y, u) + load(across.drift_y)));
-                store(across.held_x,
-                      carried_over<T>(load(across.held_x), load(across.rubbed_x), pass.warm_start));
-                store(across.held_y,
-                      carried_over<T>(load(across.held_y), load(across.rubbed_y), pass.warm_start));
-                store(across.rubbed_x, T(0));
-                store(across.rubbed_y, T(0));
-                if constexpr (V == ContactVariant::turning) {
-                    TurningRow<Real, W>& turning = arrays.turnings[k];
+                store(across.velocity_x, T(dot<T>(t.x, u) + load(across.anchor_velocity_x)));
+                store(across.velocity_y, T(dot<T>(t.y, u) + load(across.anchor_velocity_y)));
+                store(across.lambda_velocity_x,
+                      carried_over<T>(load(across.lambda_velocity_x),
+                                      load(across.lambda_position_x), pass.warm_start));
+                store(across.lambda_velocity_y,
+                      carried_over<T>(load(across.lambda_velocity_y),
+                                      load(across.lambda_position_y), pass.warm_start));
+                store(across.lambda_position_x, T(0));
+                store(across.lambda_position_y, T(0));
+                if constexpr (V == ContactVariant::rolling) {
+                    RollingRow<Real, W>& rolling = arrays.rollings[k];
                     const Vector3<T> w = pair.a.w - pair.b.w;
-                    store(turning.rate_x, dot<T>(t.x, w));
-                    store(turning.rate_y, dot<T>(t.y, w));
-                    store(turning.rate_n, dot<T>(n, w));
-                    store(turning.torque_x, T(0));
-                    store(turning.torque_y, T(0));
-                    store(turning.torque_n, T(0));
+                    store(rolling.rate_x, dot<T>(t.x, w));
+                    store(rolling.rate_y, dot<T>(t.y, w));
+                    store(rolling.rate_n, dot<T>(n, w));
+                    store(rolling.torque_x, T(0));
+                    store(rolling.torque_y, T(0));
+                    store(rolling.torque_n, T(0));
                 }
             }
         }
@@ -186,7 +188,8 @@ void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodi
             if constexpr (V != ContactVariant::frictionless) {
                 const FrictionRow<Real, W>& across = arrays.frictions[k];
                 const Tangents<T> t = load_tangents(across, n);
-                impulse += t.x * load(across.held_x) + t.y * load(across.held_y);
+                impulse +=
+                    t.x * load(across.lambda_velocity_x) + t.y * load(across.lambda_velocity_y);
             }
             apply<T>(pair, mass, load_vector(row.arm_a), load_vector(row.arm_b), impulse);
         }
@@ -200,24 +203,25 @@ void warm_start(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodi
 enum class Pass { velocity, position };
 
 /// Velocity along n that the velocity pass asks for: a separated contact may close by gap/h, no
-/// more; a collision rebounds.
+/// more; a collision bounces.
 template <class Real, int W, class T = Number<Real, W>>
 inline T wanted_velocity(const NormalRow<Real, W>& row, const PassSettings<Real>& pass) {
-    const T rebound = load(row.rebound);
+    const T bounce = load(row.restitution_velocity);
     const T closing = -max(load(row.gap), T(0)) * T(pass.inverse_h);
-    return select_greater(rebound, T(0), rebound, closing);
+    return select_greater(bounce, T(0), bounce, closing);
 }
 
 /// Gap that the position pass closes in this iteration [m], given the velocity u along n now.
 template <class Real, int W, class T = Number<Real, W>>
 inline T remaining_gap(const NormalRow<Real, W>& row, const PassSettings<Real>& pass, const T& u) {
-    const T gap = load(row.gap), h(pass.h), s(pass.stiffness), rebound = load(row.rebound);
+    const T gap = load(row.gap), h(pass.h), s(pass.stiffness),
+            bounce = load(row.restitution_velocity);
     const T left = overlap_left<T>(gap, T(pass.recovery));
     const T c = (gap + h * u) - left, d = min(gap, T(0)) - left;
     const T resting = pass.shared_push ? gap_below(c, d, s) : gap_to_solve<T>(c, d, s);
-    // a rebound moves the bodies out of their overlap by itself, and the recovery adds nothing to
+    // a bounce moves the bodies out of their overlap by itself, and the recovery adds nothing to
     // it
-    return select_greater(rebound, T(0), h * (u - rebound), resting);
+    return select_greater(bounce, T(0), h * (u - bounce), resting);
 }
 
 /// Push of one iteration: an impulse, of which a displacement is m C / h (§3, end).
@@ -241,9 +245,9 @@ inline T push_row(NormalRow<Real, W>& row, const PassSettings<Real>& pass, const
 
 /// Friction of one point: returns its impulse. u is the velocity before the push along n was made.
 template <Pass P, class Real, int W, class T = Number<Real, W>>
-inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& normal,
-                          const Vector3<T>& n, const Vector3<T>& u, const PassSettings<Real>& pass,
-                          const T& pushed) {
+inline Vector3<T> friction_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& normal,
+                               const Vector3<T>& n, const Vector3<T>& u,
+                               const PassSettings<Real>& pass, const T& pushed) {
     const Tangents<T> t = load_tangents(row, n);
     const Planar<T> velocity{
         load(row.velocity_x) + (dot<T>(t.x, u) + load(row.coupling_x) * pushed),
@@ -254,26 +258,27 @@ inline Vector3<T> rub_row(FrictionRow<Real, W>& row, const NormalRow<Real, W>& n
             position_sum = load(normal.lambda_position);
 
     Planar<T> change;
-    Planar<T> held{load(row.held_x), load(row.held_y)};
+    Planar<T> lambda_velocity{load(row.lambda_velocity_x), load(row.lambda_velocity_y)};
     if constexpr (P == Pass::velocity) {
         const T bound = load(row.friction) * velocity_sum;
-        change = rub<T>(held, {T(0), T(0)}, velocity, mass, bound);
-        store(row.held_x, held.x);
-        store(row.held_y, held.y);
+        change = solve_friction<T>(lambda_velocity, {T(0), T(0)}, velocity, mass, bound);
+        store(row.lambda_velocity_x, lambda_velocity.x);
+        store(row.lambda_velocity_y, lambda_velocity.y);
     } else {
-        Planar<T> rubbed{load(row.rubbed_x), load(row.rubbed_y)};
+        Planar<T> lambda_position{load(row.lambda_position_x), load(row.lambda_position_y)};
         const T push = pass.shared_cone ? velocity_sum + position_sum : position_sum;
-        if (!pass.shared_cone) held = {T(0), T(0)};
-        change = rub<T>(rubbed, held, velocity, mass, T(load(row.friction) * push));
-        store(row.rubbed_x, rubbed.x);
-        store(row.rubbed_y, rubbed.y);
+        if (!pass.shared_cone) lambda_velocity = {T(0), T(0)};
+        change = solve_friction<T>(lambda_position, lambda_velocity, velocity, mass,
+                                   T(load(row.friction) * push));
+        store(row.lambda_position_x, lambda_position.x);
+        store(row.lambda_position_y, lambda_position.y);
     }
     return t.x * change.x + t.y * change.y;
 }
 
 /// Rolling and spinning friction of one point: torques, applied at once.
 template <class Real, int W, class T = Number<Real, W>>
-inline void resist_turning(TurningRow<Real, W>& row, const NormalRow<Real, W>& normal,
+inline void resist_rolling(RollingRow<Real, W>& row, const NormalRow<Real, W>& normal,
                            const FrictionRow<Real, W>& across, const Vector3<T>& n,
                            PairVelocity<T>& pair, const PairMass<T>& mass) {
     const Tangents<T> t = load_tangents(across, n);
@@ -284,7 +289,7 @@ inline void resist_turning(TurningRow<Real, W>& row, const NormalRow<Real, W>& n
                                  load(row.inertia_least)};
     Planar<T> across_sum{load(row.torque_x), load(row.torque_y)};
     const Planar<T> rolled =
-        rub<T>(across_sum, {T(0), T(0)}, rate, inertia, T(load(row.rolling) * push));
+        solve_friction<T>(across_sum, {T(0), T(0)}, rate, inertia, T(load(row.rolling) * push));
     store(row.torque_x, across_sum.x);
     store(row.torque_y, across_sum.y);
 
@@ -304,15 +309,15 @@ inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, Pai
     NormalRow<Real, W>& row = arrays.normals[k];
     const Vector3<T> n = load_vector(row.normal), r_a = load_vector(row.arm_a),
                      r_b = load_vector(row.arm_b);
-    if constexpr (V == ContactVariant::turning)
-        resist_turning<Real, W>(arrays.turnings[k], row, arrays.frictions[k], n, pair, mass);
+    if constexpr (V == ContactVariant::rolling)
+        resist_rolling<Real, W>(arrays.rollings[k], row, arrays.frictions[k], n, pair, mass);
 
     const Vector3<T> u = velocity_at<T>(pair.a, r_a) - velocity_at<T>(pair.b, r_b);
     const T pushed = push_row<P, Real, W>(row, pass, load(row.velocity) + dot<T>(n, u));
     Vector3<T> impulse = n * pushed;
     // friction comes second, so that it ends inside of the cone of the push as it is then
     if constexpr (V != ContactVariant::frictionless)
-        impulse += rub_row<P, Real, W>(arrays.frictions[k], row, n, u, pass, pushed);
+        impulse += friction_row<P, Real, W>(arrays.frictions[k], row, n, u, pass, pushed);
     apply<T>(pair, mass, r_a, r_b, impulse);
 }
 
@@ -343,7 +348,7 @@ template <class Real, int W>
 constexpr std::array<ContactKernels<Real, W>, kContactVariants> all_contact_kernels() {
     return {kernels_of<Real, W, ContactVariant::frictionless>(),
             kernels_of<Real, W, ContactVariant::friction>(),
-            kernels_of<Real, W, ContactVariant::turning>()};
+            kernels_of<Real, W, ContactVariant::rolling>()};
 }
 
 }  // namespace plumb::kernels

@@ -13,9 +13,9 @@ struct TreeKernels {
     using Balls = TreeBalls<kBodyLanes<W>>;
 
     /// `lift`: what the joints of bodies that are held are taken to give them at first [m/s];
-    /// `reach`: how much of an old gap is closed at the most [m].
+    /// `most`: how much of an old gap is closed at the most [m].
     void (*begin)(Balls* blocks, std::size_t count, const BodyStates& bodies, double h,
-                  const double (&lift)[3], double reach);
+                  const double (&lift)[3], double most);
     /// Returns the greatest gap [m].
     double (*evaluate)(Balls* blocks, std::size_t count, const TreeColumns& tables, double h);
     /// `first`: no other child of the parents has been eliminated; `leaves`: there are no children.

@@ -79,7 +79,7 @@ inline void begin_bodies(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
 /// Where the joint's points are. A parent that cannot be moved takes its point along by `shift`.
 template <int N>
 inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGroup<N>& bodies,
-                         double h, double reach) {
+                         double h, double most) {
     using T = Number<double, N>;
     const Vector3<T> local = load_vector(balls.other_point);
     const T impulse = load(balls.load);
@@ -91,7 +91,8 @@ inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
     store_vector(balls.arm, own.arm), store_vector(balls.other_arm, other_arm);
     const Vector3<T> apart = own.point - (other.point * linked + local * held);
     store_vector(balls.apart, apart);
-    store_vector(balls.owed, Vector3<T>(apart * owed_share<T>(dot(apart, apart), T(reach))));
+    store_vector(balls.deferred,
+                 Vector3<T>(apart * deferred_fraction<T>(dot(apart, apart), T(most))));
     store(balls.share, own.lever.share), store(balls.other_share, T(other.lever.share * linked));
     store_vector(balls.lag, own.lever.lag);
     store_vector(balls.other_lag, Vector3<T>(other.lever.lag * linked));
@@ -107,11 +108,11 @@ inline void begin_points(TreeBalls<N>& balls, const BodyStates& b, const ItemGro
 
 template <int N>
 [[gnu::flatten]] void begin_tree(TreeBalls<N>* blocks, std::size_t count, const BodyStates& bodies,
-                                 double h, const double (&lift)[3], double reach) {
+                                 double h, const double (&lift)[3], double most) {
     for (std::size_t i = 0; i < count; ++i) {
         const ItemGroup<N> group(blocks[i].body);
         begin_bodies<N>(blocks[i], bodies, group, lift);
-        begin_points<N>(blocks[i], bodies, group, h, reach);
+        begin_points<N>(blocks[i], bodies, group, h, most);
     }
 }
 
@@ -141,7 +142,7 @@ inline Number<double, N> evaluate_block(TreeBalls<N>& balls, const TreeColumns& 
     const Vector3<T> moved = (v - other.v) * T(h);
     const Vector3<T> gap =
         load_vector(balls.apart) + change + moved - other_change - load_vector(balls.shift);
-    const Vector3<T> open = gap - load_vector(balls.owed);
+    const Vector3<T> open = gap - load_vector(balls.deferred);
     store_vector(balls.gap, open);
     const T violation = select_greater(load(balls.used), T(0), greatest_size<N>(open), T(0));
     store(balls.violation, violation);
@@ -170,7 +171,7 @@ inline void place_impulse(TreeBalls<N>& balls, const TreeColumns& tables, double
     const JointLever<T> other{load(balls.other_share), load_vector(balls.other_lag)};
     const T sign = load(balls.sign), is_a = (T(1) + sign) * T(0.5), is_b = T(1) - is_a;
     const Vector3<T> apart = load_vector(balls.apart);
-    const Vector3<T> opened = load_vector(balls.gap) + load_vector(balls.owed) - apart;
+    const Vector3<T> opened = load_vector(balls.gap) + load_vector(balls.deferred) - apart;
     const Vector3<T> arm = load_vector(balls.arm), other_arm = load_vector(balls.other_arm);
     Vector3<T> acting = arm - (apart + opened * lever.share) * is_b;
     Vector3<T> other_acting = other_arm + (apart + opened * other.share) * is_a;
@@ -194,7 +195,7 @@ inline TreeShare<T> read_share(const std::uint32_t (&nodes)[N], const TreeColumn
 
 template <int N, class T = Number<double, N>>
 inline void keep_elimination(TreeBalls<N>& balls, const BallElimination<T>& e) {
-    store_symmetric<N>(balls.felt, e.mass);
+    store_symmetric<N>(balls.articulated, e.mass);
     store_vector(balls.free, e.free), store_vector(balls.torque, e.torque);
     for (int k = 0; k < 9; ++k) store(balls.across[k], e.across[k / 3][k % 3]);
     const T factors[6] = {e.turn.l10, e.turn.l20, e.turn.l21, e.turn.i0, e.turn.i1, e.turn.i2};
@@ -203,7 +204,7 @@ inline void keep_elimination(TreeBalls<N>& balls, const BallElimination<T>& e) {
 template <int N, class T = Number<double, N>>
 inline BallElimination<T> kept_elimination(const TreeBalls<N>& balls) {
     BallElimination<T> e;
-    e.mass = load_symmetric<N>(balls.felt);
+    e.mass = load_symmetric<N>(balls.articulated);
     e.free = load_vector(balls.free), e.torque = load_vector(balls.torque);
     for (int k = 0; k < 9; ++k) e.across[k / 3][k % 3] = load(balls.across[k]);
     e.turn.l10 = load(balls.turn[0]), e.turn.l20 = load(balls.turn[1]);
@@ -221,7 +222,7 @@ inline void add_to_parents(const TreeBalls<N>& balls, const BallElimination<T>& 
     const Vector3<T> acting = load_vector(balls.other_acting);
     add_at_point<T>(parent.block, e.mass, acting, push);
     parent.stiffness =
-        parent.stiffness + turning_stiffness<T>(acting, Vector3<T>(-load_vector(balls.impulse)),
+        parent.stiffness + angular_stiffness<T>(acting, Vector3<T>(-load_vector(balls.impulse)),
                                                 load(balls.other_share) * T(h));
     T x[kShareNumbers];
     put_share<T>(parent, x);
@@ -240,7 +241,7 @@ template <int N>
         TreeShare<T> whole = leaves ? TreeShare<T>::none() : read_share<N>(balls.node, tables);
         add_body<T>(
             whole, load(balls.mass), load_symmetric<N>(balls.inertia),
-            turning_stiffness<T>(acting, load_vector(balls.impulse), load(balls.share) * T(h)),
+            angular_stiffness<T>(acting, load_vector(balls.impulse), load(balls.share) * T(h)),
             load_velocity<N>(balls.own), balance);
         const BallElimination<T> e = eliminate_ball<T>(whole.block, acting);
         keep_elimination<N>(balls, e);

@@ -11,15 +11,15 @@ namespace {
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 /// Farthest vertex along d [m].
-double vertex_reach(const Shape& s, const Vector3d& d) {
-    double reach = -kInfinite;
+double vertex_support(const Shape& s, const Vector3d& d) {
+    double farthest = -kInfinite;
     for (std::uint32_t i = 0; i < s.vertex_count; ++i)
-        reach = std::max(reach, to_eigen(s.vertices[i]).dot(d));
-    return reach;
+        farthest = std::max(farthest, to_eigen(s.vertices[i]).dot(d));
+    return farthest;
 }
 
 /// Farthest point of a shape along the unit vector d, both in its own frame [m].
-double local_reach(const Shape& s, const Vector3d& d) {
+double local_support(const Shape& s, const Vector3d& d) {
     const double across = std::hypot(d.x(), d.z());
     switch (s.kind) {
         case ShapeKind::plane:
@@ -36,7 +36,7 @@ double local_reach(const Shape& s, const Vector3d& d) {
             return std::max(s.half_height * d.y(), s.radius * across - s.half_height * d.y());
         case ShapeKind::hull:
         case ShapeKind::mesh:
-            return vertex_reach(s, d);
+            return vertex_support(s, d);
         case ShapeKind::height_field:
         case ShapeKind::compound:
             break;
@@ -44,8 +44,8 @@ double local_reach(const Shape& s, const Vector3d& d) {
     return kInfinite;
 }
 
-double reach(const PlacedShape& s, const Vector3d& d) {
-    return s.origin.dot(d) + local_reach(*s.shape, s.rotation.conjugate() * d);
+double support(const PlacedShape& s, const Vector3d& d) {
+    return s.origin.dot(d) + local_support(*s.shape, s.rotation.conjugate() * d);
 }
 
 double height_field_extent(const Shape& s) {
@@ -55,7 +55,7 @@ double height_field_extent(const Shape& s) {
     return std::max({height, s.spacing_x * (s.columns - 1.0), s.spacing_z * (s.rows - 1.0)});
 }
 
-/// The box about a shape in an outer frame, as reaches along its axes; infinite for a plane.
+/// The box about a shape in an outer frame, as supports along its axes; infinite for a plane.
 double compound_extent(const Shape& s) {
     Vector3d low = Vector3d::Constant(kInfinite), high = -low;
     for (std::uint32_t i = 0; i < s.part_count; ++i) {
@@ -63,8 +63,8 @@ double compound_extent(const Shape& s) {
         const PlacedShape placed{&part.shape, to_eigen(part.local.position),
                                  to_eigen(part.local.rotation)};
         for (int k = 0; k < 3; ++k) {
-            high[k] = std::max(high[k], reach(placed, Vector3d::Unit(k)));
-            low[k] = std::min(low[k], -reach(placed, -Vector3d::Unit(k)));
+            high[k] = std::max(high[k], support(placed, Vector3d::Unit(k)));
+            low[k] = std::min(low[k], -support(placed, -Vector3d::Unit(k)));
         }
     }
     return (high - low).maxCoeff();
@@ -98,7 +98,7 @@ bool has_triangles(const Shape& shape) {
 }
 
 double axis_gap(const PlacedShape& a, const PlacedShape& b, const Vector3d& n) {
-    return -reach(a, -n) - reach(b, n);
+    return -support(a, -n) - support(b, n);
 }
 
 double extent_of(const Shape& s) {
@@ -107,8 +107,8 @@ double extent_of(const Shape& s) {
     if (s.kind == ShapeKind::compound) return compound_extent(s);
     double extent = 0;
     for (int k = 0; k < 3; ++k)
-        extent = std::max(extent,
-                          local_reach(s, Vector3d::Unit(k)) + local_reach(s, -Vector3d::Unit(k)));
+        extent = std::max(
+            extent, local_support(s, Vector3d::Unit(k)) + local_support(s, -Vector3d::Unit(k)));
     return extent;
 }
 

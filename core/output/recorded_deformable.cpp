@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "output/recorded_deformable.h"
 
+#include "geometry/outer_faces.h"
 #include "scene/elements_left.h"
-#include "scene/outer_faces.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "reader/deformables.h"
 #include "reader/lists.h"
 #include "reader/polyhedra.h"

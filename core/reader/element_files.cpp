@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <set>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "reader/deformables.h"
 #include "reader/tet_meshes.h"
 #include "scene/coincident_points.h"

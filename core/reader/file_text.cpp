@@ -6,7 +6,7 @@
 #include <sstream>
 #include <system_error>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "scene/error.h"
 
 namespace plumb::reader {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "reader/deformable_shapes.h"
 #include "scene/surface_faults.h"
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 
 namespace plumb::reader {
 

@@ -7,8 +7,8 @@
 /// world. Rods pass through each other.
 #include <cmath>
 
+#include "math/random.h"
 #include "reader/drafts.h"
-#include "reader/random.h"
 #include "scene/build.h"
 
 namespace plumb::reader {

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <unordered_map>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "reader/file_text.h"
 
 namespace plumb::reader {

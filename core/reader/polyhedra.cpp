@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "reader/polyhedra.h"
 
-#include "reader/bad_shape.h"
-#include "reader/decompose.h"
+#include "geometry/bad_shape.h"
+#include "geometry/hills.h"
+#include "geometry/hull.h"
 #include "reader/height_fields.h"
-#include "reader/hull.h"
 #include "reader/lists.h"
 #include "reader/obj.h"
+#include "reader/read_decompose.h"
 
 namespace plumb::reader {
 

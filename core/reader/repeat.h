@@ -2,8 +2,8 @@
 /// The grid of a "repeat", over whose places bodies or deformables are dealt.
 #pragma once
 
+#include "math/random.h"
 #include "reader/drafts.h"
-#include "reader/random.h"
 
 namespace plumb::reader {
 

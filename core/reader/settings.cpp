@@ -64,9 +64,9 @@ const Table<Settings>& settings_table() {
         field<S>("substeps", W{{1, 100000}}, &S::substeps,
                  "small steps to one detection of contacts"),
         field<S>("velocity_iterations", W{kIterations}, &S::velocity_iterations,
-                 "sweeps over the velocity constraints a substep"),
+                 "iterations over the velocity constraints a substep"),
         field<S>("position_iterations", W{kIterations}, &S::position_iterations,
-                 "sweeps over the position constraints a substep"),
+                 "iterations over the position constraints a substep"),
         field<S>("method", Choice<std::string>{{{"pbd", "pbd"}}}, &S::method, "how a step is made"),
         field<S>("precision",
                  Choice<Precision>{{{"single", Precision::single}, {"double", Precision::double_}}},
@@ -92,7 +92,7 @@ const Table<Settings>& settings_table() {
         field<S>("collision_depth", Number{{0, 1e3}}, &S::collision_depth,
                  "depth ε: a pair collides when it approaches faster than √(2 g ε) [m]"),
         field<S>("anchor_stiffness", Number{{0, 1}}, &S::anchor_stiffness,
-                 "share of a sticking contact's drift undone a substep; 0: no anchors"),
+                 "share of a sticking contact's anchor slip undone a substep; 0: no anchors"),
         field<S>("gyroscopic",
                  Choice<Gyroscopic>{{{"conserving", Gyroscopic::conserving},
                                      {"implicit", Gyroscopic::implicit},
@@ -105,16 +105,16 @@ const Table<Settings>& settings_table() {
                  &S::joints,
                  "joints that form trees are solved exactly, or all by iterations; auto: those of "
                  "bodies that hang together exactly, unless more than one in ten closes a loop, a "
-                 "coupling ties two of them, or they are a figure: at most 32 bodies that nothing "
+                 "coupling ties two of them, or they are a ragdoll: at most 32 bodies that nothing "
                  "holds and no motor drives, but limits, springs or friction"),
         field<S>("exact_islands", W{{0, 100000}}, &S::exact_islands,
                  "islands of at most so many bodies that touch are solved exactly, whatever the "
-                 "iterations; 0: all are swept"),
+                 "iterations; 0: all are iterated"),
         field<S>(
             "exact_deformables", W{{0, 10000000}}, &S::exact_deformables,
             "a scene of at most so many particles solves what holds them together as one system, "
             "as stiff as their materials whatever the iterations, for ten to a hundred times "
-            "the time; where there are more, or 0: all are swept"),
+            "the time; where there are more, or 0: all are iterated"),
         field<S>(
             "tree_parts", W{{1, 4096}}, &S::tree_parts,
             "into how many parts a tree of joints that touches nothing may divide a substep in "
@@ -124,7 +124,7 @@ const Table<Settings>& settings_table() {
         field<S>("warm_start", Flag{}, &S::warm_start,
                  "begin from the impulses of the step before"),
         field<S>("alternate_sweeps", Flag{}, &S::alternate_sweeps,
-                 "sweep forwards and backwards in turn"),
+                 "iterate forwards and backwards in turn"),
         field<S>("shared_push", Flag{}, &S::shared_push,
                  "The push of both passes together stays repulsive, not that of each pass alone."),
         field<S>("leapfrog_start", Flag{}, &S::leapfrog_start,

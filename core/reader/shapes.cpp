@@ -5,7 +5,7 @@
 #include "reader/drafts.h"
 #include "reader/height_fields.h"
 #include "reader/polyhedra.h"
-#include "reader/torus.h"
+#include "reader/read_torus.h"
 
 namespace plumb::reader {
 

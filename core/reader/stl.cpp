@@ -8,7 +8,7 @@
 #include <map>
 #include <string_view>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "reader/file_text.h"
 
 namespace plumb::reader {

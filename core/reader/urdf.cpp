@@ -6,7 +6,7 @@
 #include <numbers>
 #include <set>
 
-#include "reader/overlap.h"
+#include "geometry/overlap.h"
 #include "reader/types.h"
 #include "reader/urdf_joints.h"
 #include "reader/urdf_loads.h"

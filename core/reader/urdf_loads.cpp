@@ -81,9 +81,11 @@ std::vector<double> frequency_factors(const std::vector<LinkGroup>& groups,
         const Vector3d p = groups[i].world.position;
         const Vector3d a = groups[i].world.rotation * axis_of(*groups[i].joint);
         const bool slides = is_prismatic(*groups[i].joint);
-        const auto felt = [&](const Load& load) { return slides ? load.mass : load.about(p, a); };
-        double load = felt(branch[i]);
-        if (bodies[root[i]]) load = std::max(load, felt(branch[root[i]] - branch[i]));
+        const auto inertia = [&](const Load& load) {
+            return slides ? load.mass : load.about(p, a);
+        };
+        double load = inertia(branch[i]);
+        if (bodies[root[i]]) load = std::max(load, inertia(branch[root[i]] - branch[i]));
         double response = response_of(*bodies[i], p, a, slides);
         if (const auto& parent = bodies[groups[i].parent])
             response += response_of(*parent, p, a, slides);

@@ -8,8 +8,8 @@
 #include <optional>
 #include <system_error>
 
-#include "reader/bad_shape.h"
-#include "reader/decompose.h"
+#include "geometry/bad_shape.h"
+#include "geometry/decompose.h"
 #include "reader/obj.h"
 #include "reader/polyhedra.h"
 #include "reader/stl.h"

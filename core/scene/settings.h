@@ -50,16 +50,16 @@ struct Settings {
     double collision_depth =
         1e-4;  ///< ε: a pair collides when it approaches faster than √(2 g ε) [m]
     double anchor_stiffness =
-        0.02;  ///< β: share of a sticking contact's drift undone a substep; 0 = no anchors
+        0.02;  ///< β: share of a sticking contact's anchor slip undone a substep; 0 = no anchors
     Gyroscopic gyroscopic = Gyroscopic::conserving;
     bool leapfrog_start = false;  ///< half a push in the first substep: places are then of second
                                   ///< order in its length, velocities those of substeps' middles
 
     JointMethod joints = JointMethod::auto_;
     std::uint32_t exact_islands = 400;  ///< islands of at most so many bodies that touch are solved
-                                        ///< exactly, whatever the iterations; 0 = all are swept
+                                        ///< exactly, whatever the iterations; 0 = all are iterated
     std::uint32_t exact_deformables = 0;  ///< deformables of at most so many particles together are
-                                          ///< solved as one system; 0 = all are swept
+                                          ///< solved as one system; 0 = all are iterated
     std::uint32_t tree_parts = 64;        ///< into how many parts a tree of joints that touches
                                           ///< nothing may divide a substep; 1 = none
     double joint_tolerance = 5e-7;        ///< up to which trees of joints are closed [m], [rad]
@@ -74,9 +74,9 @@ struct Settings {
     std::vector<std::string> forbid;   ///< effects that never run
 };
 
-/// The paper's step to the letter: no warm start, no alternating sweeps, friction bounds of each
-/// pass apart, no anchors, sums of each pass apart, explicit gyroscopic term, contacts detected
-/// anew in every step, joints by iterations.
+/// The paper's step to the letter: no warm start, no alternating iterations, friction bounds of
+/// each pass apart, no anchors, sums of each pass apart, explicit gyroscopic term, contacts
+/// detected anew in every step, joints by iterations.
 inline void apply_paper_preset(Settings& s) {
     s.warm_start = s.alternate_sweeps = s.shared_cone = s.shared_push = false;
     s.anchor_stiffness = s.reuse_distance = 0;

@@ -43,7 +43,7 @@ public:
                               zero_row, rows);
         clear(normals_, rows);
         clear(frictions_, variant != ContactVariant::frictionless ? rows : 0);
-        clear(turnings_, variant == ContactVariant::turning ? rows : 0);
+        clear(rollings_, variant == ContactVariant::rolling ? rows : 0);
     }
 
     /// Calls visit(ContactPlace) for all contacts of the pairs that were laid out, in their order.
@@ -62,7 +62,7 @@ public:
     std::uint32_t block_count() const { return static_cast<std::uint32_t>(blocks_.size()); }
     std::size_t row_count() const { return normals_.size(); }
     ContactArrays<Real, W> arrays() {
-        return {blocks_.data(), normals_.data(), frictions_.data(), turnings_.data()};
+        return {blocks_.data(), normals_.data(), frictions_.data(), rollings_.data()};
     }
 
 private:
@@ -98,7 +98,7 @@ private:
     std::vector<PairBlock<Real, W>> blocks_;
     std::vector<NormalRow<Real, W>> normals_;
     std::vector<FrictionRow<Real, W>> frictions_;
-    std::vector<TurningRow<Real, W>> turnings_;
+    std::vector<RollingRow<Real, W>> rollings_;
     std::vector<BlockRange> ranges_;
     std::vector<Slot> slots_;
 };

@@ -4,7 +4,7 @@
 ///
 /// Lane i of a block is one pair of bodies; row k of the block holds the k-th point of each pair.
 /// Lanes without a pair, and rows beyond a pair's last point, are zero and therefore push nothing.
-/// Tangents exist in memory only where a scene has friction, turning rows only where it has rolling
+/// Tangents exist in memory only where a scene has friction, rolling rows only where it has rolling
 /// or spinning friction.
 #pragma once
 
@@ -32,7 +32,7 @@ struct alignas(kRowAlignment<Real, W>) NormalRow {
     Real arm_a[3][W], arm_b[3][W];  // from the centre of mass to the common point [m]
     Real effective_mass[W];         // 1 / (nᵀ K n) [kg]
     Real gap[W];                    // at the start of the substep [m]
-    Real rebound[W];                // separating speed that restitution asks for [m/s], 0 = none
+    Real restitution_velocity[W];   // separating speed that restitution asks for [m/s], 0 = none
     Real velocity[W];               // along n, at the start of the substep, forces included [m/s]
     Real lambda_velocity[W], lambda_position[W];  // summed impulses of the two passes [N s]
 };
@@ -45,16 +45,16 @@ struct alignas(kRowAlignment<Real, W>) FrictionRow {
     Real mass_least[W];                       // 1 / greatest eigenvalue of K [kg]
     Real coupling_x[W], coupling_y[W];        // t₁ᵀ K n, t₂ᵀ K n [1/kg]
     Real friction[W];                         // μ
-    Real drift_x[W],
-        drift_y[W];  // velocity that brings a sticking contact back to its anchors [m/s]
+    Real anchor_velocity_x[W],
+        anchor_velocity_y[W];           // that brings a sticking contact back to its anchors [m/s]
     Real velocity_x[W], velocity_y[W];  // at the start of the substep, forces included [m/s]
-    Real held_x[W], held_y[W];          // summed impulse of the velocity pass [N s]
-    Real rubbed_x[W], rubbed_y[W];      // summed impulse of the position pass [N s]
+    Real lambda_velocity_x[W], lambda_velocity_y[W];  // summed impulse of the velocity pass [N s]
+    Real lambda_position_x[W], lambda_position_y[W];  // summed impulse of the position pass [N s]
 };
 
-/// Against turning.
+/// Against rolling and spinning.
 template <class Real, int W>
-struct alignas(kRowAlignment<Real, W>) TurningRow {
+struct alignas(kRowAlignment<Real, W>) RollingRow {
     Real rolling[W], spinning[W];  // levers ρ, σ [m]
     Real inertia_xx[W], inertia_xy[W],
         inertia_yy[W];                     // inverse of the tangents' response to torque [kg m²]
@@ -65,7 +65,7 @@ struct alignas(kRowAlignment<Real, W>) TurningRow {
 };
 
 /// Which kinds of rows a batch carries.
-enum class ContactVariant : std::uint32_t { frictionless, friction, turning };
+enum class ContactVariant : std::uint32_t { frictionless, friction, rolling };
 inline constexpr int kContactVariants = 3;
 
 /// The arrays of all blocks, as plain pointers: what crosses the border to a kernel.
@@ -74,7 +74,7 @@ struct ContactArrays {
     PairBlock<Real, W>* blocks;
     NormalRow<Real, W>* normals;
     FrictionRow<Real, W>* frictions;  // nullptr when frictionless
-    TurningRow<Real, W>* turnings;    // nullptr when nothing resists turning
+    RollingRow<Real, W>* rollings;    // nullptr when nothing resists rolling or spinning
 };
 
 /// One body in the velocity table: v, 0, ω, 0.
@@ -100,7 +100,7 @@ struct PassSettings {
     bool warm_start;    // begin with the impulses of the substep before
     bool shared_cone;   // one friction bound for both passes
     bool shared_push;   // the push of both passes together stays repulsive, not of each alone
-    bool forwards;      // direction of this sweep
+    bool forwards;      // direction of this iteration
     std::uint32_t iteration = 0;  // of the pass
     bool alone = false;           // nothing but one group changes velocities in this pass
 };

@@ -20,9 +20,9 @@ BodyPair joined_pair(const World& world, std::uint32_t index) {
 }
 
 /// Sets of dynamic bodies that joints link.
-class Assemblies {
+class JointIslands {
 public:
-    Assemblies(const std::vector<BodyPair>& joints, std::int32_t dynamic_count)
+    JointIslands(const std::vector<BodyPair>& joints, std::int32_t dynamic_count)
         : of_(static_cast<std::size_t>(dynamic_count)) {
         std::iota(of_.begin(), of_.end(), 0);
         for (const BodyPair& j : joints)
@@ -41,7 +41,7 @@ private:
     std::vector<std::int32_t> of_;
 };
 
-/// What speaks for and against solving an assembly as a tree.
+/// What speaks for and against solving an island as a tree.
 struct Census {
     std::uint32_t bodies = 0, joints = 0;
     bool held = false, coupled = false, driven = false, has_motors = false;
@@ -50,39 +50,40 @@ struct Census {
         const std::uint32_t edges = bodies - (held ? 0 : 1);
         return 10 * (joints - std::min(joints, edges)) > joints;
     }
-    /// Figures that fall about: their limits hold as well by iterations, for a tenth of the time,
-    /// and it does not matter that friction under load creeps.
-    bool is_figure() const { return !held && driven && !has_motors && bodies <= kMostOfAFigure; }
-    bool suits_trees() const { return !coupled && !has_many_loops() && !is_figure(); }
+    /// Passive ragdolls, which fall about: their limits hold as well by iterations, for a tenth of
+    /// the time, and it does not matter that friction under load creeps.
+    bool is_passive_ragdoll() const {
+        return !held && driven && !has_motors && bodies <= kMostOfARagdoll;
+    }
+    bool suits_trees() const { return !coupled && !has_many_loops() && !is_passive_ragdoll(); }
 
-    static constexpr std::uint32_t kMostOfAFigure = 32;
+    static constexpr std::uint32_t kMostOfARagdoll = 32;
 };
 
 std::vector<Census> take_census(const World& world, const std::vector<BodyPair>& joints,
-                                Assemblies& assemblies) {
+                                JointIslands& islands) {
     std::vector<Census> census(static_cast<std::size_t>(world.dynamic_count));
-    for (std::int32_t row = 0; row < world.dynamic_count; ++row)
-        ++census[assemblies.root(row)].bodies;
+    for (std::int32_t row = 0; row < world.dynamic_count; ++row) ++census[islands.root(row)].bodies;
     for (const BodyPair& j : joints) {
-        Census& c = census[assemblies.of(j)];
+        Census& c = census[islands.of(j)];
         c.joints += j.count > 0;
         c.held |= j.count > 0 && std::max(j.row_a, j.row_b) >= world.dynamic_count;
     }
     for (const JointDrive& d : world.joints.drives) {
-        Census& c = census[assemblies.of(joints[d.joint])];
+        Census& c = census[islands.of(joints[d.joint])];
         c.driven = true, c.has_motors |= d.kind == DriveKind::motor;
     }
     for (const JointCoupling& c : world.joints.couplings)
         for (const std::uint32_t joint : {c.joint_a, c.joint_b})
-            census[assemblies.of(joints[joint])].coupled = true;
+            census[islands.of(joints[joint])].coupled = true;
     return census;
 }
 
 void leave_out_what_is_iterated(const World& world, std::vector<BodyPair>& joints) {
-    Assemblies assemblies(joints, world.dynamic_count);
-    const std::vector<Census> census = take_census(world, joints, assemblies);
+    JointIslands islands(joints, world.dynamic_count);
+    const std::vector<Census> census = take_census(world, joints, islands);
     for (BodyPair& j : joints)
-        if (!census[assemblies.of(j)].suits_trees()) j.count = 0;
+        if (!census[islands.of(j)].suits_trees()) j.count = 0;
 }
 
 }  // namespace

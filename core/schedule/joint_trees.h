@@ -9,7 +9,8 @@ namespace plumb {
 
 /// The forest of the joints that are to be solved exactly. With JointMethod::auto_, bodies that
 /// hang together are left out where a coupling ties two of their joints, where more than one joint
-/// in ten closes a loop, or where they are a figure: few, held by nothing, driven but by no motor.
+/// in ten closes a loop, or where they are a passive ragdoll: few, held by nothing, driven but by
+/// no motor.
 JointForest find_forest(const World& world);
 
 }  // namespace plumb

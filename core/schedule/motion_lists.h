@@ -10,9 +10,9 @@
 namespace plumb {
 
 struct MotionLists {
-    std::vector<std::uint32_t> plain;     ///< dynamic, without a momentum that is carried
-    std::vector<std::uint32_t> turning;   ///< dynamic, with the gyroscopic term that conserves
-    std::vector<std::uint32_t> scripted;  ///< kinematic
+    std::vector<std::uint32_t> plain;       ///< dynamic, without a momentum that is carried
+    std::vector<std::uint32_t> gyroscopic;  ///< dynamic, with the term that conserves
+    std::vector<std::uint32_t> scripted;    ///< kinematic
 };
 
 /// `gyroscopic`: whether the plan runs that effect.
@@ -23,7 +23,7 @@ inline MotionLists sort_by_motion(const World& world, bool gyroscopic) {
     for (std::uint32_t i = 0; i < b.size(); ++i) {
         if (b.motion[i] == Motion::kinematic) lists.scripted.push_back(i);
         if (b.motion[i] != Motion::dynamic) continue;
-        (conserving && !b.isotropic[i] ? lists.turning : lists.plain).push_back(i);
+        (conserving && !b.isotropic[i] ? lists.gyroscopic : lists.plain).push_back(i);
     }
     return lists;
 }

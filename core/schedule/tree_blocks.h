@@ -59,17 +59,17 @@ struct alignas(64) TreeBalls {
     double arm[3][N], other_arm[3][N], apart[3][N];  // child's point − parent's [m]
     double share[N], other_share[N];                 // JointLever
     double lag[3][N], other_lag[3][N];               // likewise [rad]
-    double shift[3][N];  // of a point on an immovable parent, over the substep [m]
-    double owed[3][N];   // part of `apart` that is left for later [m]
-    double start[6][N];  // velocity with forces and what others changed of it
-    double own[6][N];    // change by this solver
+    double shift[3][N];     // of a point on an immovable parent, over the substep [m]
+    double deferred[3][N];  // part of `apart` that is left for later [m]
+    double start[6][N];     // velocity with forces and what others changed of it
+    double own[6][N];       // change by this solver
     // at the preview
-    double gap[3][N];                         // child's point − parent's, without `owed` [m]
+    double gap[3][N];                         // child's point − parent's, without `deferred` [m]
     double violation[N];                      // its greatest component [m]
     double acting[3][N], other_acting[3][N];  // arms by which the impulse acts [m]
     double impulse[3][N];                     // on the child [N s]
     // eliminated, as in BallElimination
-    double felt[6][N], free[3][N], across[9][N], turn[6][N], torque[3][N];
+    double articulated[6][N], free[3][N], across[9][N], turn[6][N], torque[3][N];
     // what others changed of the velocity, a part of `start`; and the sum with `own` when that was
     // handed on
     double given[6][N], written[6][N];

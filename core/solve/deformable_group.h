@@ -31,7 +31,8 @@ public:
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        // each substep sweeps alike, or what the iterations leave would swing from one to the next
+        // each substep iterates alike, or what the iterations leave would swing from one to the
+        // next
         PassSettings<Real> mine = pass;
         mine.forwards = pass.iteration % 2 == 0;
         keeper_.note(rows, worker);

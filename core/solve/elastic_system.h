@@ -5,10 +5,11 @@
 ///
 ///   ½ (v − v̂)ᵀ M (v − v̂) + E(x + h v)
 ///
-/// over the particles' velocities v: implicit Euler of the elastic energy E. Sweeps over n rows of
-/// elements take n² of them until the first row feels the last; Newton's method takes a few steps,
-/// so that a sheet is as stiff as its data sheet says, however many particles it has and whatever
-/// the iterations. Factors are kept while they lead on quickly: what is at rest takes no new ones.
+/// over the particles' velocities v: implicit Euler of the elastic energy E. Iterations over n rows
+/// of elements take n² of them until the first row feels the last; Newton's method takes a few
+/// steps, so that a sheet is as stiff as its data sheet says, however many particles it has and
+/// whatever the iterations. Factors are kept while they lead on quickly: what is at rest takes no
+/// new ones.
 #pragma once
 
 #include "constraints/volume.h"

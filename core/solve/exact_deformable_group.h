@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// All that holds deformables together, solved as one system. Contacts, links and attachments stay
-/// with the sweeps, in turn with it.
+/// with the iterations, in turn with it.
 #pragma once
 
 #include "schedule/workers.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Joints laid out in blocks of W lanes, colour by colour, and swept in that order. They are laid
-/// out when the world changes, not at each step.
+/// Joints laid out in blocks of W lanes, colour by colour, and iterated in that order. They are
+/// laid out when the world changes, not at each step.
 #pragma once
 
 #include "kernels/joint_kernels.h"
@@ -47,10 +47,10 @@ public:
             fill_mass(bodies, b, to.inverse_mass_b, to.inverse_inertia_b, lane(item));
     }
 
-    /// One sweep over all blocks; every worker takes its share of blocks that are independent, and
-    /// waits for the others.
-    void sweep(JointPass<Block, Real> pass, const BodyRows<Real>& bodies, Real h, Workers& workers,
-               std::uint32_t worker) {
+    /// One iteration over all blocks; every worker takes its share of blocks that are independent,
+    /// and waits for the others.
+    void iterate(JointPass<Block, Real> pass, const BodyRows<Real>& bodies, Real h,
+                 Workers& workers, std::uint32_t worker) {
         for (const BlockRange& range : ranges_) {
             Range share = workers.share(range.last - range.first, worker);
             if (!range.independent)

@@ -8,7 +8,7 @@
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
-#include "solve/contact_sweep.h"
+#include "solve/contact_iteration.h"
 #include "solve/fill_mass.h"
 
 #include <vector>
@@ -78,11 +78,11 @@ public:
 
     void iterate_velocities(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                             std::uint32_t worker) override {
-        sweep(kernels_.solve_velocities, bodies, cold(pass, pass.iteration), worker);
+        iterate(kernels_.solve_velocities, bodies, cold(pass, pass.iteration), worker);
     }
     void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        sweep(kernels_.solve_positions, bodies, cold(pass, pass.iteration), worker);
+        iterate(kernels_.solve_positions, bodies, cold(pass, pass.iteration), worker);
     }
 
     /// Calls visit(contact, RowImpulse) for all contacts, with what they bear in this substep.
@@ -99,8 +99,8 @@ private:
         batches_.each_contact(pairs_, visit);
     }
 
-    /// Each substep begins from nothing and sweeps alike: what deforms is never solved to the end,
-    /// and impulses carried over would feed what is left.
+    /// Each substep begins from nothing and iterates alike: what deforms is never solved to the
+    /// end, and impulses carried over would feed what is left.
     static PassSettings<Real> cold(PassSettings<Real> pass, std::uint32_t iteration) {
         pass.warm_start = false;
         pass.forwards = iteration % 2 == 0;
@@ -109,12 +109,12 @@ private:
 
     void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
              const PassSettings<Real>& pass) {
-        workers_.run([&](std::uint32_t worker) { sweep(kernel, bodies, pass, worker); });
+        workers_.run([&](std::uint32_t worker) { iterate(kernel, bodies, pass, worker); });
     }
 
-    void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
-               const PassSettings<Real>& pass, std::uint32_t worker) {
-        sweep_batches(kernel, batches_, bodies, pass, workers_, worker);
+    void iterate(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
+                 const PassSettings<Real>& pass, std::uint32_t worker) {
+        iterate_batches(kernel, batches_, bodies, pass, workers_, worker);
     }
 
     ContactVariant variant_;

@@ -32,12 +32,12 @@ public:
 
     void begin(const World&, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                double) override {
-        workers_.run([&](std::uint32_t worker) { sweep(kernels_.begin, rows, pass, worker); });
+        workers_.run([&](std::uint32_t worker) { iterate(kernels_.begin, rows, pass, worker); });
     }
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        sweep(kernels_.solve, rows, pass, worker);
+        iterate(kernels_.solve, rows, pass, worker);
     }
 
 private:
@@ -107,8 +107,8 @@ private:
     }
 
     /// Every worker takes its share of blocks that are independent, and waits for the others.
-    void sweep(typename Kernels::Pass kernel, const BodyRows<Real>& rows,
-               const PassSettings<Real>& pass, std::uint32_t worker) {
+    void iterate(typename Kernels::Pass kernel, const BodyRows<Real>& rows,
+                 const PassSettings<Real>& pass, std::uint32_t worker) {
         for (std::size_t i = 0; i < ranges_.size(); ++i) {
             const BlockRange& range = ranges_[pass.forwards ? i : ranges_.size() - 1 - i];
             Range share = workers_.share(range.last - range.first, worker);

@@ -21,7 +21,7 @@ template <class Real>
 class SurfaceContactGroup final : public ConstraintGroup<Real> {
 public:
     SurfaceContactGroup(const Plan& plan, Workers& workers)
-        : rubs_(plan.runs(Effect::friction)), workers_(workers) {}
+        : has_friction_(plan.runs(Effect::friction)), workers_(workers) {}
 
     Stage stage() const override { return Stage::surface_contacts; }
     bool empty() const override { return rows_.empty(); }
@@ -38,7 +38,7 @@ public:
             const SurfaceContact& c = world.surface_contacts[i];
             Row& row = rows_[i];
             row = Row();
-            row.normal = c.normal, row.friction = rubs_ ? c.friction : 0;
+            row.normal = c.normal, row.friction = has_friction_ ? c.friction : 0;
             Vector3d place;
             if (c.point.particle != kNoIndex) {
                 place = p.position[c.point.particle];
@@ -91,12 +91,12 @@ private:
         Vector3d lever[3] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
         Matrix3d inverse_inertia = Matrix3d::Zero();  ///< of the triangle's particles
         double gap = 0, mass = 0, friction = 0;
-        double push = 0;                     ///< summed along the normal [N s]
-        Vector3d rubbed = Vector3d::Zero();  ///< summed across it [N s]
+        double push = 0;                               ///< summed along the normal [N s]
+        Vector3d friction_impulse = Vector3d::Zero();  ///< summed across it [N s]
     };
 
     /// Opposite impulses at two points a thickness apart are a couple. The triangle bears it, as a
-    /// sheet does that is rubbed on one side, so that angular momentum stays.
+    /// sheet does with friction on one side, so that angular momentum stays.
     static void prepare_couple(const Particles& p, const std::array<std::uint32_t, 3>& triangle,
                                Row& row) {
         double whole = 0;
@@ -131,11 +131,11 @@ private:
         Vector3d impulse = pushed * row.normal;
         if (row.friction > 0) {
             const Vector3d across = u - row.normal.dot(u) * row.normal;
-            const Vector3d before = row.rubbed;
-            row.rubbed -= row.mass * across;
-            const double size = row.rubbed.norm(), most = row.friction * row.push;
-            if (size > most) row.rubbed *= most / size;
-            impulse += row.rubbed - before;
+            const Vector3d before = row.friction_impulse;
+            row.friction_impulse -= row.mass * across;
+            const double size = row.friction_impulse.norm(), most = row.friction * row.push;
+            if (size > most) row.friction_impulse *= most / size;
+            impulse += row.friction_impulse - before;
         }
         Velocity<double> change{Vector3d::Zero(), Vector3d::Zero()};
         apply_impulse<double>(change, row.inverse, row.arm, impulse);
@@ -148,7 +148,7 @@ private:
                                         Vector3d::Zero()});
     }
 
-    bool rubs_;
+    bool has_friction_;
     Workers& workers_;
     std::vector<Row> rows_;
 };

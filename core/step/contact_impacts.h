@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// The part of a contact solver's rows in impacts (step/impacts.h): what their compression begins
-/// from, the restitution after it, and the way back to the substep.
+/// The part of a contact solver's rows in impacts (contacts/impacts.h): what their compression
+/// begins from, the restitution after it, and the way back to the substep.
 #pragma once
 
 #include "constraints/connector.h"
+#include "contacts/contact_measures.h"
+#include "contacts/impacts.h"
 #include "schedule/contact_batches.h"
 #include "step/contact_impulses.h"
-#include "step/contact_measures.h"
-#include "step/impacts.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
 
@@ -35,10 +35,10 @@ public:
         batches.each_contact(pairs, [&](const ContactPlace& at) {
             NormalRow<Real, W>& row = rows.normals[at.row];
             row.gap[at.lane] = static_cast<Real>(gap_in_substep(c, at.contact));
-            row.rebound[at.lane] = 0;
+            row.restitution_velocity[at.lane] = 0;
             if (rows.frictions)
-                rows.frictions[at.row].drift_x[at.lane] = rows.frictions[at.row].drift_y[at.lane] =
-                    0;
+                rows.frictions[at.row].anchor_velocity_x[at.lane] =
+                    rows.frictions[at.row].anchor_velocity_y[at.lane] = 0;
         });
     }
 
@@ -47,12 +47,12 @@ public:
     bool give_back(World& world, const Impacts& impacts, const std::vector<BodyPair>& pairs,
                    Batches& batches, const BodyRows<Real>& bodies) {
         ContactTable& c = world.contacts;
-        if (c.rebound.empty()) return false;
+        if (c.restitution.empty()) return false;
         const ContactArrays<Real, W> rows = batches.arrays();
         given_.clear();
         batches.each_contact(pairs, [&](const ContactPlace& at) {
             if (!impacts.is_hit(at.pair) || c.is_passing(at.contact)) return;
-            c.rebound[at.contact] = 0;
+            c.set_restitution(at.contact, 0);
             const Real impulse = restitution(world, rows, at);
             if (!(impulse > 0)) return;
             given_.push_back({at, impacts.is_alone(at.pair)});
@@ -62,7 +62,7 @@ public:
         });
         for (const auto& [at, alone] : given_) {
             NormalRow<Real, W>& row = rows.normals[at.row];
-            row.rebound[at.lane] =
+            row.restitution_velocity[at.lane] =
                 std::max(Real(0), row.velocity[at.lane] + change_along(bodies, sides_of(rows, at)));
             c.bounced[at.contact] = 1;
         }
@@ -78,7 +78,8 @@ public:
         for (const auto& [at, alone] : given_) {
             const double u =
                 separating_velocity(world.bodies, c.found[at.contact], c.point[at.contact]);
-            c.rebound[at.contact] = alone ? std::max(u, 0.0) : (u > 0 ? ContactTable::kParting : 0);
+            c.set_restitution(at.contact,
+                              alone ? std::max(u, 0.0) : (u > 0 ? ContactTable::kParting : 0));
         }
         given_.clear();
     }

@@ -16,8 +16,8 @@ inline void each_sum(const ContactArrays<Real, W>& rows, std::size_t k, Visit vi
     visit(row.lambda_velocity), visit(row.lambda_position);
     if (!rows.frictions) return;
     FrictionRow<Real, W>& across = rows.frictions[k];
-    visit(across.held_x), visit(across.held_y);
-    visit(across.rubbed_x), visit(across.rubbed_y);
+    visit(across.lambda_velocity_x), visit(across.lambda_velocity_y);
+    visit(across.lambda_position_x), visit(across.lambda_position_y);
 }
 
 /// Those of all rows, put aside while the rows serve another purpose.

@@ -3,19 +3,19 @@
 /// back.
 #pragma once
 
+#include "contacts/contact_measures.h"
+#include "contacts/contact_pairs.h"
+#include "contacts/contact_sums.h"
+#include "contacts/impacts.h"
 #include "effects/plan.h"
 #include "kernels/contact_kernels.h"
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
-#include "solve/contact_sweep.h"
+#include "solve/contact_iteration.h"
 #include "solve/fill_mass.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
-#include "step/contact_measures.h"
-#include "step/contact_pairs.h"
-#include "step/contact_sums.h"
-#include "step/impacts.h"
 #include "step/island_group.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
@@ -26,7 +26,7 @@ namespace plumb {
 
 /// The variant of rows that a plan calls for.
 inline ContactVariant contact_variant(const Plan& plan) {
-    if (plan.runs(Effect::turning_friction)) return ContactVariant::turning;
+    if (plan.runs(Effect::turning_friction)) return ContactVariant::rolling;
     return plan.runs(Effect::friction) ? ContactVariant::friction : ContactVariant::frictionless;
 }
 
@@ -35,7 +35,7 @@ class ContactSolver final : public ConstraintGroup<Real> {
 public:
     ContactSolver(const Plan& plan, Workers& workers)
         : variant_(contact_variant(plan)),
-          rubs_(plan.runs(Effect::friction)),
+          has_friction_(plan.runs(Effect::friction)),
           kernels_(contact_kernels<Real, W>(variant_)),
           workers_(workers) {}
 
@@ -69,7 +69,7 @@ public:
     }
 
     /// Impulses that the contacts remember of the step before. `exact` as in `load`: of an island
-    /// that was solved exactly and comes back to the sweeps, it says which contacts go on.
+    /// that was solved exactly and comes back to the iterations, it says which contacts go on.
     void load_impulses(const World& world, const IslandGroup* exact) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
@@ -82,16 +82,16 @@ public:
             if (!rows.frictions) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
             const auto [x, y] = tangents_of(rows.normals[k], across, lane);
-            across.held_x[lane] = static_cast<Real>(x.dot(memory.friction_impulse));
-            across.held_y[lane] = static_cast<Real>(y.dot(memory.friction_impulse));
+            across.lambda_velocity_x[lane] = static_cast<Real>(x.dot(memory.friction_impulse));
+            across.lambda_velocity_y[lane] = static_cast<Real>(y.dot(memory.friction_impulse));
         });
     }
 
     /// Overlaps deeper than the substep may push out.
     std::uint32_t clamped() const { return clamped_; }
 
-    /// Arms, masses, gaps, rebounds and drifts of the substep; sums of the pass before become the
-    /// start of this one.
+    /// Arms, masses, gaps, restitution and anchor slip of the substep; sums of the pass before
+    /// become the start of this one.
     void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                double) override {
         clamped_ = 0;
@@ -104,15 +104,17 @@ public:
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             NormalRow<Real, W>& row = rows.normals[k];
             row.gap[lane] = static_cast<Real>(gap_in_substep(c, contact));
-            row.rebound[lane] = static_cast<Real>(asked_rebound(c, contact));
+            row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
             clamped_ += -static_cast<Real>(c.gap[contact]) > pass.recovery;
             if (-c.gap[contact] > trusted_[contact])
-                doubt(rows, k, lane, -c.gap[contact] / trusted_[contact]);
-            if (!rows.frictions || c.drift.empty()) return;
+                damp_impulses(rows, k, lane, -c.gap[contact] / trusted_[contact]);
+            if (!rows.frictions || c.anchor_slip.empty()) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
             const auto [x, y] = tangents_of(row, across, lane);
-            across.drift_x[lane] = static_cast<Real>(pull * x.dot(c.drift[contact]));
-            across.drift_y[lane] = static_cast<Real>(pull * y.dot(c.drift[contact]));
+            across.anchor_velocity_x[lane] =
+                static_cast<Real>(pull * x.dot(c.anchor_slip[contact]));
+            across.anchor_velocity_y[lane] =
+                static_cast<Real>(pull * y.dot(c.anchor_slip[contact]));
         });
         run(kernels_.begin, bodies, pass);
         bend(c);
@@ -150,14 +152,14 @@ public:
     }
     void iterate_velocities(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                             std::uint32_t worker) override {
-        sweep(kernels_.solve_velocities, bodies, pass, worker);
+        iterate(kernels_.solve_velocities, bodies, pass, worker);
     }
     void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        sweep(kernels_.solve_positions, bodies, pass, worker);
+        iterate(kernels_.solve_positions, bodies, pass, worker);
     }
 
-    /// One sweep in which each batch is solved `rounds` times before the next.
+    /// One iteration in which each batch is solved `rounds` times before the next.
     void rounds_iteration(const BodyRows<Real>& bodies, PassSettings<Real> pass,
                           std::uint32_t rounds, std::uint32_t worker) {
         const ContactArrays<Real, W> rows = batches_.arrays();
@@ -171,8 +173,8 @@ public:
     /// A contact that its impulses could not keep from a deep overlap is squeezed by more than they
     /// can hold: they would grow with every substep, and fly apart where they act askew. `overlap`:
     /// over the trusted one.
-    static void doubt(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
-                      double overlap) {
+    static void damp_impulses(const ContactArrays<Real, W>& rows, std::uint32_t k,
+                              std::uint32_t lane, double overlap) {
         const Real kept = static_cast<Real>(std::max(kLeastKept, 2 - overlap));
         each_sum(rows, k, [&](Real* sum) { sum[lane] *= kept; });
     }
@@ -203,7 +205,7 @@ public:
             ContactMemory& memory = world.contacts.memory[contact];
             const RowImpulse p = impulse_of(rows, k, lane);
             memory.normal_impulse = p.normal;
-            memory.turning_impulse.setZero();
+            memory.rolling_impulse.setZero();
             memory.sticks = memory.exact = false;
             if (!rows.frictions) return;
             memory.friction_impulse = p.friction();
@@ -297,10 +299,11 @@ private:
         for (int i = 0; i < 3; ++i) rows.normals[k].normal[i][lane] = static_cast<Real>(normal[i]);
         const SurfacePair& surface = world.surface_pair(c.a, c.b);
         if (rows.frictions)
-            rows.frictions[k].friction[lane] = static_cast<Real>(rubs_ ? surface.friction : 0);
-        if (!rows.turnings) return;
-        rows.turnings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
-        rows.turnings[k].spinning[lane] = static_cast<Real>(surface.spinning_friction);
+            rows.frictions[k].friction[lane] =
+                static_cast<Real>(has_friction_ ? surface.friction : 0);
+        if (!rows.rollings) return;
+        rows.rollings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
+        rows.rollings[k].spinning[lane] = static_cast<Real>(surface.spinning_friction);
     }
 
     static void copy_row(const ContactArrays<Real, W>& to, std::uint32_t k, std::uint32_t lane,
@@ -312,24 +315,27 @@ private:
         to.normals[k].lambda_position[lane] = 0;
         if (!to.frictions) return;
         const FrictionRow<Real, W>& across = from.frictions[j];
-        to.frictions[k].held_x[lane] = across.held_x[from_lane] + across.rubbed_x[from_lane];
-        to.frictions[k].held_y[lane] = across.held_y[from_lane] + across.rubbed_y[from_lane];
-        to.frictions[k].rubbed_x[lane] = to.frictions[k].rubbed_y[lane] = 0;
+        to.frictions[k].lambda_velocity_x[lane] =
+            across.lambda_velocity_x[from_lane] + across.lambda_position_x[from_lane];
+        to.frictions[k].lambda_velocity_y[lane] =
+            across.lambda_velocity_y[from_lane] + across.lambda_position_y[from_lane];
+        to.frictions[k].lambda_position_x[lane] = to.frictions[k].lambda_position_y[lane] = 0;
     }
 
     /// Runs a kernel over all blocks in one go each batch, all workers together.
     void run(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
              const PassSettings<Real>& pass) {
-        workers_.run([&](std::uint32_t worker) { sweep(kernel, bodies, pass, worker); });
+        workers_.run([&](std::uint32_t worker) { iterate(kernel, bodies, pass, worker); });
     }
 
-    void sweep(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
-               const PassSettings<Real>& pass, std::uint32_t worker) {
-        sweep_batches(kernel, batches_, bodies, pass, workers_, worker);
+    void iterate(ContactPass<Real, W> kernel, const BodyRows<Real>& bodies,
+                 const PassSettings<Real>& pass, std::uint32_t worker) {
+        iterate_batches(kernel, batches_, bodies, pass, workers_, worker);
     }
 
     ContactVariant variant_;
-    bool rubs_;  // rows that resist turning have room for friction, too, where it is forbidden
+    bool has_friction_;  // rows that resist rolling have room for friction, too, where it is
+                         // forbidden
     const ContactKernels<Real, W>& kernels_;
     Workers& workers_;
     std::vector<BodyPair> pairs_;

@@ -3,8 +3,8 @@
 /// so they are solved one after another.
 ///
 /// What the motion has added to C goes in one substep, so that a gear holds. More than a few
-/// substeps can have added, such as an offset far from where the joints stand, is owed and goes at
-/// Settings::recovery_speed.
+/// substeps can have added, such as an offset far from where the joints stand, is deferred and goes
+/// at Settings::recovery_speed.
 #pragma once
 
 #include "schedule/contact_rows.h"
@@ -38,7 +38,7 @@ public:
             const bool whole = !world.joints.joints[coupling.joint_a].broken &&
                                !world.joints.joints[coupling.joint_b].broken;
             row.mass = whole && k > 0 ? 1 / k : 0;
-            row.owed = first ? coupling.owed : rows_[i].owed;
+            row.deferred = first ? coupling.deferred : rows_[i].deferred;
             set_bias(row, world, coupling, a, b, h);
             rows_[i] = row;
         }
@@ -57,7 +57,7 @@ public:
     void store_impulses(JointTable& table) const {
         for (std::size_t i = 0; i < rows_.size(); ++i) {
             table.couplings[i].impulse = rows_[i].lambda;
-            table.couplings[i].owed = rows_[i].owed;
+            table.couplings[i].deferred = rows_[i].deferred;
         }
     }
 
@@ -71,7 +71,7 @@ private:
     struct Row {
         std::array<Side, 4> sides;
         double mass = 0, bias = 0, lambda = 0;
-        double owed = 0;  ///< of C [m], [rad]
+        double deferred = 0;  ///< of C [m], [rad]
     };
 
     /// What iterations leave adds up over so many substeps at most.
@@ -109,10 +109,10 @@ private:
             std::abs(joint_rate(world.bodies, joints[coupling.joint_b], b)) +
             std::abs(coupling.ratio * joint_rate(world.bodies, joints[coupling.joint_a], a));
         const double recovered = h * world.settings.recovery_speed;
-        row.owed = without(row.owed, recovered);
-        const double made = b.value - coupling.ratio * a.value - coupling.offset - row.owed;
+        row.deferred = without(row.deferred, recovered);
+        const double made = b.value - coupling.ratio * a.value - coupling.offset - row.deferred;
         const double excess = without(made, recovered + kMadeAtOnce * h * speed);
-        row.owed += excess;
+        row.deferred += excess;
         row.bias = (made - excess) / h;
     }
 

@@ -48,7 +48,7 @@ Vector3d pushed_rate(const Bodies& b, std::uint32_t body, const Vector3d& change
 }
 
 /// How fast what a joint sees of a body turns: the arm, and the axes that it keeps [rad/s].
-double turning_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
+double angular_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
                     const Placement& frame) {
     if (body == kNoIndex) return 0;
     const Vector3d& w = b.angular_velocity[body];
@@ -67,14 +67,14 @@ double turning_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
 }
 
 /// Of the joints that turn most [rad/s].
-double turning_rate(const World& world, const std::vector<std::uint32_t>& joints) {
+double angular_rate(const World& world, const std::vector<std::uint32_t>& joints) {
     const Bodies& b = world.bodies;
     double most = 0;
     for (const std::uint32_t i : joints) {
         const Joint& joint = world.joints.joints[i];
         if (joint.broken) continue;
-        most = std::max({most, turning_rate(b, joint, joint.a, joint.frame_a),
-                         turning_rate(b, joint, joint.b, joint.frame_b)});
+        most = std::max({most, angular_rate(b, joint, joint.a, joint.frame_a),
+                         angular_rate(b, joint, joint.b, joint.frame_b)});
         if (!(joint.length > 0)) continue;
         const auto velocity = [&](std::uint32_t body, const Placement& frame) -> Vector3d {
             if (body == kNoIndex) return Vector3d::Zero();
@@ -172,8 +172,8 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
             if (tree_with[joint]) tree_with[joint]->may_divide = false;
     for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i)
         if (Tree* tree = tree_with[world.joints.drives[i].joint]) tree->drives.push_back(i);
-    for (const std::uint32_t i : turning_joints(world))
-        if (tree_with[i]) tree_with[i]->turning.push_back(i);
+    for (const std::uint32_t i : revolute_joints(world))
+        if (tree_with[i]) tree_with[i]->revolute.push_back(i);
 }
 
 /// Returns the tree of each body, or none.
@@ -189,14 +189,14 @@ std::vector<DividedTrees::Tree*> DividedTrees::share_out_bodies(const World& wor
         }
     const MotionLists all = sort_by_motion(world, plan.runs(Effect::gyroscopic));
     carries_momentum_.assign(world.bodies.size(), 0);
-    for (const std::uint32_t body : all.turning) carries_momentum_[body] = 1;
+    for (const std::uint32_t body : all.gyroscopic) carries_momentum_[body] = 1;
     for (std::uint32_t body = 0; body < tree_of.size(); ++body) {
         if (!tree_of[body]) continue;
         MotionLists& motion = tree_of[body]->motion;
         tree_of[body]->bodies.push_back(body);
-        (carries_momentum_[body] ? motion.turning : motion.plain).push_back(body);
+        (carries_momentum_[body] ? motion.gyroscopic : motion.plain).push_back(body);
     }
-    for (auto* list : {&rest_.plain, &rest_.turning, &rest_.scripted})
+    for (auto* list : {&rest_.plain, &rest_.gyroscopic, &rest_.scripted})
         list->reserve(world.bodies.size());
     return tree_of;
 }
@@ -223,7 +223,7 @@ bool DividedTrees::turns_little(const Bodies& b, const Tree& tree, double h) {
 /// 0: none.
 std::uint32_t DividedTrees::wanted_parts(const World& world, const Tree& tree, double h) {
     if (turns_little(world.bodies, tree, h)) return 0;
-    const double turn = h * turning_rate(world, tree.joints);
+    const double turn = h * angular_rate(world, tree.joints);
     if (turn < kLittle) return 0;
     const double swing = std::sqrt(greatest_load(world, tree.joints, h));
     return parts_for(std::max(turn / kTurn, swing < kHeavy ? swing / kSwing : 0),
@@ -262,9 +262,9 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     tree.solver.load_impulses(world.joints);
     tree.solver.begin(world, time);
     tree.solver.solve();
-    if (!tree.motion.turning.empty()) turn_as_free(b, time.h, tree);
+    if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, tree);
     tree.solver.take_velocities(b);
-    return tree.solver.open().empty() && !(time.h * turning_rate(world, tree.joints) > kTooFar);
+    return tree.solver.open().empty() && !(time.h * angular_rate(world, tree.joints) > kTooFar);
 }
 
 /// Until the rates are those of free bodies with the momentum that the joints leave them: what
@@ -289,7 +289,7 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
     for (std::uint32_t done = 0; done < parts; ++done) {
         if (done > 0) {
             remember_velocities(world.bodies, tree.bodies);
-            count_turns(world, tree.turning);
+            count_turns(world, tree.revolute);
         }
         for (;; parts *= 2, done *= 2) {
             const bool fresh = world.settings.leapfrog_start && world.time == 0 && done == 0;
@@ -343,7 +343,7 @@ const MotionLists& DividedTrees::advance(World& world, const Plan& plan, Workers
         std::copy_if(from.begin(), from.end(), std::back_inserter(to),
                      [&](std::uint32_t body) { return !moved_[body]; });
     };
-    leave(all.plain, rest_.plain), leave(all.turning, rest_.turning);
+    leave(all.plain, rest_.plain), leave(all.gyroscopic, rest_.gyroscopic);
     leave(all.scripted, rest_.scripted);
     return rest_;
 }

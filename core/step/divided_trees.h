@@ -46,9 +46,9 @@ private:
     struct Tree {
         std::uint32_t first = kNoIndex;  ///< joint, which keeps the pace
         std::vector<std::uint32_t> joints, bodies, drives;
-        std::vector<std::uint32_t> holders;  ///< kinematic bodies that it hangs by
-        std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
-        MotionLists motion;                  ///< of its bodies
+        std::vector<std::uint32_t> holders;   ///< kinematic bodies that it hangs by
+        std::vector<std::uint32_t> revolute;  ///< joints whose turns are counted
+        MotionLists motion;                   ///< of its bodies
         TreeSolver<1> solver;
         bool may_divide = true;  ///< nothing else ever holds or moves its bodies
         bool has_lines = false;  ///< of distance joints

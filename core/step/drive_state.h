@@ -3,7 +3,7 @@
 #pragma once
 
 #include "constraints/drive_rows.h"
-#include "constraints/felt_mass.h"
+#include "constraints/effective_mass.h"
 #include "step/joint_geometry.h"
 
 namespace plumb {
@@ -11,8 +11,8 @@ namespace plumb {
 /// What a drive at q moves while its joint holds [kg], [kg m²]; 0 where nothing can move.
 inline double driven_mass(const World& world, const Joint& joint, const JointGeometry<double>& g,
                           const JointCoordinate& q) {
-    return felt_mass(g, q, inverse_mass(world.bodies, joint.a),
-                     inverse_mass(world.bodies, joint.b));
+    return effective_mass(g, q, inverse_mass(world.bodies, joint.a),
+                          inverse_mass(world.bodies, joint.b));
 }
 
 /// `mass`: driven_mass, of springs.

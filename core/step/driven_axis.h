@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// One axis of a tree's joint with all that drives it, as a row of the Newton steps that solve the
-/// tree (step/tree_solver.h). Where the staircase of constraints/axis_drive.h is flat, the impulse
+/// tree (step/tree_solver.h). Where the force law of constraints/axis_drive.h is flat, the impulse
 /// is known and is no row.
 #pragma once
 
@@ -22,7 +22,7 @@ public:
     void begin(const World& world, const SubstepTime& time);
     void forget() { impulse_ = 0; }
 
-    /// Looks at which piece of the staircase the axis is, by the velocities of the joint's a and b.
+    /// Looks at which piece of the force law the axis is, by the velocities of the joint's a and b.
     /// `settle`: it leaves a row for good where its impulse is beyond its bounds and goes nowhere
     /// else, so that the search ends. Returns how far off the axis is [m], [rad].
     double evaluate(const Velocity<double>& a, const Velocity<double>& b, bool settle);

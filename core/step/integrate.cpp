@@ -61,7 +61,7 @@ void integrate_velocities(World& world, const Plan& plan, const MotionLists& lis
     const Vector3d g = world.settings.gravity * (fall / push);
     const double gravity[3] = {g.x(), g.y(), g.z()};
     kernels.integrate(columns, list_of(lists.plain), gravity, h, push);
-    kernels.integrate_turning(columns, list_of(lists.turning), gravity, h, push);
+    kernels.integrate_gyroscopic(columns, list_of(lists.gyroscopic), gravity, h, push);
     if (plan.runs(Effect::gyroscopic) && world.settings.gyroscopic != Gyroscopic::conserving)
         add_gyroscopic_term(world.bodies, lists.plain, world.settings.gyroscopic, h);
 }
@@ -71,7 +71,7 @@ void move(World& world, const MotionLists& lists, double h) {
     const BodyColumns columns = columns_of(world.bodies);
     kernels.move(columns, list_of(lists.plain), h);
     kernels.move(columns, list_of(lists.scripted), h);
-    kernels.move_turning(columns, list_of(lists.turning), h);
+    kernels.move_gyroscopic(columns, list_of(lists.gyroscopic), h);
 }
 
 }  // namespace plumb

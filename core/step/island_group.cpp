@@ -4,7 +4,7 @@
 #include "constraints/connector.h"
 #include "constraints/contact.h"
 #include "constraints/friction.h"
-#include "step/contact_measures.h"
+#include "contacts/contact_measures.h"
 
 #include <algorithm>
 #include <cmath>
@@ -81,8 +81,8 @@ double closing_velocity(double gap, double h, double recovery, double stiffness)
 
 IslandGroup::IslandGroup(const Plan& plan, Workers& workers)
     : workers_(workers),
-      rubs_(plan.runs(Effect::friction)),
-      resists_turning_(plan.runs(Effect::turning_friction)),
+      has_friction_(plan.runs(Effect::friction)),
+      resists_rolling_(plan.runs(Effect::turning_friction)),
       solvers_(workers.count()) {}
 
 // ---- once a step
@@ -140,8 +140,9 @@ bool IslandGroup::is_exact(const World& world, const ContactIsland& island,
 bool IslandGroup::is_slow(const World& world, const Contact& contact) const {
     const Bodies& b = world.bodies;
     const std::uint32_t body = b.motion[contact.a] == Motion::dynamic ? contact.a : contact.b;
-    const double speed = b.velocity[body].norm() + b.reach[body] * b.angular_velocity[body].norm();
-    return speed <= calm_speed(world, b.reach[body], pull_on(world, body));
+    const double speed =
+        b.velocity[body].norm() + b.bounding_radius[body] * b.angular_velocity[body].norm();
+    return speed <= calm_speed(world, b.bounding_radius[body], pull_on(world, body));
 }
 
 void IslandGroup::find_upset(const World& world, const ContactIsland& island,
@@ -215,7 +216,7 @@ bool IslandGroup::is_calm(const World& world, const ContactIsland& island,
         const Contact& c = world.contacts.found[pair.first];
         for (const std::uint32_t body : {c.a, c.b}) {
             if (b.motion[body] != Motion::dynamic) continue;
-            radius = std::max(radius, b.reach[body]);
+            radius = std::max(radius, b.bounding_radius[body]);
             pull = std::max(pull, pull_on(world, body));
         }
     }
@@ -275,7 +276,7 @@ void IslandGroup::take_memory(const World& world) {
         p.impulse.head<3>() = p.frame.transpose() * memory.friction_impulse;
         p.impulse[0] = memory.normal_impulse;
         if (p.cone.turns())
-            p.impulse.tail<3>() = p.frame.transpose() * memory.turning_impulse / p.length;
+            p.impulse.tail<3>() = p.frame.transpose() * memory.rolling_impulse / p.length;
     }
 }
 
@@ -305,8 +306,8 @@ void IslandGroup::take_geometry(const World& world, IslandPoint& p, std::uint32_
     p.length = std::sqrt(1 / (largest(of_a.inertia + of_b.inertia) * p.mass));
     p.impulse.tail<3>() *= before / p.length;  // the torque stays
     p.cone = {};
-    if (rubs_) p.cone.friction = surface.friction;
-    if (!resists_turning_) return;
+    if (has_friction_) p.cone.friction = surface.friction;
+    if (!resists_rolling_) return;
     p.cone.spinning = surface.spinning_friction / p.length;
     p.cone.rolling = surface.rolling_friction / p.length;
 }
@@ -382,14 +383,14 @@ void IslandGroup::ask(const World& world, std::size_t k, double h, double recove
     const std::uint32_t contact = contacts_[k];
     IslandPoint& p = points_[k];
 
-    const double rebound = asked_rebound(c, contact);
+    const double bounce = restitution_velocity_of(c, contact);
     double normal = closing_velocity(gap_in_substep(c, contact), h, recovery, s.stiffness);
     if (std::abs(normal) < least) normal = 0;
-    if (rebound > 0) normal = rebound;
+    if (bounce > 0) normal = bounce;
 
     Vector3d across = Vector3d::Zero();
-    if (!c.drift.empty()) {
-        across = p.frame.transpose() * (-s.anchor_stiffness / h * c.drift[contact]);
+    if (!c.anchor_slip.empty()) {
+        across = p.frame.transpose() * (-s.anchor_stiffness / h * c.anchor_slip[contact]);
         across[0] = 0;
         if (across.cwiseAbs().maxCoeff() < least) across.setZero();
     }
@@ -467,7 +468,7 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         ContactMemory& memory = contacts.memory[contacts_[k]];
         memory.normal_impulse = p.impulse[0];
         memory.friction_impulse = p.frame.rightCols<2>() * p.impulse.segment<2>(1);
-        memory.turning_impulse = p.length * (p.frame * p.impulse.tail<3>());
+        memory.rolling_impulse = p.length * (p.frame * p.impulse.tail<3>());
         memory.exact = true;
         memory.jammed = false;
         memory.gap = contacts.found[contacts_[k]].gap;

@@ -8,10 +8,10 @@
 /// creep.
 #pragma once
 
+#include "contacts/contact_sums.h"
 #include "effects/plan.h"
 #include "schedule/contact_islands.h"
 #include "schedule/workers.h"
-#include "step/contact_sums.h"
 #include "step/island_solver.h"
 #include "world/world.h"
 
@@ -82,7 +82,7 @@ private:
     Island island_of(const Member& member);
 
     Workers& workers_;
-    bool rubs_, resists_turning_;
+    bool has_friction_, resists_rolling_;
     ContactIslands found_;
     std::vector<std::uint8_t> jointed_;  // [dynamic row]
     std::vector<double> bears_;          // [dynamic row], see goes_on [N s]

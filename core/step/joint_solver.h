@@ -41,8 +41,8 @@ public:
         couplings_.begin(world, h);
     }
 
-    /// One sweep from the roots of the trees outwards. What holds the bodies together has the last
-    /// word over what drives them.
+    /// One iteration from the roots of the trees outwards. What holds the bodies together has the
+    /// last word over what drives them.
     void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
         const Real h = pass.h;
@@ -50,9 +50,9 @@ public:
             if (worker == 0) couplings_.solve(bodies);
             workers_.barrier();
         }
-        drives_.sweep(kernels_.drives, bodies, h, workers_, worker);
-        balls_.sweep(kernels_.balls, bodies, h, workers_, worker);
-        blocks_.sweep(kernels_.joints, bodies, h, workers_, worker);
+        drives_.iterate(kernels_.drives, bodies, h, workers_, worker);
+        balls_.iterate(kernels_.balls, bodies, h, workers_, worker);
+        blocks_.iterate(kernels_.joints, bodies, h, workers_, worker);
     }
 
     void end_substep(World& world) override {

@@ -95,15 +95,15 @@ JointLoad joint_load(const World& world, std::uint32_t index) {
     return {per_second * load.force, per_second * load.torque};
 }
 
-std::vector<std::uint32_t> turning_joints(const World& world) {
-    std::vector<std::uint32_t> turning;
+std::vector<std::uint32_t> revolute_joints(const World& world) {
+    std::vector<std::uint32_t> revolute;
     for (std::uint32_t i = 0; i < world.joints.size(); ++i)
-        if (single_turn(world.joints.joints[i]) < kJointAxes) turning.push_back(i);
-    return turning;
+        if (single_turn(world.joints.joints[i]) < kJointAxes) revolute.push_back(i);
+    return revolute;
 }
 
-void count_turns(World& world, const std::vector<std::uint32_t>& turning) {
-    for (const std::uint32_t i : turning)
+void count_turns(World& world, const std::vector<std::uint32_t>& revolute) {
+    for (const std::uint32_t i : revolute)
         world.joints.turn[i] =
             joint_coordinate(world, i, single_turn(world.joints.joints[i])).value;
 }

@@ -25,16 +25,16 @@ double joint_rate_before(const Bodies& bodies, const Joint& joint, const JointCo
 
 /// Force at the joint's point of a and torque on a, from b; world frame [N], [N m]. Motors,
 /// springs, limits and friction of the joint are part of it. The mean of the last two substeps:
-/// iterations sweep forwards and backwards in turn, and so does what they have not settled.
+/// iterations run forwards and backwards in turn, and so does what they have not settled.
 struct JointLoad {
     Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
 };
 JointLoad joint_load(const World& world, std::uint32_t joint);
 
 /// Joints that leave one rotation free, by index; their angles are counted through whole turns.
-std::vector<std::uint32_t> turning_joints(const World& world);
+std::vector<std::uint32_t> revolute_joints(const World& world);
 
-/// Follows the angles of turning joints; called once a substep.
-void count_turns(World& world, const std::vector<std::uint32_t>& turning);
+/// Follows the angles of revolute joints; called once a substep.
+void count_turns(World& world, const std::vector<std::uint32_t>& revolute);
 
 }  // namespace plumb

@@ -28,7 +28,7 @@ inline double load_of(const Joint& joint, std::uint32_t first, JointSolve solve)
 /// joint_lever.h). Where the body turns by δ, u does, too, and M changes by λ u (w · δ): it couples
 /// turns about u with turns about w. Where the world holds the joint and leaves one turn free or
 /// none, there is nothing to couple.
-inline double turning_load(const World& world, const Joint& joint, std::uint32_t body, double h) {
+inline double angular_load(const World& world, const Joint& joint, std::uint32_t body, double h) {
     const Bodies& b = world.bodies;
     const auto moves = [&](std::uint32_t i) {
         return i != kNoIndex && b.motion[i] == Motion::dynamic;
@@ -54,7 +54,7 @@ inline double tree_load(const World& world, const Joint& joint, std::uint32_t bo
                         const Vector3d& arm, double h) {
     return lever_load<double>(load_of(joint, kAlongX, JointSolve::tree), 0, arm,
                               world.bodies.world_inverse_inertia[body], h) +
-           turning_load(world, joint, body, h);
+           angular_load(world, joint, body, h);
 }
 
 /// `arm`: of the joint on the body, world frame [m]; `body` may be kNoIndex.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/row_solver.h"
 
+#include "contacts/impacts.h"
 #include "math/root.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
@@ -10,7 +11,6 @@
 #include "solve/particle_contact_group.h"
 #include "solve/surface_contact_group.h"
 #include "step/contact_solver.h"
-#include "step/impacts.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
 
@@ -36,8 +36,8 @@ struct Recovery {
 Recovery recovery(const Settings& s) {
     if (s.shared_push) return {s.stiffness, s.stiffness};
     const double left = 1 - s.stiffness, after_five = left * left * left * left * left;
-    const std::uint32_t sweeps = s.position_iterations * s.substeps;
-    return {sweeps > 0 ? 1 - root_of_share(after_five, sweeps) : 0,
+    const std::uint32_t iterations = s.position_iterations * s.substeps;
+    return {iterations > 0 ? 1 - root_of_share(after_five, iterations) : 0,
             1 - root_of_share(after_five, s.substeps)};
 }
 
@@ -45,8 +45,8 @@ Recovery recovery(const Settings& s) {
 /// pair agree, for the error that is left at one level tips over all that stands on it.
 constexpr std::uint32_t kShockRounds = 16;
 
-/// Sweeps of each phase of an impact.
-constexpr std::uint32_t kImpactSweeps = 10;
+/// Iterations of each phase of an impact.
+constexpr std::uint32_t kImpactIterations = 10;
 
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {
@@ -86,7 +86,7 @@ public:
         pass_.shared_cone = settings_.shared_cone;
         pass_.shared_push = settings_.shared_push;
         pass_.forwards = true;
-        sweeps_ = substeps_++;
+        iterations_ = substeps_++;
         for (const auto& group : groups_) {
             const auto share = share_of(*group, ledger, Stage::begin);
             group->begin(world, table_.rows(), pass_, h);
@@ -104,8 +104,8 @@ public:
         PassSettings<Real> pass{};
         pass.h = static_cast<Real>(h), pass.inverse_h = static_cast<Real>(1 / h);
         contacts_->begin_impacts(world, table_.rows(), pass);
-        sweep_impacts(pass);
-        if (contacts_->give_back(world, impacts_, table_.rows())) sweep_impacts(pass);
+        iterate_impacts(pass);
+        if (contacts_->give_back(world, impacts_, table_.rows())) iterate_impacts(pass);
         impacts_.each_row([&](std::int32_t row) {
             const Velocity<Real> change = velocity_in(table_.rows().change, row);
             impacts_.changes()[row] = {change.v.template cast<double>(),
@@ -123,13 +123,13 @@ public:
         workers_.run([this](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             for (std::uint32_t i = 0; i < settings_.velocity_iterations; ++i) {
-                pass.forwards = forwards(sweeps_ + i);
+                pass.forwards = forwards(iterations_ + i);
                 pass.iteration = i;
                 for (const auto& group : groups_)
                     if (!group->empty()) group->iterate_velocities(table_.rows(), pass, worker);
             }
         });
-        sweeps_ += settings_.velocity_iterations;
+        iterations_ += settings_.velocity_iterations;
     }
 
     void solve_positions(StepReport& report, Ledger& ledger) override {
@@ -144,7 +144,7 @@ public:
             PassSettings<Real> pass = pass_;
             pass.alone = alone;
             for (std::uint32_t i = 0; i < iterations; ++i) {
-                pass.forwards = forwards(sweeps_ + i);
+                pass.forwards = forwards(iterations_ + i);
                 pass.iteration = i;
                 for (const auto& group : groups_) {
                     if (group->empty()) continue;
@@ -155,14 +155,14 @@ public:
                 }
             }
         });
-        sweeps_ += settings_.position_iterations;
+        iterations_ += settings_.position_iterations;
         for (const auto& group : groups_) group->report(report);
     }
 
     std::uint32_t solve_islands() override { return islands_->solve(); }
 
-    /// One sweep from the ground up in which the lower body of each pair is immovable (Guendelman
-    /// et al.).
+    /// One iteration from the ground up in which the lower body of each pair is immovable
+    /// (Guendelman et al.).
     void propagate_shock() override {
         if (contacts_->empty()) return;
         shock_->copy_impulses(*contacts_);
@@ -175,7 +175,7 @@ public:
         });
     }
 
-    /// Shock propagation begins from the sums of the passes, and what it adds is not felt below.
+    /// Shock propagation begins from the sums of the passes, and what it adds does not act below.
     void add_impulses(ContactSums& sums) override {
         (shocks_ ? *shock_ : *contacts_).add_impulses(sums);
         if (islands_) islands_->add_impulses(sums);
@@ -246,18 +246,18 @@ private:
         return apart ? Share(std::in_place, ledger, group.stage(), around) : Share(std::nullopt);
     }
 
-    void sweep_impacts(PassSettings<Real> pass) {
+    void iterate_impacts(PassSettings<Real> pass) {
         workers_.run([&](std::uint32_t worker) {
             PassSettings<Real> mine = pass;
-            for (std::uint32_t i = 0; i < kImpactSweeps; ++i) {
+            for (std::uint32_t i = 0; i < kImpactIterations; ++i) {
                 mine.forwards = i % 2 == 0;
                 contacts_->iterate_velocities(table_.rows(), mine, worker);
             }
         });
     }
 
-    bool forwards(std::uint32_t sweep) const {
-        return !settings_.alternate_sweeps || sweep % 2 == 0;
+    bool forwards(std::uint32_t iteration) const {
+        return !settings_.alternate_sweeps || iteration % 2 == 0;
     }
 
     const Settings settings_;
@@ -268,7 +268,7 @@ private:
     bool warm_start_;
     VelocityTable<Real> table_;
     PassSettings<Real> pass_{};
-    std::vector<std::unique_ptr<Group>> groups_;  ///< in the order of the sweep
+    std::vector<std::unique_ptr<Group>> groups_;  ///< in the order of an iteration
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;
     ParticleContactGroup<Real, W>* particle_contacts_ = nullptr;
@@ -278,7 +278,7 @@ private:
     Impacts impacts_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
-    std::uint32_t sweeps_ = 0;
+    std::uint32_t iterations_ = 0;
 };
 
 template <class Real>

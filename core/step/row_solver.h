@@ -5,11 +5,11 @@
 /// the caller times its stage around it, and the shares of joints and trees are booked apart.
 #pragma once
 
+#include "contacts/contact_sums.h"
 #include "effects/ledger.h"
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
-#include "step/contact_sums.h"
 #include "world/world.h"
 
 #include <memory>
@@ -27,8 +27,8 @@ public:
     /// many contacts overlap deeper than the substep may push out.
     virtual std::uint32_t begin_substep(const World& world, double h, Ledger& ledger) = 0;
 
-    /// Collisions that begin in this substep, before forces: step/impacts.h. Adds what they bear
-    /// to the sums, if there are any.
+    /// Collisions that begin in this substep, before forces: contacts/impacts.h. Adds what they
+    /// bear to the sums, if there are any.
     virtual void solve_impacts(World& world, double h, ContactSums* sums) = 0;
 
     virtual void solve_velocities() = 0;

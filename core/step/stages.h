@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// The stages of a step that work on the world's tables. Each does one thing; step.cpp puts them in
-/// order.
+/// The stages of a step that work on the world's tables, but for those of contacts
+/// (contacts/contact_stages.h). Each does one thing; step.cpp puts them in order.
 #pragma once
 
 #include "constraints/spring.h"
-#include "effects/ledger.h"
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/motion_lists.h"
-#include "schedule/workers.h"
-#include "step/contact_room.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -17,35 +14,6 @@
 #include <vector>
 
 namespace plumb {
-
-/// Reused memory of detection.
-struct DetectBuffers {
-    std::vector<Pose> poses;
-    std::vector<double> sweeps;
-    std::vector<ContactRoom> rooms;  ///< [worker], behind the sinks
-    std::vector<ContactSink> sinks;  ///< [worker]
-    std::vector<Vec3> places;        ///< of particles
-};
-
-/// Asks the collider for all contacts at the present poses, bodies growing their margin by how far
-/// they may move in dt [s]; pairs that hardly moved keep their contacts. Its status and message go
-/// into the report; only the time inside its call counts as detection.
-void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximity,
-            DetectBuffers& buffers, double dt, StepReport& report, Ledger& ledger);
-
-/// The solver's workers, for the collider.
-TaskRunner runner_on(Workers& workers);
-
-/// Asks the collider for the contacts of particles at the poses of `detect`, checks and sorts them.
-void detect_particles(World& world, Workers& workers, Proximity& proximity, DetectBuffers& buffers,
-                      double dt, StepReport& report, Ledger& ledger);
-
-/// Checks and sorts what was found, and hands each contact the memory of the same contact of the
-/// step before.
-void match_contacts(World& world, const Plan& plan);
-
-/// Gaps, common points and drifts at the start of a substep, from points that ride on the bodies.
-void follow_contacts(World& world, const Plan& plan, bool first_substep);
 
 /// Kinematic bodies' velocities over the coming substep of length h [s], from their scripts.
 void move_scripted(World& world, double h);
@@ -58,11 +26,6 @@ void hold_scripted(Bodies& bodies);
 void remember_velocities(Bodies& bodies);
 /// Those of some.
 void remember_velocities(Bodies& bodies, const std::vector<std::uint32_t>& some);
-
-/// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich).
-/// Speeds are those before forces are added, so that a resting body does not bounce, whatever its
-/// e.
-void choose_rebounds(World& world, bool first_substep);
 
 /// v ← v + f g + p F/m, ω ← ω + p I⁻¹ τ − h I⁻¹ (ω × Iω) (§3); and I⁻¹ in the world's frame.
 /// p = time.push(), f = `fall`: for how long forces push and gravity does [s], in most substeps h.
@@ -84,8 +47,5 @@ void break_joints(World& world, const Plan& plan, Proximity& proximity, StepRepo
 /// Takes elements that are strained too far out of their deformables. The stepper is then of the
 /// world before.
 void tear(World& world, StepReport& report);
-
-/// Keeps contacts and impulses for the next step.
-void remember_contacts(World& world);
 
 }  // namespace plumb

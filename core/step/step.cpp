@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/step.h"
 
-#include "step/rims.h"
+#include "contacts/rims.h"
 #include "step/substep_time.h"
 
 #include <cmath>
@@ -68,9 +68,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (sums) timed(Stage::remember, [&] { sums->begin_substep(world); });
         report.open_trees.clear();
         if (plan.runs(Effect::joints))
-            timed(Stage::joints, [&] { count_turns(world, stepper.turning); });
+            timed(Stage::joints, [&] { count_turns(world, stepper.revolute); });
         if (plan.runs(Effect::restitution))
-            timed(Stage::restitution, [&] { choose_rebounds(world, first); });
+            timed(Stage::restitution, [&] { choose_restitution(world, first); });
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
         timed(Stage::integrate, [&] {
             const SubstepTime time = substep_time(world, h);

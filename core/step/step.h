@@ -2,18 +2,19 @@
 /// The time step.
 #pragma once
 
+#include "contacts/contact_stages.h"
+#include "contacts/contact_sums.h"
+#include "contacts/still_ground.h"
+#include "contacts/surface_detector.h"
 #include "effects/ledger.h"
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
 #include "step/air.h"
-#include "step/contact_sums.h"
 #include "step/divided_trees.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
-#include "step/still_ground.h"
-#include "step/surface_detector.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -31,7 +32,7 @@ struct Stepper {
         : plan(make_plan(world)),
           workers(world.settings.threads),
           motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
-          turning(turning_joints(world)),
+          revolute(revolute_joints(world)),
           surfaces(world),
           air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           divided(plan.runs(Effect::divided_trees) ? DividedTrees(world, plan) : DividedTrees()),
@@ -44,7 +45,7 @@ struct Stepper {
     void renew(const World& world) {
         const Plan before = std::exchange(plan, make_plan(world));
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
-        turning = turning_joints(world);
+        revolute = revolute_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
         if (plan.runs(Effect::air_drag)) air = Air(world);
         if (plan.runs(Effect::divided_trees)) divided = DividedTrees(world, plan);
@@ -56,7 +57,7 @@ struct Stepper {
     Plan plan;
     Workers workers;
     MotionLists motion;
-    std::vector<std::uint32_t> turning;  ///< joints whose turns are counted
+    std::vector<std::uint32_t> revolute;  ///< joints whose turns are counted
     SurfaceDetector surfaces;
     Air air;
     DividedTrees divided;

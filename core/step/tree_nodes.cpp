@@ -108,13 +108,13 @@ void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& t
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, time);
-    owe(node, h_ * world.settings.recovery_speed);
+    defer(node, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, time);
 }
 
 /// What is to be closed of old errors in this substep is bounded, as old overlap is. What a
 /// compliant row has stretched is no error.
-void TreeNodes::owe(Node& node, double reach) {
+void TreeNodes::defer(Node& node, double most) {
     double c[6];
     joint_errors<double>(c, node.geometry, JointPreview<double>(node.geometry));
     double squared[2] = {0, 0};
@@ -124,7 +124,7 @@ void TreeNodes::owe(Node& node, double reach) {
     for (int k = 0; k < 6; ++k)
         if (is_stiff(k)) squared[k / 3] += c[k] * c[k];
     for (int k = 0; k < 6; ++k)
-        node.owed[k] = is_stiff(k) ? c[k] * owed_share<double>(squared[k / 3], reach) : 0;
+        node.deferred[k] = is_stiff(k) ? c[k] * deferred_fraction<double>(squared[k / 3], most) : 0;
 }
 
 void TreeNodes::forget(std::uint32_t index) {
@@ -158,7 +158,7 @@ double TreeNodes::evaluate(std::uint32_t index, bool settle) {
     const JointPreview<double> preview(node.geometry, a, b, h_);
     node.apart = preview.apart;
     joint_errors<double>(node.now.c, node.geometry, preview);
-    for (int k = 0; k < 6; ++k) node.now.c[k] -= node.owed[k];
+    for (int k = 0; k < 6; ++k) node.now.c[k] -= node.deferred[k];
     double worst = violation_of(node);
     for (DrivenAxis& axis : node.axes) worst = greater(worst, axis.evaluate(a, b, settle));
     return worst;
@@ -218,7 +218,7 @@ void TreeNodes::load_block(Node& node, bool balance, bool leaf) {
     Symmetric3<double> stiffness{0, 0, 0, 0, 0, 0};
     if (!node.free)
         stiffness =
-            turning_stiffness<double>(node.acting, impulse_of(node), node.lever().share * h_);
+            angular_stiffness<double>(node.acting, impulse_of(node), node.lever().share * h_);
     add_body<double>(whole, node.mass, node.inertia, stiffness, node.own, balance);
     node.block = whole.block;
 }
@@ -253,7 +253,7 @@ void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool le
     add_rows(parent.block, e);
     for (const DrivenAxis& axis : node.axes) axis.push_parent(parent.block, node.sign, balance);
     parent.stiffness =
-        parent.stiffness + turning_stiffness<double>(node.other_acting, -impulse_of(node),
+        parent.stiffness + angular_stiffness<double>(node.other_acting, -impulse_of(node),
                                                      node.other_lever().share * h_);
     put_share(parent, row);
 }

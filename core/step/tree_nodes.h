@@ -94,7 +94,7 @@ private:
         JointGeometry<double> geometry;
         JointRows<double> now;
         RowsElimination<double> elimination;
-        double owed[6];                ///< old error of the rows that is left for later [m], [rad]
+        double deferred[6];            ///< old error of the rows that is left for later [m], [rad]
         double lambda[6];              ///< along the joint's rows
         std::vector<DrivenAxis> axes;  ///< that the joint leaves free
         int first_axis_row;            ///< of theirs in `elimination`
@@ -119,7 +119,7 @@ private:
 
     static void add_axes(const World& world, Node& node);
     void begin_joint(const World& world, Node& node, const SubstepTime& time);
-    void owe(Node& node, double reach);
+    void defer(Node& node, double most);
     Velocity<double> velocity_beyond(const Node& node) const;
     void find_rows(Node& node);
     static void place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn);

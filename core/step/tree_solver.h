@@ -11,7 +11,7 @@
 ///
 /// Bodies on plain balls are solved several side by side, level by level; those on other or driven
 /// joints, and roots that hang by nothing, one by one (tree_nodes.h). What drives a joint is part
-/// of the system: each step takes the piece of its staircase (constraints/axis_drive.h) on which
+/// of the system: each step takes the piece of its force law (constraints/axis_drive.h) on which
 /// the last one ended, which makes the steps a semi-smooth Newton method.
 #pragma once
 

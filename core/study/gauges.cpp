@@ -29,8 +29,8 @@ double worst_volume(const World& world) {
     return worst;
 }
 
-/// Of the last step's contacts, the sum of `figure(contact, what it pushed and rubbed)` over the
-/// sum of what they pushed. Gaps are those at the step's start.
+/// Of the last step's contacts, the sum of `figure(contact, its normal and friction impulse)` over
+/// the sum of what they pushed. Gaps are those at the step's start.
 template <class Figure>
 double per_push(const World& world, Figure figure) {
     const ContactTable& c = world.contacts;

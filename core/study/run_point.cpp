@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/run_point.h"
 
+#include "host/log.h"
 #include "host/simulation.h"
 #include "scene/error.h"
 #include "study/sweep_plan.h"
@@ -75,6 +76,7 @@ Outcome run_point(const Subject& subject, const Point& point, const ColliderLibr
     try {
         Scene scene = subject.scene;
         scene.settings = settings_at(subject, point);
+        const ErrorsOnly quiet;
         const auto run = [&](bool with_errors) {
             Simulation simulation(scene, colliders, point.collider);
             return made(subject, simulation, with_errors, stop);

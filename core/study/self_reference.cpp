@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "study/self_reference.h"
 
+#include "host/log.h"
 #include "host/simulation.h"
 #include "measure/deformation.h"
 #include "scene/error.h"
@@ -48,6 +49,7 @@ double interval_of(const Settings& s) {
 Trajectory recorded(const Scene& scene, double interval, double duration,
                     const ColliderLibrary& colliders, const ReferenceOptions& options,
                     Clock::time_point deadline) {
+    const ErrorsOnly quiet;
     Simulation simulation(scene, colliders, options.collider);
     Trajectory t{interval, {moment_of(simulation.world())}};
     const auto steps = static_cast<std::uint64_t>(std::llround(duration / scene.settings.dt));
@@ -89,17 +91,18 @@ std::uint32_t affordable(const Scene& scene, const ColliderLibrary& colliders,
     return substeps;
 }
 
-/// Mean reach of the dynamic bodies and of the deformables, as they are at the start [m].
+/// Mean bounding radius of the dynamic bodies and of the deformables, as they are at the start [m].
 double size_of(const World& world) {
     double sum = 0;
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies.motion[i] == Motion::dynamic && std::isfinite(world.bodies.reach[i]))
-            sum += world.bodies.reach[i];
+        if (world.bodies.motion[i] == Motion::dynamic &&
+            std::isfinite(world.bodies.bounding_radius[i]))
+            sum += world.bodies.bounding_radius[i];
     for (const Deformable& d : world.deformables) {
         const Vector3d centre = centre_of(world, d);
-        double reach = 0;
-        for (const Vector3d& p : d.spec.points) reach = std::max(reach, (p - centre).norm());
-        sum += reach;
+        double radius = 0;
+        for (const Vector3d& p : d.spec.points) radius = std::max(radius, (p - centre).norm());
+        sum += radius;
     }
     const double mean = sum / (world.dynamic_count + static_cast<double>(world.deformables.size()));
     return mean > 0 ? mean : 1;

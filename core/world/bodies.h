@@ -2,7 +2,7 @@
 /// The bodies' state as tables, one column a quantity, indexed by body.
 ///
 /// A body's own frame has its origin in the centre of mass and its axes along the principal axes of
-/// inertia. The place of a body that was removed is vacant until another takes it: fixed, without
+/// inertia. The slot of a body that was removed is vacant until another takes it: fixed, without
 /// mass and shape.
 #pragma once
 
@@ -17,7 +17,7 @@ namespace plumb {
 
 struct Bodies {
     std::vector<std::uint32_t>
-        id;  ///< what the body is called as long as it lives; kNoIndex: the place is vacant
+        id;  ///< what the body is called as long as it lives; kNoIndex: the slot is vacant
     std::vector<Motion> motion;
     std::vector<Vector3d> position;          ///< of the centre of mass [m]
     std::vector<Quaterniond> orientation;    ///< body frame → world
@@ -33,7 +33,7 @@ struct Bodies {
     std::vector<Placement>
         geometry_in_body;                 ///< where the geometry's frame sits in the body's frame
     std::vector<std::uint32_t> geometry;  ///< index into World::shapes; kNoIndex: none
-    std::vector<double> reach;  ///< radius about the centre of mass that holds the geometry [m]
+    std::vector<double> bounding_radius;  ///< about the centre of mass; it holds the geometry [m]
     std::vector<std::uint32_t> material;
     std::vector<std::uint32_t> group, mask;  ///< as in ShapePlacement; 0 for bodies without a shape
     std::vector<MotionScript>

@@ -7,14 +7,14 @@
 
 namespace plumb {
 
-/// L = q I q* ω, of body i turning at the rate w [kg m²/s].
+/// L = q I q* ω, of body i rotating at the rate w [kg m²/s].
 inline Vector3d spin_momentum(const Bodies& b, std::size_t i, const Vector3d& w) {
     const Quaterniond& q = b.orientation[i];
     return q * b.inertia[i].cwiseProduct(q.conjugate() * w);
 }
 
-/// v · I w [J]; with v = w twice the energy of turning at that rate.
-inline double turning_product(const Bodies& b, std::size_t i, const Vector3d& v,
+/// v · I w [J]; with v = w twice the rotational energy at that rate.
+inline double inertia_product(const Bodies& b, std::size_t i, const Vector3d& v,
                               const Vector3d& w) {
     const Quaterniond back = b.orientation[i].conjugate();
     return (back * v).cwiseProduct(b.inertia[i]).dot(back * w);
@@ -23,7 +23,7 @@ inline double turning_product(const Bodies& b, std::size_t i, const Vector3d& v,
 /// Of body i, by its present velocities [J].
 inline double kinetic_energy(const Bodies& b, std::size_t i) {
     const Vector3d& w = b.angular_velocity[i];
-    return 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() + turning_product(b, i, w, w));
+    return 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() + inertia_product(b, i, w, w));
 }
 
 }  // namespace plumb

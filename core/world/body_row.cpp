@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "world/body_row.h"
 
+#include "geometry/mass_properties.h"
 #include "math/principal.h"
 #include "scene/error.h"
-#include "world/mass_properties.h"
 
 #include <cmath>
 #include <cstdio>
@@ -16,9 +16,9 @@ namespace {
 /// once a step, are of another side of it.
 constexpr double kMostRadiiAStep = 25;
 
-/// A body that is being made, and where it stands in the draft.stock.
+/// A body that is being made, and where it stands in the scene.
 struct Draft {
-    const Scene& stock;
+    const Scene& assets;
     const BodySpec& spec;
     const std::string& pointer;
 
@@ -53,13 +53,13 @@ BodyMass body_mass(const Draft& draft) {
     }
     if (spec.mass_frame && !(spec.mass && spec.inertia))
         draft.refuse("mass_frame", "goes with both mass and inertia");
-    const MassProperties m = mass_properties(draft.stock.geometries[spec.geometry]);
+    const MassProperties m = mass_properties(draft.assets.geometries[spec.geometry]);
     if (!(m.volume > 0) && !(spec.mass && spec.inertia))
         draft.refuse("shape",
-                     std::string("a ") + name_of(draft.stock.geometries[spec.geometry].kind) +
+                     std::string("a ") + name_of(draft.assets.geometries[spec.geometry].kind) +
                          " that encloses no volume, or whose triangles are clockwise as seen from "
                          "outside, cannot be dynamic unless mass and inertia are given");
-    result.mass = spec.mass.value_or(draft.stock.materials[spec.material].density * m.volume);
+    result.mass = spec.mass.value_or(draft.assets.materials[spec.material].density * m.volume);
     result.body_in_geometry.position = m.centre;
     if (spec.mass_frame) {
         result.moments = *spec.inertia, result.body_in_geometry = mass_frame(draft);
@@ -86,9 +86,9 @@ void check_mass(const Draft& draft, const BodyMass& m) {
 
 void check_spec(const Draft& draft) {
     const BodySpec& s = draft.spec;
-    if (s.geometry != kNoIndex && s.geometry >= draft.stock.geometries.size())
+    if (s.geometry != kNoIndex && s.geometry >= draft.assets.geometries.size())
         draft.refuse("shape", "no such shape");
-    if (s.material >= draft.stock.materials.size()) draft.refuse("material", "no such material");
+    if (s.material >= draft.assets.materials.size()) draft.refuse("material", "no such material");
     if (!s.placement.position.allFinite()) draft.refuse("position", "must be finite numbers");
     if (!s.placement.rotation.coeffs().allFinite() || s.placement.rotation.norm() < 1e-9)
         draft.refuse("rotation", "must be a rotation");
@@ -113,7 +113,7 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.isotropic, std::uint8_t(!dynamic || spread <= 1e-9 * row.inertia.maxCoeff()));
     visit(b.force, row.force), visit(b.torque, row.torque);
     visit(b.geometry_in_body, row.geometry_in_body);
-    visit(b.geometry, row.geometry), visit(b.reach, row.reach);
+    visit(b.geometry, row.geometry), visit(b.bounding_radius, row.bounding_radius);
     visit(b.material, row.material), visit(b.group, row.group), visit(b.mask, row.mask);
     visit(b.script, row.script);
     visit(b.row, 0);
@@ -125,26 +125,26 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.turn_change, Vector3d(Vector3d::Zero()));
 }
 
-void check_size(const Draft& draft, double reach) {
+void check_size(const Draft& draft, double radius) {
     const BodySpec& s = draft.spec;
-    const Settings& settings = draft.stock.settings;
-    const bool turns = draft.stock.geometries[s.geometry].kind != ShapeKind::sphere;
+    const Settings& settings = draft.assets.settings;
+    const bool turns = draft.assets.geometries[s.geometry].kind != ShapeKind::sphere;
     if (s.motion != Motion::dynamic || !turns || s.mask == 0) return;
     const double g = settings.gravity.norm(), fall = g * settings.dt * settings.dt;
-    if (fall <= kMostRadiiAStep * reach) return;
+    if (fall <= kMostRadiiAStep * radius) return;
     char text[300];
     std::snprintf(text, sizeof text,
                   "the body reaches only %.2g m from its centre, and gravity moves it by %.2g m in "
                   "a step of %.2g s: the step may be %.2g s at most, or the body must reach %.2g m",
-                  reach, fall, settings.dt, std::sqrt(kMostRadiiAStep * reach / g),
+                  radius, fall, settings.dt, std::sqrt(kMostRadiiAStep * radius / g),
                   fall / kMostRadiiAStep);
     draft.refuse("shape", text);
 }
 
 }  // namespace
 
-BodyRow make_body(const Scene& stock, const BodySpec& spec, const std::string& pointer) {
-    const Draft draft{stock, spec, pointer};
+BodyRow make_body(const Scene& assets, const BodySpec& spec, const std::string& pointer) {
+    const Draft draft{assets, spec, pointer};
     check_spec(draft);
     const bool has_shape = spec.geometry != kNoIndex;
     BodyMass m;
@@ -167,8 +167,9 @@ BodyRow make_body(const Scene& stock, const BodySpec& spec, const std::string& p
     row.geometry = spec.geometry, row.material = spec.material;
     row.script = spec.script;
     if (!has_shape) return row;
-    row.reach = reach_from(stock.geometries[spec.geometry], m.body_in_geometry.position);
-    check_size(draft, row.reach);
+    row.bounding_radius =
+        bounding_radius(assets.geometries[spec.geometry], m.body_in_geometry.position);
+    check_size(draft, row.bounding_radius);
     row.group = spec.group, row.mask = spec.mask;
     return row;
 }
@@ -178,8 +179,8 @@ void resize_bodies(Bodies& bodies, std::size_t count) {
                 [&](auto& column, const auto& value) { column.resize(count, value); });
 }
 
-void put_body(Bodies& bodies, std::size_t place, const BodyRow& row) {
-    each_column(bodies, row, [&](auto& column, const auto& value) { column[place] = value; });
+void put_body(Bodies& bodies, std::size_t slot, const BodyRow& row) {
+    each_column(bodies, row, [&](auto& column, const auto& value) { column[slot] = value; });
 }
 
 }  // namespace plumb

@@ -8,7 +8,7 @@
 
 namespace plumb {
 
-/// What a row begins with. By default that of a vacant place.
+/// What a row begins with. By default that of a vacant slot.
 struct BodyRow {
     std::uint32_t id = kNoIndex;
     Motion motion = Motion::fixed;
@@ -22,19 +22,19 @@ struct BodyRow {
     Vector3d torque = Vector3d::Zero();            ///< [N m]
     Placement geometry_in_body;
     std::uint32_t geometry = kNoIndex;
-    double reach = 0;  ///< [m]
+    double bounding_radius = 0;  ///< about the centre of mass [m]
     std::uint32_t material = 0, group = 0, mask = 0;
     MotionScript script;
 };
 
-/// Makes the row of a body; `stock` has its geometry and material. Throws SceneError, with
+/// Makes the row of a body; `assets` has its geometry and material. Throws SceneError, with
 /// `pointer` as the body's place, for what cannot be simulated.
-BodyRow make_body(const Scene& stock, const BodySpec& spec, const std::string& pointer);
+BodyRow make_body(const Scene& assets, const BodySpec& spec, const std::string& pointer);
 
 /// Makes the table `count` rows long. Those that come are vacant.
 void resize_bodies(Bodies& bodies, std::size_t count);
 
 /// Replaces a row.
-void put_body(Bodies& bodies, std::size_t place, const BodyRow& row);
+void put_body(Bodies& bodies, std::size_t slot, const BodyRow& row);
 
 }  // namespace plumb

@@ -20,7 +20,7 @@ struct JointDraft {
     std::vector<JointDrive> drives;
 };
 
-/// A joint between two bodies, given by their places, where they are now. Throws SceneError, with
+/// A joint between two bodies, given by their slots, where they are now. Throws SceneError, with
 /// `pointer` as the joint's place.
 JointDraft make_joint(const World& world, const JointSpec& spec, const std::string& pointer);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "world/build_particles.h"
 
+#include "geometry/outer_faces.h"
 #include "scene/deformable_faults.h"
 #include "scene/error.h"
-#include "scene/outer_faces.h"
 
 #include <cmath>
 #include <string>

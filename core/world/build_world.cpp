@@ -19,7 +19,7 @@ void make_bodies(World& world, const Scene& scene) {
     resize_bodies(world.bodies, scene.bodies.size());
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         BodyRow row = make_body(scene, scene.bodies[i], "/bodies/" + std::to_string(i));
-        row.id = world.places.add().id;
+        row.id = world.slots.add().id;
         put_body(world.bodies, i, row);
     }
 }

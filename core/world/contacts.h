@@ -16,7 +16,7 @@ namespace plumb {
 struct ContactMemory {
     double normal_impulse = 0;  ///< summed over both passes of the last substep [N s]
     Vector3d friction_impulse = Vector3d::Zero();  ///< world frame [N s]
-    Vector3d turning_impulse = Vector3d::Zero();   ///< torque of rolling and spinning friction, of
+    Vector3d rolling_impulse = Vector3d::Zero();   ///< torque of rolling and spinning friction, of
                                                    ///< islands solved exactly; world [N m s]
     Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,
     Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
@@ -47,6 +47,13 @@ struct ContactRim {
     bool runs = false;  ///< along the rim, as its deepest point does; else it rides on the body
 };
 
+/// What restitution does about a contact in a substep.
+enum class Restitution : std::uint8_t {
+    none,
+    passing,  ///< it is still open, and bounces once it touches
+    bouncing
+};
+
 /// Columns of one length: [contact], sorted by (a, b, feature).
 struct ContactTable {
     std::vector<Contact> found;  ///< as the collider reported them, at the start of the step
@@ -58,12 +65,12 @@ struct ContactTable {
                                       ///< of points on rims [m/s]
     std::vector<double> gap;          ///< at the start of the substep [m]
     std::vector<Vector3d> point;      ///< where it acts at the start of the substep [m]
-    std::vector<double>
-        rebound;  ///< separating speed that restitution asks for [m/s]; only where some pair
-                  ///< bounces. kPassing: let it come through, it bounces once it touches
-    std::vector<std::uint8_t> bounced;  ///< restitution is consumed once a step
+    std::vector<Restitution> restitution;  ///< of the substep; this and the next only where some
+                                           ///< pair bounces
+    std::vector<double> restitution_velocity;  ///< separating speed that it asks for [m/s]
+    std::vector<std::uint8_t> bounced;         ///< restitution is consumed once a step
     std::vector<Vector3d>
-        drift;  ///< how far a sticking contact has left its anchors [m]; else empty
+        anchor_slip;  ///< how far a sticking contact has left its anchors [m]; else empty
 
     std::vector<Contact> found_before;  ///< of the step before
     std::vector<ContactMemory> memory_before;
@@ -76,11 +83,18 @@ struct ContactTable {
     std::uint64_t rejected =
         0;  ///< contacts left out since the start: a number not finite, or an id unknown
 
-    /// Whether a contact comes through before it rebounds.
-    bool is_passing(std::size_t i) const { return !rebound.empty() && rebound[i] == kPassing; }
+    /// Whether a contact comes through before it bounces.
+    bool is_passing(std::size_t i) const {
+        return !restitution.empty() && restitution[i] == Restitution::passing;
+    }
 
-    static constexpr double kPassing = -1;
-    static constexpr double kParting = 1e-9;  ///< a rebound that has happened already [m/s]
+    /// Decides about a contact's restitution in this substep; 0: it asks for none.
+    void set_restitution(std::size_t i, double velocity) {
+        restitution[i] = velocity > 0 ? Restitution::bouncing : Restitution::none;
+        restitution_velocity[i] = velocity;
+    }
+
+    static constexpr double kParting = 1e-9;  ///< velocity of what has bounced already [m/s]
 };
 
 /// The point at which a contact acts, half-way between the two surfaces [m].

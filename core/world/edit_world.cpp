@@ -14,31 +14,30 @@ void count(World& world, Motion motion, std::int32_t change) {
 }  // namespace
 
 std::uint32_t insert_body(World& world, BodyRow row) {
-    const std::uint32_t place = world.places.next().place;
-    if (place == world.bodies.size()) resize_bodies(world.bodies, place + 1);
-    row.id = world.places.add().id;
-    put_body(world.bodies, place, row);
+    const std::uint32_t slot = world.slots.next().slot;
+    if (slot == world.bodies.size()) resize_bodies(world.bodies, slot + 1);
+    row.id = world.slots.add().id;
+    put_body(world.bodies, slot, row);
     count(world, row.motion, 1);
     return row.id;
 }
 
-void erase_body(World& world, std::uint32_t place) {
-    forget_contacts(world, place);
-    std::erase_if(world.excluded, [place](std::uint64_t key) {
-        return key >> 32 == place || std::uint32_t(key) == place;
+void erase_body(World& world, std::uint32_t slot) {
+    forget_contacts(world, slot);
+    std::erase_if(world.excluded, [slot](std::uint64_t key) {
+        return key >> 32 == slot || std::uint32_t(key) == slot;
     });
-    std::erase_if(world.links, [place](const Link& link) {
-        return link.a.body == place || link.b.body == place;
-    });
-    count(world, world.bodies.motion[place], -1);
-    world.places.remove(world.bodies.id[place]);
-    put_body(world.bodies, place, BodyRow{});
-    resize_bodies(world.bodies, world.places.size());
+    std::erase_if(world.links,
+                  [slot](const Link& link) { return link.a.body == slot || link.b.body == slot; });
+    count(world, world.bodies.motion[slot], -1);
+    world.slots.remove(world.bodies.id[slot]);
+    put_body(world.bodies, slot, BodyRow{});
+    resize_bodies(world.bodies, world.slots.size());
 }
 
-void forget_contacts(World& world, std::uint32_t place) {
+void forget_contacts(World& world, std::uint32_t slot) {
     ContactTable& c = world.contacts;
-    const auto is_of_body = [place](const auto& x) { return x.a == place || x.b == place; };
+    const auto is_of_body = [slot](const auto& x) { return x.a == slot || x.b == slot; };
     std::size_t kept = 0;
     for (std::size_t i = 0; i < c.found_before.size(); ++i) {
         if (is_of_body(c.found_before[i])) continue;

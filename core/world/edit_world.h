@@ -10,14 +10,14 @@
 
 namespace plumb {
 
-/// Puts a body in the lowest vacant place, or at the end. Its identifier comes back.
+/// Puts a body in the lowest vacant slot, or at the end. Its identifier comes back.
 std::uint32_t insert_body(World& world, BodyRow row);
 
 /// Takes away a body that no joint has any more, and all that is remembered of its contacts.
-void erase_body(World& world, std::uint32_t place);
+void erase_body(World& world, std::uint32_t slot);
 
 /// Forgets the impulses, anchors and kept contacts of a body, as if it touched nothing before.
-void forget_contacts(World& world, std::uint32_t place);
+void forget_contacts(World& world, std::uint32_t slot);
 
 /// Its identifier comes back.
 std::uint32_t insert_joint(World& world, JointDraft draft);

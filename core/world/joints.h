@@ -87,8 +87,8 @@ struct JointCoupling {
     std::uint32_t id = 0;  ///< as Joint::id
     std::uint32_t joint_a = 0, joint_b = 0, axis_a = 0, axis_b = 0;
     double ratio = 1, offset = 0;
-    double impulse = 0;  ///< of the last substep, along q_b [N s], [N m s]
-    double owed = 0;     ///< part of q_b − ratio q_a − offset that goes slowly [m], [rad]
+    double impulse = 0;   ///< of the last substep, along q_b [N s], [N m s]
+    double deferred = 0;  ///< part of q_b − ratio q_a − offset that goes slowly [m], [rad]
 };
 
 struct JointTable {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "world/tears.h"
 
+#include "geometry/outer_faces.h"
 #include "scene/elements_left.h"
-#include "scene/outer_faces.h"
 
 namespace plumb {
 void leave_out_torn(Deformable& d) {

@@ -9,8 +9,8 @@
 #include "world/links.h"
 #include "world/particle_contacts.h"
 #include "world/particles.h"
-#include "world/places.h"
 #include "world/shape_store.h"
+#include "world/slot_map.h"
 #include "world/surface_contacts.h"
 
 #include <cstdint>
@@ -31,7 +31,7 @@ constexpr std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
 struct World {
     Settings settings;
     Bodies bodies;
-    Places places;  ///< of the bodies in their table, by Bodies::id
+    SlotMap slots;  ///< of the bodies in their table, by Bodies::id
     JointTable joints;
     Particles particles;
     std::vector<Deformable> deformables;

@@ -80,7 +80,7 @@ btDiscreteCollisionDetectorInterface::ClosestPointInput input_of(const Part& a, 
 
 /// Overlapping parts that Bullet leaves out or gets wrong: the closest points of the parts a little
 /// smaller, or the direction of least overlap. False where the parts are apart after all.
-bool ask_beside(Witness& witness, const Part& a, const Part& b) {
+bool ask_gjk(Witness& witness, const Part& a, const Part& b) {
     const bool apart = closest_when_apart(witness, a, b);
     if (!apart && !closest_when_touching(witness, a, b)) witness = least_overlap(a, b);
     witness.shared = true;
@@ -135,14 +135,14 @@ bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
     }
     if (!ask_closest(witness, a, b)) {
         // Nothing near, unless the cores coincide: such pairs Bullet leaves out.
-        return !axes_part(a, b) && ask_beside(witness, a, b);
+        return !axes_part(a, b) && ask_gjk(witness, a, b);
     }
     // An answer that its own normal contradicts is not trusted.
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
     if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return true;
     Witness other;
     witness.approximate = true;
-    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    if (ask_gjk(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
     return true;
 }
 

@@ -141,7 +141,7 @@ void place_shapes(const Part& part) {
     shapes.turn = btMatrix3x3(bt(x.x), bt(y.x), bt(z.x), bt(x.y), bt(y.y), bt(z.y), bt(x.z),
                               bt(y.z), bt(z.z));
     if (shapes.grown_box) {
-        const Vec3 grown{part.reach, part.reach, part.reach};
+        const Vec3 grown{part.expansion, part.expansion, part.expansion};
         shapes.grown_box->setImplicitShapeDimensions(bt(part.shape.half_extents + grown));
     }
 }

@@ -23,7 +23,7 @@ struct Shapes {
     std::unique_ptr<btConvexShape> cushioned;  ///< all convex kinds
     double cushion = 0;                        ///< of `cushioned`; 0 for sphere and capsule [m]
     std::unique_ptr<btBoxShape> exact_box;     ///< boxes only
-    std::unique_ptr<btBoxShape> grown_box;     ///< boxes only: larger by the part's reach
+    std::unique_ptr<btBoxShape> grown_box;     ///< boxes only: larger by the part's expansion
     std::unique_ptr<btTriangleIndexVertexArray> triangles;  ///< behind a mesh or height field
     std::vector<std::uint32_t> corners;                     ///< behind a height field
     std::unique_ptr<btCollisionShape> other;                ///< plane, mesh, height field
@@ -43,7 +43,7 @@ std::shared_ptr<Shapes> make_triangle();
 /// Fits a shape of `make_triangle` to a part that is a triangle: its vertices and its world frame.
 void fit_triangle(const Part& triangle);
 
-/// Moves a part to its world frame and fits the grown box to its reach.
+/// Moves a part to its world frame and fits the grown box to its expansion.
 void place_shapes(const Part& part);
 
 inline btScalar bt(double x) { return static_cast<btScalar>(x); }

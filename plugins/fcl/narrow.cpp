@@ -36,7 +36,7 @@ bool has_triangles(const Part& part) { return has_surface(part.shape.kind); }
 
 /// The closest points of parts that FCL is silent or wrong about, or the direction of least
 /// overlap.
-Witness ask_beside(const Part& a, const Part& b) {
+Witness ask_gjk(const Part& a, const Part& b) {
     Witness witness;
     if (!closest_when_apart(witness, a, b) && !closest_when_touching(witness, a, b))
         return least_overlap(a, b);
@@ -44,19 +44,19 @@ Witness ask_beside(const Part& a, const Part& b) {
     return witness;
 }
 
-/// Of FCL's normal and the one found beside it, the one of less overlap is nearer to the truth.
-void compare_beside(Witness& witness, const Part& a, const Part& b) {
+/// Of FCL's normal and the one that GJK finds, the one of less overlap is nearer to the truth.
+void compare_with_gjk(Witness& witness, const Part& a, const Part& b) {
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
-    const Witness other = ask_beside(a, b);
+    const Witness other = ask_gjk(a, b);
     witness.approximate = true;
     const double better = implied + 1e-5 * (size_of(a) + size_of(b));
     if (support_gap(a, b, other.normal) > better) witness = other;
 }
 
 /// FCL can name a normal along which the true shapes overlap far more than it says.
-void doubt(Witness& witness, const Part& a, const Part& b) {
+void validate_normal(Witness& witness, const Part& a, const Part& b) {
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
-    if (implied <= witness.gap - 1e-4 * (size_of(a) + size_of(b))) compare_beside(witness, a, b);
+    if (implied <= witness.gap - 1e-4 * (size_of(a) + size_of(b))) compare_with_gjk(witness, a, b);
 }
 
 bool has_closed_form(const Part& sphere, const Part& other) {
@@ -165,10 +165,10 @@ bool Narrow::ask_collide(Witness& witness, const Part& a, const Part& b) {
 bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
     if (has_closed_form(a, b) || has_closed_form(b, a)) {
         if (!ask_sphere(witness, a, b)) return false;
-        return doubt(witness, a, b), true;
+        return validate_normal(witness, a, b), true;
     }
     if (is(a, ShapeKind::box) && is(b, ShapeKind::box)) {
-        if (ask_boxes(witness, a, b, 0)) return doubt(witness, a, b), true;
+        if (ask_boxes(witness, a, b, 0)) return validate_normal(witness, a, b), true;
         // Apart: the normal of larger boxes will do where it parts the true ones too, and two
         // points of them reach the gap that it implies.
         if (!ask_boxes(witness, a, b, 0.5 * pair_margin(a, b))) return false;
@@ -177,18 +177,18 @@ bool Narrow::ask(Witness& witness, const Part& a, const Part& b) {
     }
     const bool found = signed_distance(witness, a, b) == Answer::found;
     if (found && witness.gap > -kDeep * (size_of(a) + size_of(b)))
-        return doubt(witness, a, b), true;
+        return validate_normal(witness, a, b), true;
     // Of parts that just touch, or whose middles coincide, FCL may name any way out.
-    if (!found && !ask_collide(witness, a, b)) return witness = ask_beside(a, b), true;
-    return compare_beside(witness, a, b), true;
+    if (!found && !ask_collide(witness, a, b)) return witness = ask_gjk(a, b), true;
+    return compare_with_gjk(witness, a, b), true;
 }
 
 /// A triangle has no geometry of FCL's: its signed distance needs none.
 bool Narrow::ask(Witness& witness, const Part& a, const Part& b, std::uint32_t) {
     if (signed_distance(witness, a, b) == Answer::found)
-        doubt(witness, a, b);
+        validate_normal(witness, a, b);
     else
-        witness = ask_beside(a, b);
+        witness = ask_gjk(a, b);
     return true;
 }
 

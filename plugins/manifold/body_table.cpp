@@ -238,8 +238,8 @@ Status BodyTable::place(const DetectRequest& request) {
         // Grown by half the margin and the whole sweep, two boxes overlap wherever their parts may
         // be near.
         const double sweep = request.sweeps ? request.sweeps[part.body] : 0.0;
-        part.reach = 0.5 * request.margin + (sweep > 0 ? sweep : 0.0);
-        const Vec3 grown{part.reach, part.reach, part.reach};
+        part.expansion = 0.5 * request.margin + (sweep > 0 ? sweep : 0.0);
+        const Vec3 grown{part.expansion, part.expansion, part.expansion};
         part.bounds = bounds_of(part);
         part.bounds = {part.bounds.low - grown, part.bounds.high + grown};
     }

@@ -36,7 +36,7 @@ struct Part {
     Frame world{};         ///< shape frame → world, at the poses of the last `place`
     Aabb bounds{};         ///< world, grown by half the margin and the sweep
     Aabb fat{};            ///< contains `bounds`; what a broad phase works on
-    double reach = 0;      ///< half the margin and the sweep [m]
+    double expansion = 0;  ///< of its bounds: half the margin and the sweep [m]
     bool present = false;  ///< has a pose, and a finite one
     std::uint32_t group = 0, mask = 0;
     bool dynamic = false, has_exclusions = false;
@@ -90,7 +90,7 @@ private:
 };
 
 /// Distance up to which two parts are reported [m].
-inline double pair_margin(const Part& a, const Part& b) { return a.reach + b.reach; }
+inline double pair_margin(const Part& a, const Part& b) { return a.expansion + b.expansion; }
 
 /// By bodies, then by parts. Parts stand in the order of their bodies, so only compounds make the
 /// two disagree.

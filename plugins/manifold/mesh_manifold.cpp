@@ -56,7 +56,7 @@ void begin_triangle(Part& triangle, const Part& surface) {
     triangle.body = surface.body;
     triangle.index = surface.index;
     triangle.world = surface.world;
-    triangle.reach = surface.reach;
+    triangle.expansion = surface.expansion;
 }
 
 void put_triangle(MeshScratch& scratch, const MeshTopology& mesh, const Facet& facet) {

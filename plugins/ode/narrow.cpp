@@ -73,21 +73,21 @@ bool ask_boxes(Witness& witness, const Part& a, const Part& b, double grown) {
 }
 
 /// The closest points of sharp parts that ODE says nothing about: apart, or just touching.
-bool ask_beside(Witness& witness, const Part& a, const Part& b) {
+bool ask_gjk(Witness& witness, const Part& a, const Part& b) {
     const bool found = closest_when_apart(witness, a, b) || closest_when_touching(witness, a, b);
     witness.shared = true;
     return found;
 }
 
 /// ODE can name a normal along which the true shapes overlap far more than it says: its convex test
-/// often, its box test where two edges are nearly parallel. Then the closest points are computed
-/// beside it, and of both normals the one of less overlap is nearer to the truth.
-void doubt(Witness& witness, const Part& a, const Part& b) {
+/// often, its box test where two edges are nearly parallel. Then GJK is
+/// asked, too, and of both normals the one of less overlap is nearer to the truth.
+void validate_normal(Witness& witness, const Part& a, const Part& b) {
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
     if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return;
     Witness other;
     witness.approximate = true;
-    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    if (ask_gjk(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
 }
 
 /// ODE's convex test stops at some way out of an overlap, which need not be the shortest. Where
@@ -97,7 +97,7 @@ void shorten(Witness& witness, const Part& a, const Part& b) {
     const Vec3 n = unit_or(witness.normal, {0, 1, 0});
     const double implied = support_gap(a, b, n);
     Witness other;
-    if (ask_beside(other, a, b) && other.gap > implied) witness = other;
+    if (ask_gjk(other, a, b) && other.gap > implied) witness = other;
 }
 
 /// Boxes that an axis parts: the normal of larger boxes will do where it parts the true ones too,
@@ -105,7 +105,7 @@ void shorten(Witness& witness, const Part& a, const Part& b) {
 bool ask_boxes_apart(Witness& witness, const Part& a, const Part& b) {
     if (!ask_boxes(witness, a, b, 0.5 * pair_margin(a, b))) return false;
     const bool parts = support_gap(a, b, unit_or(witness.normal, {0, 1, 0})) >= 0;
-    return (parts && gap_is_reached(a, b, witness.normal)) || ask_beside(witness, a, b);
+    return (parts && gap_is_reached(a, b, witness.normal)) || ask_gjk(witness, a, b);
 }
 
 /// Of parts that overlap far ODE may name a long way out, or say nothing at all.
@@ -122,10 +122,10 @@ bool ask_deep(Witness& witness, const Part& a, const Part& b, bool overlap) {
 bool ask_any(Witness& witness, const Part& a, const Part& b) {
     const bool boxes = is(a, ShapeKind::box) && is(b, ShapeKind::box);
     const bool overlap = boxes ? ask_boxes(witness, a, b, 0) : ask(witness, a, b);
-    if (overlap) doubt(witness, a, b);
+    if (overlap) validate_normal(witness, a, b);
     if (overlap && (is(a, ShapeKind::hull) || is(b, ShapeKind::hull))) shorten(witness, a, b);
     if (boxes) return overlap || ask_boxes_apart(witness, a, b);
-    return (!overlap && ask_beside(witness, a, b)) || ask_deep(witness, a, b, overlap);
+    return (!overlap && ask_gjk(witness, a, b)) || ask_deep(witness, a, b, overlap);
 }
 
 bool is_plane_pair(const Part& a, const Part& b) {
@@ -183,15 +183,15 @@ void TriangleAnswers::begin(const Part& a, const Part& b) {
 bool TriangleAnswers::ask(Witness& witness, const Part& a, const Part& b, std::uint32_t id) {
     const auto it = std::lower_bound(named_.begin(), named_.end(), id,
                                      [](const Named& n, std::uint32_t i) { return n.id < i; });
-    if (it == named_.end() || it->id != id) return ask_beside(witness, a, b);
+    if (it == named_.end() || it->id != id) return ask_gjk(witness, a, b);
     witness = it->witness;
-    if (!finite(witness.normal)) return ask_beside(witness, a, b);
+    if (!finite(witness.normal)) return ask_gjk(witness, a, b);
 
     // A normal along which the true shapes overlap more than ODE says is not trusted.
     const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
     if (implied > witness.gap - 1e-6 * (size_of(a) + size_of(b))) return true;
     Witness other;
-    if (ask_beside(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    if (ask_gjk(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
     return true;
 }
 

@@ -34,11 +34,11 @@ private:
     }
 
     void place_parts() override {
-        double reach = 0;
+        double expansion = 0;
         for (const Part& part : table_.parts())
-            reach = std::max(reach, part.present ? part.reach : 0);
+            expansion = std::max(expansion, part.present ? part.expansion : 0);
         for (const Part& part : table_.parts())
-            if (part.present) place_geoms(part, 2 * reach);
+            if (part.present) place_geoms(part, 2 * expansion);
     }
 
     void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool raw,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The staircase of what acts along one axis against a search by halves for the point where it is
-/// met.
+/// The set-valued force law of what acts along one axis against a search by halves for the point
+/// where it is met.
 #include "constraints/axis_drive.h"
 #include "support/random.h"
 
@@ -35,7 +35,7 @@ AxisDrive random_axis(Random& random) {
     return axis;
 }
 
-/// Where the line meets the staircase, which falls while the line climbs.
+/// Where the line meets the force law, which falls while the line climbs.
 double met_by_halves(const AxisDrive& axis, double rate, double impulse, double response) {
     double low = -1e6, high = 1e6;
     for (int i = 0; i < 200; ++i) {

@@ -17,7 +17,7 @@ TEST(Rolling, OneTorqueStopsTheTurningAboutAnAxis) {
         const InverseMass<double> a{1, symmetric(random.tensor())},
             b{1, symmetric(random.tensor())};
         Velocity<double> x{none, random.vector()}, y{none, random.vector()};
-        const double effective = 1 / turning_response<double>(a, b, axis, axis);
+        const double effective = 1 / angular_response<double>(a, b, axis, axis);
         double torque = 0;
         const double change = resist_spin(torque, axis.dot(x.w - y.w), effective, 1e9);
         apply_torque<double>(x, a, change * axis);

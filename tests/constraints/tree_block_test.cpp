@@ -199,7 +199,7 @@ TEST(TreeBlock, TheStiffnessOfATurnIsTheDerivativeOfTheTorque) {
         slope.col(k) = -change.cross(impulse) / kTurn * kStep;
     }
     const Matrix3d even = 0.5 * (slope + slope.transpose());
-    EXPECT_LT((test::full(turning_stiffness<double>(arm, impulse, kStep)) - even).norm(),
+    EXPECT_LT((test::full(angular_stiffness<double>(arm, impulse, kStep)) - even).norm(),
               1e-5 * even.norm());
 }
 

@@ -30,7 +30,8 @@ double fastest(const World& world) {
     double most = 0;
     for (std::size_t i = 0; i < b.size(); ++i)
         if (b.motion[i] == Motion::dynamic)
-            most = std::max(most, b.velocity[i].norm() + b.angular_velocity[i].norm() * b.reach[i]);
+            most = std::max(
+                most, b.velocity[i].norm() + b.angular_velocity[i].norm() * b.bounding_radius[i]);
     return most;
 }
 
@@ -314,7 +315,7 @@ TEST_P(Structures, ShockPropagationGoesBeforeExactIslands) {
     run_for(simulation, 1);
 }
 
-/// A light box between heavy ones, wedged hard, goes over to sweeps and back without a blow.
+/// A light box between heavy ones, wedged hard, goes over to iterations and back without a blow.
 TEST_P(Structures, JammedLightBodiesAreNotThrown) {
     Scene s = scene();
     s.materials[0].friction = 3;

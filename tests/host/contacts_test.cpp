@@ -20,7 +20,7 @@ Vector impulse_on(const Simulation& simulation, std::uint32_t body) {
     return sum;
 }
 
-/// A box of 2 kg at rest on the ground; exact: solved as an island, else by sweeps.
+/// A box of 2 kg at rest on the ground; exact: solved as an island, else by iterations.
 Scene box_at_rest(std::uint32_t substeps, bool exact, Precision precision) {
     Scene s;
     s.settings.substeps = substeps, s.settings.precision = precision;
@@ -58,7 +58,7 @@ INSTANTIATE_TEST_SUITE_P(All, ContactWeights,
                          testing::Combine(testing::Values(1u, 10u), testing::Bool()),
                          [](const auto& param_info) {
                              return std::to_string(std::get<0>(param_info.param)) + "substeps_" +
-                                    (std::get<1>(param_info.param) ? "exact" : "swept");
+                                    (std::get<1>(param_info.param) ? "exact" : "iterated");
                          });
 
 /// In each step m Δv = m g dt + Σ impulses, whatever solved the contacts.
@@ -176,7 +176,7 @@ TEST(ContactSums, MaterialsAndPartsAreThoseOfTheBodies) {
     EXPECT_EQ(simulation.contacts()[0].material_b, 1u);
 }
 
-/// Bodies are named by identifiers where places and identifiers have parted, the lower one first.
+/// Bodies are named by identifiers where slots and identifiers have parted, the lower one first.
 TEST(ContactSums, AreOfIdentifiers) {
     Scene s = box_at_rest(1, false, Precision::double_);
     add_body(s, sphere(0.1), {5, 9, 0});
@@ -186,7 +186,7 @@ TEST(ContactSums, AreOfIdentifiers) {
     BodySpec ground;
     ground.motion = Motion::fixed;
     ground.geometry = 0;
-    EXPECT_EQ(simulation.place_of(simulation.add_body(ground)), 0u);
+    EXPECT_EQ(simulation.slot_of(simulation.add_body(ground)), 0u);
     for (int i = 0; i < 100; ++i) simulation.step();
     ASSERT_EQ(simulation.contacts().size(), 4u);
     double force = 0;

@@ -64,7 +64,7 @@ TEST_P(EditedBodies, ANewBodyInAnOldPlaceHasNoPast) {
     s.remove_body(1);
     const std::uint32_t id = s.add_body(body_of(1, {3, 0.8, 0}));
     EXPECT_EQ(id, 3u);
-    EXPECT_EQ(s.place_of(id), 1u);
+    EXPECT_EQ(s.slot_of(id), 1u);
     make_steps(s, 100);
     EXPECT_NEAR(s.body_state(id).placement.position.y(), 0.6, 1e-3)
         << "the pair was kept apart, the new one is not";
@@ -89,7 +89,7 @@ TEST_P(EditedBodies, AnotherShapeWhereOneStoodIsLookedAtAnew) {
     BodySpec spec = body_of(ball, Vector::Zero());
     spec.placement = s.body_state(1).placement;
     s.remove_body(1);
-    EXPECT_EQ(s.place_of(s.add_body(spec)), 1u);
+    EXPECT_EQ(s.slot_of(s.add_body(spec)), 1u);
     EXPECT_EQ(s.step().contacts, 1u) << "those of the cube were kept";
 }
 
@@ -237,7 +237,7 @@ TEST(EditedBody, AFountainKeepsItsTablesSmall) {
     Frame frame;
     s.capture(frame);
     ASSERT_EQ(frame.ids.size(), frame.bodies.size());
-    EXPECT_EQ(frame.ids[s.place_of(drops.back())], drops.back());
+    EXPECT_EQ(frame.ids[s.slot_of(drops.back())], drops.back());
 }
 
 }  // namespace

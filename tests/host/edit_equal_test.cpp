@@ -82,13 +82,13 @@ TEST_P(EditedWorlds, APlaceInTheMiddleMayFallVacant) {
     for (int i = 0; i < 100; ++i) {
         if (i == 30) edited.remove_body(1);
         if (i == 60) {
-            EXPECT_EQ(edited.place_of(edited.add_body(body_of(2, {-50, 0.2, 50}))), 1u);
+            EXPECT_EQ(edited.slot_of(edited.add_body(body_of(2, {-50, 0.2, 50}))), 1u);
         }
         quiet.step(), edited.step();
         for (std::uint32_t b = 1; b < lone.bodies.size(); ++b)
             ASSERT_TRUE(same_state(edited, b + 1, quiet, b)) << "step " << i << ", body " << b;
         if (i == 50) {
-            EXPECT_EQ(hash_of(edited), hash_of(quiet)) << "vacant places do not count";
+            EXPECT_EQ(hash_of(edited), hash_of(quiet)) << "vacant slots do not count";
         }
     }
 }

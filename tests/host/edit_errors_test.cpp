@@ -130,7 +130,7 @@ TEST(BadEdits, OfWhatThereIsNot) {
     unknown([](Simulation& s) { s.set_force(7, kNone, kNone); }, "body 7 was removed");
     unknown([](Simulation& s) { s.set_placement(7, {}); }, "body 7 was removed");
     unknown([](Simulation& s) { s.body_state(7); }, "body 7 was removed");
-    unknown([](Simulation& s) { s.place_of(7); }, "body 7 was removed");
+    unknown([](Simulation& s) { s.slot_of(7); }, "body 7 was removed");
     unknown([](Simulation& s) { s.closest(1, 7); }, "body 7 was removed");
     unknown([](Simulation& s) { s.remove_joint(4); }, "there is no joint 4");
     unknown([](Simulation& s) { s.remove_coupling(0); }, "there is no coupling 0");

@@ -32,7 +32,7 @@ TEST_P(Momentum, SurvivesACollision) {
 }
 
 /// Balls, boxes and capsules on a grid, of 1 to 10^heaviest kg, drawn together and spun; they meet,
-/// rub, roll and bounce.
+/// slide, roll and bounce.
 struct FreeHeap {
     Scene scene;
 
@@ -95,7 +95,7 @@ void expect_momentum_kept(const Scene& empty, const std::string& collider, int s
     const std::string where = std::to_string(set.dt) + " s x " + std::to_string(set.substeps) +
                               " x (" + std::to_string(set.velocity_iterations) + " + " +
                               std::to_string(set.position_iterations) + "), spin " +
-                              std::to_string(spin) + (set.exact_islands ? "" : ", swept");
+                              std::to_string(spin) + (set.exact_islands ? "" : ", iterated");
     Simulation simulation(FreeHeap(empty, side, spin, seed % 2 == 0 ? 1 : 3, random).scene,
                           colliders(), collider);
     const Momenta before(simulation.world());
@@ -116,9 +116,9 @@ void expect_momentum_kept(const Scene& empty, const std::string& collider, int s
 }
 
 TEST_P(Momentum, OfAFreeHeapIsKept) {
-    for (const bool swept : {false, true}) {
+    for (const bool iterated : {false, true}) {
         Scene s = scene();
-        if (swept) s.settings.exact_islands = 0;
+        if (iterated) s.settings.exact_islands = 0;
         expect_momentum_kept(s, collider(), 3, 1, 5, 1);
         use_fine_steps(s.settings);
         expect_momentum_kept(s, collider(), 3, 1, 5, 2);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Particles on bodies: where they rest, how they rub, and what they bear.
+/// Particles on bodies: where they rest, their friction, and what they bear.
 #include "support/scenes.h"
 #include "support/soft.h"
 

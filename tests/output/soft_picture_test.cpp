@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "output/picture.h"
 
+#include "geometry/outer_faces.h"
 #include "output/smooth_surface.h"
 #include "output/view.h"
-#include "scene/outer_faces.h"
 #include "soft.h"
 
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "output/recording.h"
 
+#include "geometry/outer_faces.h"
 #include "output/error.h"
 #include "output/exporters.h"
-#include "scene/outer_faces.h"
 #include "soft.h"
 #include "temporary_folder.h"
 

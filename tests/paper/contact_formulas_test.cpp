@@ -45,7 +45,7 @@ TEST(ContactFormulas, FrictionStaysInARoundCone) {
                                  [](double x) { return x > 0 ? 1 / x : 0; });
         Planar<double> f{0, 0};
         const double bound = std::abs(number(random));
-        rub<double>(f, {0, 0}, {number(random), number(random)}, mass, bound);
+        solve_friction<double>(f, {0, 0}, {number(random), number(random)}, mass, bound);
         EXPECT_LE(std::hypot(f.x, f.y), bound * (1 + 1e-12));
     }
 }
@@ -56,7 +56,7 @@ TEST(ContactFormulas, FrictionOpposesTheSlidingWhateverTheInertia) {
     const TangentMass<double> mass = tangent_mass<double>(5, 1, 1, [](double x) { return 1 / x; });
     Planar<double> f{0, 0};
     const Planar<double> u{0.6, 0.8};
-    for (int i = 0; i < 200; ++i) rub<double>(f, {0, 0}, u, mass, 2.0);
+    for (int i = 0; i < 200; ++i) solve_friction<double>(f, {0, 0}, u, mass, 2.0);
     EXPECT_NEAR(f.x, -1.2, 1e-6);
     EXPECT_NEAR(f.y, -1.6, 1e-6);
 }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "scene/deformable_faults.h"
 
 namespace plumb::test {
@@ -228,7 +228,7 @@ TEST(DeformableShapes, CellsNeedAClosedMeshThatIsNeitherTooLargeNorTooSmall) {
     const auto said = [](const Elements& surface, double cell) -> std::string {
         try {
             reader::mesh_lattice(mesh_of(surface), cell);
-        } catch (const reader::BadShape& error) {
+        } catch (const BadShape& error) {
             return error.what();
         }
         return "no error";

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "reader/random.h"
+#include "math/random.h"
 #include "reading.h"
 #include "scene/deformable_faults.h"
 #include "scene/link_faults.h"
@@ -14,7 +14,7 @@ namespace plumb::test {
 
 namespace {
 
-using reader::Random;
+using plumb::Random;
 
 std::string text_of(const std::string& file) {
     std::ifstream stream(file, std::ios::binary);

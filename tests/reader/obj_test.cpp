@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "reading.h"
 
 namespace plumb::test {
@@ -33,7 +33,7 @@ protected:
     std::string reason_for(const std::string& text) {
         try {
             reader::load_obj(file(text));
-        } catch (const reader::BadShape& error) {
+        } catch (const BadShape& error) {
             return error.what();
         }
         return "no error";

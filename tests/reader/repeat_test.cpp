@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <map>
 
-#include "reader/random.h"
+#include "math/random.h"
 #include "reading.h"
 
 namespace plumb::test {
@@ -24,14 +24,14 @@ std::map<char, int> count_by_letter(const Scene& scene) {
 
 TEST(Random, IsSplitMix64) {
     // The first draws of the reference implementation for the seed 1234567.
-    reader::Random random(1234567);
+    plumb::Random random(1234567);
     EXPECT_EQ(random.bits(), 6457827717110365317ull);
     EXPECT_EQ(random.bits(), 3203168211198807973ull);
     EXPECT_EQ(random.bits(), 9817491932198370423ull);
 }
 
 TEST(Random, RotationsAreUniform) {
-    reader::Random random(1);
+    plumb::Random random(1);
     constexpr int kDraws = 20000;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     Eigen::Matrix3d second = Eigen::Matrix3d::Zero();

@@ -4,7 +4,7 @@
 #include <bit>
 #include <limits>
 
-#include "reader/bad_shape.h"
+#include "geometry/bad_shape.h"
 #include "robots.h"
 
 namespace plumb::test {
@@ -50,7 +50,7 @@ protected:
     std::string reason_for(const std::string& content) const {
         try {
             reader::load_stl(write("mesh.stl", content));
-        } catch (const reader::BadShape& error) {
+        } catch (const BadShape& error) {
             return error.what();
         }
         return "no error";
@@ -93,7 +93,7 @@ TEST_F(Stl, RefusesWhatIsNoMesh) {
     try {
         reader::load_stl(folder_ / "gone.stl");
         ADD_FAILURE() << "no error";
-    } catch (const reader::BadShape& error) {
+    } catch (const BadShape& error) {
         expect_words(error.what(), "gone.stl");
     }
 }

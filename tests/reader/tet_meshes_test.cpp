@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "reader/tet_meshes.h"
 
-#include "reader/bad_shape.h"
-#include "reader/random.h"
+#include "geometry/bad_shape.h"
+#include "math/random.h"
 #include "reading.h"
 #include "scene/surface_faults.h"
 #include "temporary_files.h"
@@ -94,7 +94,7 @@ protected:
     std::string said_of_msh(const std::string& text, bool tetrahedra = true) {
         try {
             reader::load_gmsh(file("mesh.msh", text), tetrahedra);
-        } catch (const reader::BadShape& error) {
+        } catch (const BadShape& error) {
             return error.what();
         }
         return "no error";
@@ -104,7 +104,7 @@ protected:
         file("mesh.ele", tetrahedra);
         try {
             reader::load_tetgen(file("mesh.node", nodes));
-        } catch (const reader::BadShape& error) {
+        } catch (const BadShape& error) {
             return error.what();
         }
         return "no error";
@@ -262,7 +262,7 @@ TEST_F(TetMeshes, ThatComeApartAtSeamsAreMergedWithARemark) {
 }
 
 TEST_F(TetMeshes, ThatAreDamagedAreMeshesOrErrors) {
-    reader::Random random(7);
+    plumb::Random random(7);
     int good = 0, bad = 0;
     const std::string letters = "0123456789.-+e$#E \n\t\xffnax";
     for (int round = 0; round < 600; ++round) {

@@ -2,14 +2,14 @@
 /// Whatever a URDF file says, it becomes a robot of finite numbers or a SceneError.
 #include <cmath>
 
-#include "reader/random.h"
+#include "math/random.h"
 #include "robots.h"
 
 namespace plumb::test {
 
 namespace {
 
-using reader::Random;
+using plumb::Random;
 
 constexpr const char* kFragments[] = {"0",      "0.5",   "2",         "0.1 0 0",  "-1",    "1e308",
                                       "-1e308", "1e999", "nan",       "1e-320",   "",      "0 0 0",

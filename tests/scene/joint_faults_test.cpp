@@ -126,12 +126,12 @@ TEST(JointFaults, AreToldWhereTheyAre) {
 }
 
 TEST(JointFaults, OfAxesThatAKindHasNot) {
-    const auto rub = [](JointAxisSpec& a) { a.friction = 1; };
-    expect_bad_axis(JointKind::hinge, kAlongX, "", rub);
-    expect_bad_axis(JointKind::fixed, kTurnZ, "", rub);
-    expect_bad_axis(JointKind::distance, kAlongX, "", rub);
-    expect_bad_axis(JointKind::distance, kTurnX, "", rub);
-    expect_bad_axis(JointKind::cone_twist, kTurnZ, "", rub);
+    const auto with_friction = [](JointAxisSpec& a) { a.friction = 1; };
+    expect_bad_axis(JointKind::hinge, kAlongX, "", with_friction);
+    expect_bad_axis(JointKind::fixed, kTurnZ, "", with_friction);
+    expect_bad_axis(JointKind::distance, kAlongX, "", with_friction);
+    expect_bad_axis(JointKind::distance, kTurnX, "", with_friction);
+    expect_bad_axis(JointKind::cone_twist, kTurnZ, "", with_friction);
     JointSpec six = joint_of(JointKind::six_axis);
     six.axes[kAlongY].friction = 1;
     EXPECT_FALSE(find_fault(six));

@@ -52,7 +52,7 @@ void expect_every_pair_in_its_lane() {
             }
     }
     EXPECT_FALSE(batches.ranges().back().independent);
-    EXPECT_EQ(arrays.turnings, nullptr);
+    EXPECT_EQ(arrays.rollings, nullptr);
 }
 
 TEST(ContactBatches, EveryPairHasALaneAndRows) {

@@ -21,12 +21,12 @@ protected:
     }
 
     /// A contact of the step that was made last.
-    void add(double gap, double push, double rubbing) {
+    void add(double gap, double push, double friction) {
         Contact contact{};
         contact.a = 0, contact.b = 1, contact.gap = gap;
         ContactMemory memory{};
         memory.normal_impulse = push;
-        memory.friction_impulse = {rubbing, 0, 0};
+        memory.friction_impulse = {friction, 0, 0};
         world_.contacts.found_before.push_back(contact);
         world_.contacts.memory_before.push_back(memory);
     }

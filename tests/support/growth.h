@@ -31,8 +31,8 @@ inline Eigen::VectorXd difference(const World& now, const World& reference, doub
         const Eigen::Quaterniond turn = b.orientation[i] * r.orientation[i].conjugate();
         const Eigen::Vector3d angle = (turn.w() < 0 ? -2 : 2) * turn.vec();
         d.segment<12>(12 * (static_cast<Eigen::Index>(i) - 1)) << b.position[i] - r.position[i],
-            angle * b.reach[i], (b.velocity[i] - r.velocity[i]) * h,
-            (b.angular_velocity[i] - r.angular_velocity[i]) * h * b.reach[i];
+            angle * b.bounding_radius[i], (b.velocity[i] - r.velocity[i]) * h,
+            (b.angular_velocity[i] - r.angular_velocity[i]) * h * b.bounding_radius[i];
     }
     return d;
 }
@@ -63,7 +63,7 @@ inline double growth(const Structure& structure, const Settings& settings,
         if (c % 6 < 3)
             v[c % 3] += size;
         else
-            w[c % 3] += size / s.world().bodies.reach[body];
+            w[c % 3] += size / s.world().bodies.bounding_radius[body];
         s.set_velocity(body, v, w);
         run(s, steps);
         half.col(c) = difference(s.world(), reference.world(), h) / size;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/// What a contact's friction holds on to: the points of both bodies that met when it began to
+/// stick.
+#pragma once
+
+#include "world/bodies.h"
+#include "world/contacts.h"
+
+namespace plumb {
+
+/// A contact begins to stick at `point`, with a slip behind it already [m].
+inline void set_anchors(ContactMemory& memory, const Bodies& b, const Contact& contact,
+                        const Vector3d& point, const Vector3d& slip) {
+    memory.stick_a = in_body(b, contact.a, point + 0.5 * slip);
+    memory.stick_b = in_body(b, contact.b, point - 0.5 * slip);
+}
+
+/// How far apart the points have come by now [m].
+inline Vector3d anchor_slip_of(const Bodies& b, const Contact& contact,
+                               const ContactMemory& memory) {
+    return in_world(b, contact.a, memory.stick_a) - in_world(b, contact.b, memory.stick_b);
+}
+
+}  // namespace plumb

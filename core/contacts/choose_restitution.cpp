@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+/// Collision or contact? A pair collides when it approaches faster than √(2 g ε) (§6, after
+/// Mirtich).
+///
+/// Restitution is consumed once a contact and step, in the first substep that begins with the
+/// surfaces touching: a collision that is still open is let through, or it would bounce early and
+/// from too high. The recovery of the overlap that this makes adds no speed (the kernels leave
+/// parting bodies alone).
+#include "contacts/contact_measures.h"
+#include "contacts/contact_stages.h"
+
+namespace plumb {
+
+void choose_restitution(World& world, bool first_substep) {
+    ContactTable& c = world.contacts;
+    const double threshold = collision_threshold(world.settings);
+    c.restitution.assign(c.found.size(), Restitution::none);
+    c.restitution_velocity.assign(c.found.size(), 0);
+    if (first_substep) c.bounced.assign(c.found.size(), 0);
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const double e = world.surface_pair(c.found[i].a, c.found[i].b).restitution;
+        if (e == 0 || c.bounced[i]) continue;
+        const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
+        if (-u <= threshold) continue;
+        if (c.gap[i] > 0) {
+            c.restitution[i] = Restitution::passing;
+        } else {
+            c.set_restitution(i, -e * u);
+            c.bounced[i] = 1;
+        }
+    }
+}
+
+}  // namespace plumb

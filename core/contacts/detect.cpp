@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: MIT
+#include "contacts/contact_faults.h"
+#include "contacts/contact_stages.h"
+#include "contacts/reuse_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// How far a body may come in dt beyond what the margin covers already [m].
+double sweep(const World& world, std::size_t i, double dt) {
+    const Bodies& b = world.bodies;
+    if (b.motion[i] == Motion::fixed || !(b.bounding_radius[i] > 0)) return 0;
+    const double turn = std::min(b.angular_velocity[i].norm() * dt, 2.0);
+    const double spin = turn * b.bounding_radius[i];
+    const double travel = b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
+    return std::max(0.0, travel - world.settings.margin / 2);
+}
+
+bool before(const Contact& x, const Contact& y) {
+    if (x.a != y.a) return x.a < y.a;
+    if (x.b != y.b) return x.b < y.b;
+    return x.feature < y.feature;
+}
+
+/// Poses and sweeps of all bodies, and empty sinks.
+void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
+    const Bodies& bodies = world.bodies;
+    buffers.poses.resize(bodies.size());
+    buffers.sweeps.resize(bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        buffers.poses[i] = {to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
+        buffers.sweeps[i] = sweep(world, i, dt);
+    }
+    buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
+    buffers.sinks.clear();
+    for (ContactRoom& room : buffers.rooms) {
+        room.clear();
+        buffers.sinks.push_back(room.sink());
+    }
+}
+
+/// Trouble that the collider does not know of itself, or tells less of.
+void look_at_rooms(const DetectBuffers& buffers, StepReport& report) {
+    for (const ContactRoom& room : buffers.rooms) {
+        if (room.refused() > 0) {
+            report.collider_failed = true;
+            report.message = "it asked for room for " + std::to_string(room.refused()) +
+                             " contacts, and a sink takes " + std::to_string(kMaxContacts) +
+                             " at most";
+        }
+        if (!room.overrun()) continue;
+        report.collider_failed = report.collider_unusable = true;
+        report.message = "it wrote more contacts than it had asked room for";
+        return;
+    }
+}
+
+void take_contacts(World& world, const DetectBuffers& buffers, StepReport& report) {
+    std::vector<Contact>& found = world.contacts.found;
+    found.clear();
+    if (report.collider_unusable) return;
+    for (const ContactRoom& room : buffers.rooms)
+        for (const Contact& c : room) {
+            const ContactFault fault = fault_of(c, world, buffers.sweeps);
+            if (fault == ContactFault::none) {
+                found.push_back(c);
+                continue;
+            }
+            ++report.faults[static_cast<std::size_t>(fault)];
+            ++report.rejected_contacts;
+        }
+    world.contacts.rejected += report.rejected_contacts;
+    if (!std::is_sorted(found.begin(), found.end(), before))
+        std::stable_sort(found.begin(), found.end(), before);
+}
+
+std::uint32_t detect_flags(const Settings& settings) {
+    return settings.contacts == ContactOrigin::raw ? kDetectRaw : 0u;
+}
+
+}  // namespace
+
+TaskRunner runner_on(Workers& workers) {
+    return {&workers, workers.count(),
+            [](void* ctx, void (*task)(void*, std::uint32_t), void* arg) {
+                static_cast<Workers*>(ctx)->run([=](std::uint32_t worker) { task(arg, worker); });
+            }};
+}
+
+void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximity,
+            DetectBuffers& buffers, double dt, StepReport& report, Ledger& ledger) {
+    {
+        const StageTimer timer(ledger, Stage::match);
+        prepare_request(world, buffers, dt);
+    }
+    const bool reuse = plan.runs(Effect::contact_reuse);
+    const TaskRunner runner = runner_on(workers);
+    ReuseContext context{&world, &buffers.sweeps};
+    PairFilter filter{};
+    if (reuse) filter = reuse_filter(context);
+    const DetectRequest request{buffers.poses.data(),
+                                buffers.sweeps.data(),
+                                static_cast<std::uint32_t>(buffers.poses.size()),
+                                detect_flags(world.settings),
+                                world.settings.margin,
+                                reuse ? &filter : nullptr,
+                                workers.count() > 1 ? &runner : nullptr};
+    Status status;
+    {
+        const StageTimer timer(ledger, Stage::detect);
+        status = proximity.detect(request, buffers.sinks.data(),
+                                  static_cast<std::uint32_t>(buffers.sinks.size()));
+    }
+    if (status.code != Status::ok) {
+        report.collider_failed = true;
+        report.message = status.message ? status.message : "the collider failed without a message";
+    }
+    {
+        const StageTimer timer(ledger, Stage::match);
+        look_at_rooms(buffers, report);
+        take_contacts(world, buffers, report);
+    }
+    if (reuse) {
+        const StageTimer timer(ledger, Stage::reuse);
+        const std::uint32_t unasked = merge_kept_contacts(world);
+        report.faults[static_cast<std::size_t>(ContactFault::unwanted_pair)] += unasked;
+        report.rejected_contacts += unasked;
+        if (report.collider_failed || report.rejected_contacts > 0) forget_kept_contacts(world);
+    }
+    report.contacts = static_cast<std::uint32_t>(world.contacts.found.size());
+}
+
+}  // namespace plumb

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: MIT
+/// Contacts are detected once a step; through its substeps their points ride on the bodies, and
+/// with them the gap and the common point at which the contact acts. Only a point of now keeps
+/// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
+#include "contacts/anchors.h"
+#include "contacts/contact_stages.h"
+#include "contacts/rims.h"
+
+namespace plumb {
+namespace {
+
+/// A contact has rolled on once its point has come farther than this share of the rim's radius
+/// along both bodies.
+constexpr double kRolledOn = 1e-3;
+
+/// Where two points of a contact slide past each other, it goes with that of the body that touches
+/// with a point: with what moves along what does not, with what is round along what is sharp, with
+/// the rounder of two that are round; half-way where nobody can tell.
+double share_of_a(const Bodies& b, const Contact& c) {
+    const bool moves_a = b.motion[c.a] == Motion::dynamic,
+               moves_b = b.motion[c.b] == Motion::dynamic;
+    if (moves_a != moves_b) return moves_a ? 1 : 0;
+    if (c.radius_a > 0 && c.radius_b > 0) return c.radius_b / (c.radius_a + c.radius_b);
+    return is_sharp(c) ? 0.5 : c.radius_a > 0 ? 1 : 0;
+}
+
+void take_as_found(World& world) {
+    ContactTable& c = world.contacts;
+    c.gap.resize(c.found.size());
+    c.point.resize(c.found.size());
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        c.gap[i] = c.found[i].gap;
+        c.point[i] = common_point(c.found[i]);
+    }
+    if (world.settings.substeps == 1) return;
+    c.track.resize(c.found.size());
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Contact& contact = c.found[i];
+        c.track[i] = {in_body(world.bodies, contact.a, to_eigen(contact.point_a)),
+                      in_body(world.bodies, contact.b, to_eigen(contact.point_b)),
+                      share_of_a(world.bodies, contact)};
+    }
+}
+
+/// gap = n·(a − b) − radii at the poses now, and the common point: along the normal half-way
+/// between the surfaces.
+void measure(World& world) {
+    ContactTable& c = world.contacts;
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Contact& contact = c.found[i];
+        const Vector3d n = to_eigen(contact.normal);
+        const Vector3d a = in_world(world.bodies, contact.a, c.track[i].a) - contact.radius_a * n,
+                       b = in_world(world.bodies, contact.b, c.track[i].b) + contact.radius_b * n;
+        const Vector3d apart = a - b;
+        c.gap[i] = n.dot(apart);
+        const double lead = c.track[i].share - 0.5;
+        c.point[i] = 0.5 * (a + b) + lead * (apart - c.gap[i] * n);
+    }
+}
+
+/// Points that a rim has rolled away from do not hold it any more: it sticks where it is now.
+void let_go_of_what_rolled(World& world, std::size_t i) {
+    const ContactTable& c = world.contacts;
+    const Contact& contact = c.found[i];
+    if (!c.rims[i].runs) return;
+    const double far = kRolledOn * c.rims[i].rim.radius;
+    const Bodies& b = world.bodies;
+    ContactMemory& m = world.contacts.memory[i];
+    const Vector3d n = to_eigen(contact.normal), &now = c.point[i];
+    for (const Vector3d& was :
+         {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
+        if ((now - was).cross(n).squaredNorm() < far * far) return;
+    set_anchors(m, b, contact, now, Vector3d::Zero());
+}
+
+/// How far apart the points have come that met when a contact began to stick.
+void measure_anchor_slips(World& world) {
+    ContactTable& c = world.contacts;
+    c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Contact& contact = c.found[i];
+        if (!is_sharp(contact)) continue;
+        if (!c.rims.empty()) let_go_of_what_rolled(world, i);
+        c.anchor_slip[i] = anchor_slip_of(world.bodies, contact, c.memory[i]);
+    }
+}
+
+}  // namespace
+
+void follow_contacts(World& world, const Plan& plan, bool first_substep) {
+    const bool rims = plan.runs(Effect::rims);
+    if (first_substep) {
+        take_as_found(world);
+        rims ? find_rims(world) : forget_rims(world);
+    } else {
+        if (rims) follow_rims(world);
+        measure(world);
+    }
+    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world);
+}
+
+}  // namespace plumb

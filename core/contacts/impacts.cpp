@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+#include "contacts/impacts.h"
+
+#include "contacts/contact_measures.h"
+#include "world/body_momentum.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// Whether bodies are fast enough for any two of them to collide.
+bool may_collide(const World& world, double threshold) {
+    const Bodies& b = world.bodies;
+    double fastest = 0;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const double squared =
+            b.velocity_now[i].squaredNorm() +
+            b.bounding_radius[i] * b.bounding_radius[i] * b.angular_velocity_now[i].squaredNorm();
+        fastest = std::max(fastest, squared);
+    }
+    return 8 * fastest > threshold * threshold;
+}
+
+/// Whether the surfaces of a contact meet within h, too fast to be a contact at rest. What comes
+/// through before it bounces does not.
+bool collides(const World& world, std::size_t i, double threshold, double h) {
+    const ContactTable& c = world.contacts;
+    if (c.is_passing(i)) return false;
+    const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
+    return -u > threshold && c.gap[i] + h * u < 0;
+}
+
+}  // namespace
+
+void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
+    const auto bodies = static_cast<std::size_t>(world.dynamic_count);
+    if (hit_.capacity() >= pairs.size() && changes_.size() == bodies) return;
+    hit_.reserve(pairs.size());
+    islands_.find(pairs, world.dynamic_count);
+    colliding_.reserve(bodies);
+    shares_.reserve(bodies);
+    changes_.resize(bodies);
+    body_of_.resize(bodies);
+}
+
+bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, double h) {
+    colliding_.clear();
+    // what forces make of a body at rest within two substeps is no impact
+    const double threshold =
+        std::max(collision_threshold(world.settings), 2 * h * world.settings.gravity.norm());
+    if (!may_collide(world, threshold)) return false;
+    hit_.assign(pairs.size(), 0);
+    bool any = false;
+    for (std::size_t p = 0; p < pairs.size(); ++p)
+        for (std::uint32_t k = 0; k < pairs[p].count && !hit_[p]; ++k)
+            any |= hit_[p] = collides(world, pairs[p].first + k, threshold, h);
+    if (!any) return false;
+
+    islands_.find(pairs, world.dynamic_count);
+    for (const ContactIsland& island : islands_.islands()) {
+        const auto first = islands_.pairs().begin() + island.first_pair,
+                   last = islands_.pairs().begin() + island.last_pair;
+        const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
+        if (!hit) continue;
+        const std::uint8_t mark = last - first == 1 ? kAlone : kAmongOthers;
+        std::for_each(first, last, [&](std::uint32_t p) {
+            hit_[p] = mark;
+            take_bodies(world, pairs[p]);
+        });
+        colliding_.push_back(island);
+    }
+    return true;
+}
+
+void Impacts::take_bodies(const World& world, const BodyPair& pair) {
+    const Contact& contact = world.contacts.found[pair.first];
+    if (pair.row_a < world.dynamic_count) body_of_[pair.row_a] = contact.a;
+    if (pair.row_b < world.dynamic_count) body_of_[pair.row_b] = contact.b;
+}
+
+/// The greatest share of the changes, at most 1, with which the island has no more energy than
+/// before. What moves by itself may add energy.
+double Impacts::bounded_share(const World& world, const ContactIsland& island,
+                              const std::vector<BodyPair>& pairs) const {
+    const auto is_driven = [&](std::int32_t row) {
+        return row >= world.dynamic_count && row != world.zero_row();
+    };
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[islands_.pairs()[i]];
+        if (is_driven(pair.row_a) || is_driven(pair.row_b)) return 1;
+    }
+    // along v + s Δv the energy changes by s b + s² a
+    const Bodies& bodies = world.bodies;
+    double a = 0, b = 0;
+    for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+        const std::int32_t row = islands_.bodies()[i];
+        const std::uint32_t body = body_of_[row];
+        const Change& d = changes_[row];
+        const Vector3d &v = bodies.velocity_now[body], &w = bodies.angular_velocity_now[body];
+        b += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
+        a +=
+            0.5 * (bodies.mass[body] * d.v.squaredNorm() + inertia_product(bodies, body, d.w, d.w));
+    }
+    return a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 1;
+}
+
+void Impacts::take(World& world, const std::vector<BodyPair>& pairs) {
+    Bodies& b = world.bodies;
+    shares_.clear();
+    for (const ContactIsland& island : colliding_) {
+        const double share = shares_.emplace_back(bounded_share(world, island, pairs));
+        for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+            const std::int32_t row = islands_.bodies()[i];
+            const std::uint32_t body = body_of_[row];
+            const Vector3d dv = share * changes_[row].v, dw = share * changes_[row].w;
+            b.velocity[body] += dv, b.velocity_now[body] += dv;
+            b.angular_velocity[body] += dw, b.angular_velocity_now[body] += dw;
+            b.angular_momentum[body] += spin_momentum(b, body, dw);
+        }
+    }
+}
+
+}  // namespace plumb

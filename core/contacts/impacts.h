@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+/// Collisions, solved by themselves before the forces of a substep.
+///
+/// An impact tells nothing of the forces to come. Solved together with them, its impulses would be
+/// what the next substep begins from, and iterations cannot take all of that back: what fell would
+/// be thrown up again. So islands in which bodies collide are first solved for velocities without
+/// forces and from nothing, in two phases (Poisson's law): iterations bring the approach to rest
+/// (compression), then each contact that collides gives back e times its impulse (restitution), and
+/// iterations let friction, and contacts that approach anew, follow. Each single update of
+/// compression loses energy, and giving back at most what was taken cannot gain any but by what
+/// iterations leave: where an island has more energy at the end than before, its impulses are
+/// scaled down to where it has not.
+#pragma once
+
+#include "schedule/contact_islands.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+class Impacts {
+public:
+    /// Change of a body's velocity.
+    struct Change {
+        Vector3d v = Vector3d::Zero(), w = Vector3d::Zero();
+    };
+
+    /// Takes all the memory that these pairs may need, so that an impact allocates none.
+    void reserve(const World& world, const std::vector<BodyPair>& pairs);
+
+    /// Finds the islands of `pairs` in which any two surfaces will meet within h [s] faster than
+    /// √(2 g ε) and 2 g h. Returns whether there is one.
+    bool find(const World& world, const std::vector<BodyPair>& pairs, double h);
+
+    /// Whether a pair belongs to such an island.
+    bool is_hit(std::size_t pair) const { return hit_[pair] != 0; }
+
+    /// Whether the pair is an island for itself.
+    bool is_alone(std::size_t pair) const { return hit_[pair] == kAlone; }
+
+    /// Calls visit(row) for their bodies.
+    template <class Visit>
+    void each_row(Visit visit) const {
+        for (const ContactIsland& island : colliding_)
+            for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
+                visit(islands_.bodies()[i]);
+    }
+
+    /// By row, for the rows above.
+    std::vector<Change>& changes() { return changes_; }
+
+    /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities.
+    void take(World& world, const std::vector<BodyPair>& pairs);
+
+    /// Calls visit(pair, share) for the pairs of these islands, with the share of their impulses
+    /// that was taken.
+    template <class Visit>
+    void each_taken(Visit visit) const {
+        for (std::size_t i = 0; i < colliding_.size(); ++i)
+            for (std::uint32_t p = colliding_[i].first_pair; p < colliding_[i].last_pair; ++p)
+                visit(islands_.pairs()[p], shares_[i]);
+    }
+
+private:
+    static constexpr std::uint8_t kAmongOthers = 1, kAlone = 2;
+
+    void take_bodies(const World& world, const BodyPair& pair);
+    double bounded_share(const World& world, const ContactIsland& island,
+                         const std::vector<BodyPair>& pairs) const;
+
+    ContactIslands islands_;
+    std::vector<ContactIsland> colliding_;
+    std::vector<double> shares_;          // [colliding_] of the changes that were taken
+    std::vector<std::uint8_t> hit_;       // [pair]
+    std::vector<std::uint32_t> body_of_;  // [row], of the rows above
+    std::vector<Change> changes_;         // [row]
+};
+
+}  // namespace plumb

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+#include "contacts/rims.h"
+
+#include "math/rotation.h"
+#include "world/round_shapes.h"
+
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// A rim flatter than this against the normal touches with its face, as colliders take it.
+constexpr double kFlat = 1e-5;
+
+/// Share of the radius by which a point may lie beside the rim's deepest one and still be it.
+constexpr double kBeside = 1e-5;
+
+/// A part of a body: its shape, and where that is in the body's frame.
+struct PlacedPart {
+    const Shape* shape;
+    Placement local;
+};
+
+PlacedPart part_of(const World& world, std::uint32_t body, std::uint32_t part) {
+    const std::uint32_t geometry = world.bodies.geometry[body];
+    if (geometry == kNoIndex) return {nullptr, {}};
+    const Shape& shape = world.shapes[geometry];
+    const Placement& local = world.bodies.geometry_in_body[body];
+    if (shape.kind != ShapeKind::compound) return {&shape, local};
+    if (part >= shape.part_count) return {nullptr, {}};
+    const ShapePart& p = shape.parts[part];
+    return {&p.shape, local * Placement{to_eigen(p.local.position), to_eigen(p.local.rotation)}};
+}
+
+/// The rim of a shape that is farthest along d, in the shape's frame; radius 0: none.
+Rim rim_towards(const Shape& shape, const Vector3d& d) {
+    if (!has_rim(shape.kind)) return {};
+    const double side = shape.kind == ShapeKind::cone || d.y() < 0 ? -1 : 1;
+    return {{0, side * shape.half_height, 0}, Vector3d::UnitY(), shape.radius};
+}
+
+/// Whether a point is on a rim, both in the body's frame.
+bool is_on(const Rim& rim, const Vector3d& point, double near) {
+    const Vector3d from = point - rim.centre;
+    const double along = from.dot(rim.axis);
+    return std::abs(along) < near && std::abs((from - along * rim.axis).norm() - rim.radius) < near;
+}
+
+/// The rim of `body` on which `point` is, that is farthest along `direction`; both in the world.
+ContactRim rim_at(const World& world, std::uint32_t body, std::uint32_t part, const Vec3& point,
+                  const Vector3d& direction) {
+    const PlacedPart placed = part_of(world, body, part);
+    if (!placed.shape) return {};
+    const Bodies& b = world.bodies;
+    const Quaterniond back = b.orientation[body].conjugate();
+    const Vector3d d = back * direction, p = in_body(b, body, to_eigen(point));
+    Rim rim = rim_towards(*placed.shape, placed.local.rotation.conjugate() * d);
+    if (rim.radius == 0) return {};
+    rim.centre = placed.local.position + placed.local.rotation * rim.centre;
+    rim.axis = placed.local.rotation * rim.axis;
+    const double near = kBeside * rim.radius;
+    if (!is_on(rim, p, near)) return {};
+    const bool tilted = d.cross(rim.axis).norm() > kFlat;
+    return {rim, body, tilted && (farthest_on(rim, d, p) - p).squaredNorm() < near * near};
+}
+
+/// From the centre of mass to a contact's point on its rim [m], in the world, with the body at an
+/// orientation q; n points from the rim to what it touches.
+Vector3d arm_at(const ContactRim& at, const Quaterniond& q, const Vector3d& n,
+                const Vector3d& point) {
+    return q * (at.runs ? farthest_on(at.rim, q.conjugate() * n, point) : point);
+}
+
+}  // namespace
+
+Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& otherwise) {
+    const Vector3d out = direction - direction.dot(rim.axis) * rim.axis;
+    const double length = out.norm();
+    return length > kFlat ? Vector3d(rim.centre + (rim.radius / length) * out) : otherwise;
+}
+
+void find_rims(World& world) {
+    ContactTable& c = world.contacts;
+    c.rims.assign(c.found.size(), {});
+    c.bend.assign(c.found.size(), Vector3d::Zero());
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Contact& contact = c.found[i];
+        if (!is_sharp(contact)) continue;
+        const Vector3d n = to_eigen(contact.normal);
+        c.rims[i] = rim_at(world, contact.a, contact.part_a, contact.point_a, -n);
+        if (c.rims[i].rim.radius > 0) continue;
+        c.rims[i] = rim_at(world, contact.b, contact.part_b, contact.point_b, n);
+    }
+}
+
+void forget_rims(World& world) {
+    world.contacts.rims.clear();
+    world.contacts.bend.clear();
+}
+
+void foresee_rims(World& world, double h) {
+    ContactTable& c = world.contacts;
+    const Bodies& b = world.bodies;
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const ContactRim& at = c.rims[i];
+        if (at.rim.radius == 0) continue;
+        const double sign = at.body == c.found[i].a ? 1 : -1;
+        const Vector3d n = -sign * to_eigen(c.found[i].normal), w = b.angular_velocity[at.body];
+        const Quaterniond& q = b.orientation[at.body];
+        const Vector3d point = in_body(b, at.body, c.point[i]);
+        const Vector3d now = arm_at(at, q, n, point),
+                       middle = arm_at(at, turned(q, 0.5 * h * w), n, point),
+                       end = arm_at(at, turned(q, h * w), n, point);
+        // along the normal how far it comes by the end, across it how fast it is in the middle
+        const Vector3d across = w.cross(middle - now);
+        const double along = n.dot(end - now) / h - n.dot(w.cross(now));
+        c.bend[i] = sign * (across + (along - n.dot(across)) * n);
+    }
+}
+
+void follow_rims(World& world) {
+    ContactTable& c = world.contacts;
+    const Bodies& b = world.bodies;
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        if (!c.rims[i].runs) continue;
+        const Rim& rim = c.rims[i].rim;
+        const Contact& contact = c.found[i];
+        const bool of_a = c.rims[i].body == contact.a;
+        const std::uint32_t round = of_a ? contact.a : contact.b,
+                            other = of_a ? contact.b : contact.a;
+        Vector3d &on_round = of_a ? c.track[i].a : c.track[i].b,
+                 &on_other = of_a ? c.track[i].b : c.track[i].a;
+        const Vector3d n = to_eigen(contact.normal), outward = of_a ? Vector3d(-n) : n;
+        on_round = farthest_on(rim, b.orientation[round].conjugate() * outward, on_round);
+        // its opposite is in the plane across the normal in which it was
+        const Vector3d at = in_world(b, round, on_round), was = in_world(b, other, on_other);
+        on_other = in_body(b, other, at + n.dot(was - at) * n);
+    }
+}
+
+}  // namespace plumb

@@ -1,0 +1,56 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: MIT
+# messages.sh BUILD SOURCE BAD_PLUGINS: --log-level decides what is said on stderr; results stay on stdout alone.
+set -u
+plumb=$1/bin/plumb json_has=$1/bin/plumb_json_has small=$2/tests/structure/small_pile.json bad=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+failures=0
+fail() { echo "FAILED: $1"; failures=$((failures + 1)); }
+
+# says LEVEL ARGUMENT…: runs the small pile without friction, for 0.05 s.
+says() {
+  "$plumb" run "$small" --duration 0.05 --set 'forbid=["friction"]' --summary - --log-level "$@" >"$work/out" 2>"$work/err" ||
+    fail "run --log-level $* ends with $?"
+  "$json_has" "$work/out" /state_hash || fail "--log-level $1: stdout is no summary"
+}
+warned='plumb: warning: "friction" is forbidden, but the scene calls for it'
+
+says info
+[ "$(grep -cF "$warned" "$work/err")" = 1 ] || fail "info does not warn once"
+grep -q "^plumb: collider [a-z]*: " "$work/err" || fail "info does not say which collider was chosen"
+says warn
+grep -qF "$warned" "$work/err" || fail "warn does not warn"
+grep -q "^plumb: collider" "$work/err" && fail "warn tells more than warnings"
+says error
+[ -s "$work/err" ] && fail "error tells of a run that went well"
+says off
+[ -s "$work/err" ] && fail "off is not silent"
+says debug --plugin-path "$bad"
+grep -q "^plumb: debug: plugin .*/plumb_collider_junk.so is refused: " "$work/err" || fail "debug does not say why a plugin is refused"
+grep -q '^plumb: debug: plugin .* is collider "ode"' "$work/err" || fail "debug does not list the plugins"
+says trace --plugin-path "$bad"
+grep -q "^plumb: debug: plugin " "$work/err" || fail "trace tells less than debug"
+
+# The same without the option; all verbs have it.
+"$plumb" run "$small" --duration 0.05 --set 'forbid=["friction"]' >"$work/out" 2>"$work/err" || fail "run ends with $?"
+grep -qF "$warned" "$work/err" || fail "a run does not warn unless told"
+for verb in run colliders effects check compare cost tune export; do
+  "$plumb" $verb --help | grep -q -- "--log-level LEVEL" || fail "$verb has no --log-level"
+done
+"$plumb" check "$small" --set 'forbid=["friction"]' --log-level error >"$work/out" 2>"$work/err" || fail "check ends with $?"
+[ -s "$work/err" ] && fail "check does not know the level"
+"$plumb" effects "$small" --no-run --set 'forbid=["friction"]' >"$work/out" 2>"$work/err" || fail "effects ends with $?"
+[ "$(grep -cF "$warned" "$work/err")" = 1 ] || fail "effects does not warn once"
+
+# What ends a program is an error: told at each level but off, where the exit code is all.
+"$plumb" run "$work/absent.json" --log-level error >"$work/out" 2>"$work/err"
+[ $? = 3 ] || fail "an absent scene is no bad scene"
+grep -q "^plumb: .*there is no such file" "$work/err" || fail "error does not tell of an error"
+"$plumb" run "$work/absent.json" --log-level off >"$work/out" 2>"$work/err"
+[ $? = 3 ] || fail "off changes the exit code"
+[ -s "$work/err" ] && fail "off tells of an error"
+"$plumb" run "$small" --log-level loud >"$work/out" 2>"$work/err"
+[ $? = 2 ] || fail "there is a level called loud"
+grep -q "^plumb: --log-level: .*loud" "$work/err" || fail "a bad level has no sentence"
+exit $((failures > 0))
