@@ -139,7 +139,7 @@ void TreeNodes::turn_levers_to_the_end(std::uint32_t index) {
     if (node.free) return;
     node.lever() = {1, kZero};
     node.other_lever() = {node.parent != tables_.ground ? 1.0 : 0.0, kZero};
-    node.geometry.line_share = 1, node.geometry.line_lag = kZero;
+    if (node.geometry.length > 0) node.geometry.line_share = 1, node.geometry.line_lag = kZero;
 }
 
 double TreeNodes::evaluate(std::uint32_t index, bool settle) {

@@ -15,6 +15,12 @@ using test::Random;
 constexpr double kStep = 0.01;
 constexpr int kHeld = -1, kFree = -2;
 
+/// Of a drive, or of tension.
+struct SoftRow {
+    Vector3d along, on_a, on_b;
+    double softness, wish;
+};
+
 /// A body and its joint, which is a ball between two points or any rows at all.
 struct Node {
     int parent = kFree;
@@ -23,6 +29,7 @@ struct Node {
     Vector3d arm, parent_arm, gap;
     JointGeometry<double> geometry{};
     JointRows<double> rows;
+    std::vector<SoftRow> more;
     BodyBlock<double> body, block;  ///< as it is, and with all that hangs on it
     BallElimination<double> ball;
     RowsElimination<double> elimination;
@@ -50,6 +57,14 @@ void take_random_rows(Node& node, Random& random) {
     node.rows = joint_rows<double>(g, random_velocity(random), random_velocity(random), kStep);
     node.sign = random.below(2) ? 1 : -1;
     take_rows(node.elimination, node.rows, g, node.sign, 1 / kStep);
+    if (random.below(3) > 0) return;
+    while (node.elimination.n < kMostTreeRows) {
+        const SoftRow row{random.vector(), random.vector(), random.vector(),
+                          random.number(0.1, 0.5), random.number(-1, 1)};
+        append_row<double>(node.elimination, row.along, row.on_a, row.on_b, node.sign, row.softness,
+                           row.wish);
+        node.more.push_back(row);
+    }
 }
 
 std::vector<Node> random_tree(Random& random, int bodies) {
@@ -121,19 +136,22 @@ DenseRows dense_rows(const Node& node) {
     std::vector<int> locked;
     for (int k = 0; k < 6; ++k)
         if (node.geometry.lock[k] > 0) locked.push_back(k);
-    const auto n = static_cast<Eigen::Index>(locked.size());
+    const auto n = static_cast<Eigen::Index>(locked.size() + node.more.size());
     r.child.setZero(n, 6), r.parent.setZero(n, 6), r.softness.resize(n), r.wish.resize(n);
-    for (Eigen::Index row = 0; row < n; ++row) {
-        const int k = locked[static_cast<std::size_t>(row)];
+    Eigen::Index row = 0;
+    const auto add = [&](const SoftRow& x) {
         Eigen::Matrix<double, 1, 6> on_a, on_b;
-        const Vector3d along = k < 3 ? node.rows.e[k] : Vector3d::Zero();
-        on_a << along.transpose(), node.rows.g_a[k].transpose();
-        on_b << -along.transpose(), -node.rows.g_b[k].transpose();
+        on_a << x.along.transpose(), x.on_a.transpose();
+        on_b << -x.along.transpose(), -x.on_b.transpose();
         r.child.row(row) = node.sign > 0 ? on_a : on_b;
         r.parent.row(row) = node.sign > 0 ? on_b : on_a;
-        r.softness[row] = node.geometry.softness[k];
-        r.wish[row] = -node.rows.c[k] / kStep;
-    }
+        r.softness[row] = x.softness, r.wish[row] = x.wish;
+        ++row;
+    };
+    for (const int k : locked)
+        add({k < 3 ? node.rows.e[k] : Vector3d::Zero(), node.rows.g_a[k], node.rows.g_b[k],
+             node.geometry.softness[k], -node.rows.c[k] / kStep});
+    for (const SoftRow& x : node.more) add(x);
     return r;
 }
 
