@@ -196,8 +196,9 @@ inline Velocity<T> substitute_ball(const BallElimination<T>& e, const Vector3<T>
     return {u - cross(w, r), w};
 }
 
-/// Of one joint: what it takes away and drives, and a distance joint's two rows of tension.
-inline constexpr int kMostTreeRows = 8;
+/// Of one joint: what it takes away and what it drives are six at the most; a distance joint, which
+/// takes away one, has two of tension besides.
+inline constexpr int kMostTreeRows = 6;
 
 /// A body on a joint of any kind, eliminated. Only rows that are taken away are here.
 template <class T>

@@ -132,7 +132,7 @@ Scene random_tree(Precision precision, Random& random) {
 TEST_P(Swings, RandomTreesStayTogetherOrSaySo) {
     Random random(11);
     int unsolved = 0, open = 0;
-    for (int draw = 0; draw < 500; ++draw) {
+    for (int draw = 0; draw < 1000; ++draw) {
         Scene s = random_tree(GetParam(), random);
         s.settings.substeps = kSubsteps[random.below(9)];
         s.settings.dt = random.number(0.002, 0.01);
@@ -151,8 +151,8 @@ TEST_P(Swings, RandomTreesStayTogetherOrSaySo) {
         open += widest > 1e-5;
         EXPECT_TRUE(widest < 1e-5 || told > 0) << "open by " << widest << " without a word";
     }
-    EXPECT_LT(unsolved, 12) << "of 500";
-    EXPECT_LT(open, 5) << "of 500";
+    EXPECT_LE(unsolved, 4) << "of 1000";
+    EXPECT_EQ(open, 0) << "of 1000";
 }
 
 /// Mean energy above the lowest in the last tenth of a minute against that in the first.
