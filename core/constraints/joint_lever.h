@@ -67,16 +67,20 @@ inline JointLever<T> iterated_lever(const T& a, const Vector3<T>& turn) {
     return {between_0_and_1<T>(far), Vector3<T>(T(0), T(0), T(0))};
 }
 
-/// Of a joint in a tree that is solved exactly; `turn`, `turn_before`: h ω₀ and h ω₋₁ [rad].
-template <class T>
+/// Of a joint in a tree that is solved exactly; `turn`, `turn_before()`: h ω₀ and h ω₋₁ [rad], the
+/// latter asked for only where a lever is loaded.
+template <class T, class TurnBefore>
 inline JointLever<T> exact_lever(const T& a, const Vector3<T>& turn,
-                                 const Vector3<T>& turn_before) {
+                                 const TurnBefore& turn_before) {
     constexpr double kTheta = 0.5, kKappa = -0.1;
-    const T far = between_0_and_1<T>((sqrt(dot(turn, turn)) - T(0.2)) * T(10));
+    constexpr double kFar = 0.2;  // [rad]
+    T far = T(0);
+    if (const T square = dot(turn, turn); any_greater(square, T(kFar * kFar)))
+        far = between_0_and_1<T>((sqrt(square) - T(kFar)) * T(10));
     const T near = (T(1) - far) * between_0_and_1<T>(a - T(1));
     if (!any_greater(near, T(0))) return {far, Vector3<T>(T(0), T(0), T(0))};
     return {far + near * T(kTheta + kKappa),
-            (turn * T(-kTheta - 2 * kKappa) + turn_before * T(kKappa)) * near};
+            (turn * T(-kTheta - 2 * kKappa) + turn_before() * T(kKappa)) * near};
 }
 
 /// (h ω)² of a body on a joint. `impulse`: of the substep before [N s]; `moment`: of its rotational
@@ -84,9 +88,11 @@ inline JointLever<T> exact_lever(const T& a, const Vector3<T>& turn,
 template <class T>
 inline T lever_load(const T& impulse, const T& moment, const Vector3<T>& arm,
                     const Symmetric3<T>& inverse_inertia, const T& h) {
-    const Symmetric3<T> turned = point_response(InverseMass<T>{T(0), inverse_inertia}, arm);
     const T softest = inverse_inertia.xx + inverse_inertia.yy + inverse_inertia.zz;
-    const T across = (turned.xx + turned.yy + turned.zz) / sqrt(max(dot(arm, arm), T(1e-30)));
+    // the trace of [r]ᵀ I⁻¹ [r], over r
+    const T square = dot(arm, arm);
+    const T across = (softest * square - dot(arm, Vector3<T>(inverse_inertia * arm))) /
+                     sqrt(max(square, T(1e-30)));
     return h * (impulse * across + moment * softest);
 }
 

@@ -48,8 +48,9 @@ inline JointLever<T> ball_lever(const BodyStates& columns, const ItemGroup<N>& b
     const Vector3<T> turn = bodies.vector(columns.angular_velocity_now) * T(h);
     JointLever<T> lever;
     if constexpr (Tree)
-        lever = exact_lever<T>(load, turn,
-                               Vector3<T>(bodies.vector(columns.angular_velocity_before) * T(h)));
+        lever = exact_lever<T>(load, turn, [&]() -> Vector3<T> {
+            return bodies.vector(columns.angular_velocity_before) * T(h);
+        });
     else
         lever = iterated_lever<T>(load, turn);
     return {lever.share * moves, lever.lag * moves};

@@ -71,7 +71,7 @@ inline JointLever<double> lever_of(const World& world, const Joint& joint, std::
         return iterated_lever<double>(load, turn);
     }
     return exact_lever<double>(tree_load(world, joint, body, arm, h), turn,
-                               Vector3d(h * b.angular_velocity_before[body]));
+                               [&]() -> Vector3d { return h * b.angular_velocity_before[body]; });
 }
 
 /// The same for the line of a distance joint, whose pull turns with it; that of one that is
@@ -94,8 +94,9 @@ inline void turn_line(JointGeometry<double>& g, const World& world, const Joint&
     };
     add(joint.a, g.r_a, 1), add(joint.b, g.r_b, -1);
     const double load = h * load_of(joint, kAlongX, solve) * response / joint.length;
-    const JointLever<double> line = exact_lever<double>(load, Vector3d(moved / joint.length),
-                                                        Vector3d(moved_before / joint.length));
+    const JointLever<double> line =
+        exact_lever<double>(load, Vector3d(moved / joint.length),
+                            [&]() -> Vector3d { return moved_before / joint.length; });
     g.line_share = line.share, g.line_lag = line.lag * joint.length;
 }
 
