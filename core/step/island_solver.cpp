@@ -23,13 +23,20 @@ constexpr double kSlack = 1e-4;
 constexpr double kSoftnessShare = 0.3;
 constexpr double kSoftest = 1, kHard = 1e-6, kHardest = 1e-11;
 
-/// By which γ grows where Newton's method did not end.
-constexpr double kSofter = 30;
+/// By which γ grows where Newton's method did not end, and shrinks where a round leaves more than
+/// this share of the residual: heavy bodies on light ones feel a soft contact for many rounds.
+constexpr double kSofter = 30, kSlow = 0.1;
 
 /// A round's minimum is found to this share of the residual before it.
 constexpr double kExact = 0.03;
 
-constexpr int kRounds = 4, kNewtonSteps = 20, kLineSteps = 20, kSweepsAnew = 5;
+/// Rounds that every island may take, and that one may take which is not yet solved.
+constexpr int kRounds = 4, kMostRounds = 16;
+
+/// No round begins after so many factorisations.
+constexpr std::uint32_t kEnoughFactorisations = 60;
+
+constexpr int kNewtonSteps = 20, kLineSteps = 20, kSweepsAnew = 5;
 
 /// [r]ₓ: what multiplies ω to give r × ω.
 Matrix3d skew(const Vector3d& r) {
@@ -59,15 +66,25 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     sweep_both_ways();
     report.residual = residual();
     double share = kSoftnessShare;
-    for (int round = 0; round < kRounds && report.residual > kStop * speed; ++round) {
-        begin_round(softness(share * report.residual));
-        if (minimise(kExact * report.residual, report.factorisations)) {
+    const auto goes_on = [&](int round) {
+        if (report.residual <= kStop * speed) return false;
+        if (round < kRounds) return true;
+        return round < kMostRounds && report.residual > kSolved * speed &&
+               report.factorisations < kEnoughFactorisations;
+    };
+    for (int round = 0; goes_on(round); ++round) {
+        const double before = report.residual;
+        begin_round(softness(share * before));
+        const bool found = minimise(kExact * before, report.factorisations);
+        if (found)
             take_impulses();
-        } else {
-            share *= kSofter;
+        else
             sweep_both_ways();
-        }
         report.residual = residual();
+        if (!found)
+            share *= kSofter;
+        else if (report.residual > kSlow * before)
+            share /= kSofter;
     }
     if (report.residual > speed) start_anew();
     report.solved = report.residual <= kSolved * speed;

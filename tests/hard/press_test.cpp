@@ -78,7 +78,7 @@ TEST_P(Press, LeavesNothingToFlyApart) {
             }
         };
         const double down = (0.3 * height + 0.05) / kSpeed;
-        press(-kSpeed, down), press(0, 0.3), press(kSpeed, 2 * down), press(0, 4);
+        press(-kSpeed, down), press(0, 0.3), press(kSpeed, 2 * down), press(0, 8);
         EXPECT_LT(most, kSpeed + 5);
         EXPECT_LE(moving(world), kBodies / 20) << "at rest again, but for what still rolls";
         for (std::uint32_t i = kFirst; i < kFirst + kBodies; ++i) {
