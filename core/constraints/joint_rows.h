@@ -58,7 +58,7 @@ struct JointPreview {
     explicit JointPreview(const JointGeometry<T>& joint) : apart(joint.apart) {}
 };
 
-/// C of the rows that are taken away, less their lag; 0 of the others.
+/// C of the rows that are taken away, less their lag. Of the others it means nothing.
 template <class T>
 inline void joint_errors(T (&c)[6], const JointGeometry<T>& joint, const JointPreview<T>& now) {
     for (int k = 0; k < 3; ++k) {
@@ -106,7 +106,7 @@ inline void joint_axes(JointRows<T>& rows, const JointGeometry<T>& joint, const 
     }
 }
 
-/// Both.
+/// Errors, and what impulses do, at the preview poses.
 template <class T>
 inline JointRows<T> joint_rows(const JointGeometry<T>& joint, const Velocity<T>& a,
                                const Velocity<T>& b, const T& h) {

@@ -58,17 +58,23 @@ Loggers& loggers() {
     return all;
 }
 
+/// In place of the logger of all, while an ErrorsOnly lives.
+thread_local std::shared_ptr<spdlog::logger> of_thread;
+
 }  // namespace
 
-std::shared_ptr<spdlog::logger> logger() { return loggers().now; }
+std::shared_ptr<spdlog::logger> logger() { return of_thread ? of_thread : loggers().now; }
 
 void set_logger(std::shared_ptr<spdlog::logger> logger) {
     loggers().now = logger ? std::move(logger) : loggers().first;
 }
 
-ErrorsOnly::ErrorsOnly() : logger_(logger()), before_(logger_->level()) {
-    logger_->set_level(std::max(before_, spdlog::level::err));
+ErrorsOnly::ErrorsOnly() : before_(of_thread) {
+    const std::shared_ptr<spdlog::logger> now = logger();
+    if (now->level() < spdlog::level::info) return;
+    of_thread = now->clone(now->name());
+    of_thread->set_level(std::max(now->level(), spdlog::level::err));
 }
-ErrorsOnly::~ErrorsOnly() { logger_->set_level(before_); }
+ErrorsOnly::~ErrorsOnly() { of_thread = before_; }
 
 }  // namespace plumb

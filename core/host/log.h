@@ -20,8 +20,8 @@ std::shared_ptr<spdlog::logger> logger();
 /// other threads log.
 void set_logger(std::shared_ptr<spdlog::logger> logger);
 
-/// While it lives, only errors are logged: for work that makes many simulations which differ on
-/// purpose.
+/// While it lives, `logger()` gives its thread one that passes errors only: for work that makes
+/// many simulations which differ on purpose. Where debug or trace were asked for, nothing changes.
 class ErrorsOnly {
 public:
     ErrorsOnly();
@@ -30,8 +30,7 @@ public:
     ErrorsOnly& operator=(const ErrorsOnly&) = delete;
 
 private:
-    std::shared_ptr<spdlog::logger> logger_;
-    spdlog::level::level_enum before_;
+    std::shared_ptr<spdlog::logger> before_;
 };
 
 }  // namespace plumb
