@@ -69,12 +69,11 @@ private:
     double gap_ = -1e300;
 };
 
-/// Whether a sharp shape has more directions than those of its faces and edges.
-bool bent(const Part& part) {
+}  // namespace
+
+bool is_bent(const Part& part) {
     return part.shape.kind == ShapeKind::cylinder || part.shape.kind == ShapeKind::cone;
 }
-
-}  // namespace
 
 void sharpen(Witness& witness, const Part& a, const Part& b) {
     if (!finite(witness.normal)) return;
@@ -85,6 +84,11 @@ void sharpen(Witness& witness, const Part& a, const Part& b) {
     search.offer(face_b.normal);
 
     const Edges edges_a(face_a, n), edges_b(face_b, n);
+    if (is_bent(a) && is_bent(b)) {  // side by side: across both axes
+        const Vec3 between = a.world.origin - b.world.origin;
+        for (int i = 0; i < edges_a.count; ++i)
+            search.offer(between - dot(between, edges_a.way[i]) * edges_a.way[i]);
+    }
     for (int i = 0; i < edges_a.count; ++i)
         for (int j = 0; j < edges_b.count; ++j) search.offer(cross(edges_a.way[i], edges_b.way[j]));
     for (const Edges* edges : {&edges_a, &edges_b})
@@ -95,7 +99,7 @@ void sharpen(Witness& witness, const Part& a, const Part& b) {
     const bool apart = closest_when_apart(exact, a, b, n);
     if (apart) search.offer(exact.normal);
     search.offer(n);
-    if (!apart && (bent(a) || bent(b))) search.climb();
+    if (!apart && (is_bent(a) || is_bent(b))) search.climb();
     witness.normal = search.best();
 }
 

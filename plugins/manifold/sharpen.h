@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
-/// The normal of a back-end in single precision, made exact by the true shapes.
+/// The normal of a back-end in single precision, or of one that searches round shapes step by step,
+/// made exact by the true shapes.
 ///
 /// The support gap along a direction never exceeds the true gap, so of directions near the
 /// back-end's normal the one with the greatest support gap is nearest to the truth. Tried are those
 /// that a contact of exact shapes can have: the faces' normals, those across an edge of each, those
-/// across one edge, and the way between the closest points; for cylinders and cones that overlap,
-/// all others by steps uphill.
+/// across one edge, and the way between the closest points; for cylinders and cones the way between
+/// their axes, and, where they overlap, all others by steps uphill.
 #pragma once
 
 #include "manifold/manifold.h"
 
 namespace plumb {
+
+/// Whether a sharp shape has more directions than those of its faces and edges.
+bool is_bent(const Part& part);
 
 /// Turns the normal of a convex pair by at most about three degrees. Neither part may be a plane.
 void sharpen(Witness& witness, const Part& a, const Part& b);

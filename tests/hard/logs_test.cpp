@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// Round timber: logs in layers between two posts lie still. Side by side they touch along a line,
+/// whose normal a collider has to find exactly: one that wanders by milliradians keeps them moving.
+#include "support/scenes.h"
+
+#include <cmath>
+#include <numbers>
+
+namespace plumb::test {
+namespace {
+
+constexpr double kRadius = 0.15, kHalfLength = 0.5;  // [m]
+
+class Logs : public OnEveryCollider {};
+INSTANTIATE_TEST_SUITE_P(, Logs, every_collider(), where_name);
+
+/// Four, and three in their hollows.
+Scene logs_between_posts(Scene s) {
+    s.materials[0].friction = 0.6, s.materials[0].rolling_friction = 1e-3;
+    add_ground(s);
+    for (const double side : {-1, 1})
+        add_body(s, box(0.05, 0.3, 0.6), {side * (4 * kRadius + 0.05), 0.3, 0}, Motion::fixed);
+    for (int layer = 0; layer < 2; ++layer)
+        for (int i = 0; i < 4 - layer; ++i)
+            add_body(s, cylinder(kRadius, kHalfLength),
+                     {(2 * i + layer - 3) * kRadius, (1 + std::sqrt(3) * layer) * kRadius, 0})
+                .placement.rotation = Eigen::AngleAxisd(std::numbers::pi / 2, Vector::UnitX());
+    return s;
+}
+
+TEST_P(Logs, LieStill) {
+    if (collider() == "reference") GTEST_SKIP() << "no cylinders on planes";
+    for (const auto& [dt, substeps] :
+         {std::pair{0.01, 1u}, {0.01, 40u}, {0.005, 1u}, {0.017, 3u}}) {
+        Scene s = logs_between_posts(scene());
+        s.settings.dt = dt, s.settings.substeps = substeps;
+        Simulation simulation(s, colliders(), collider());
+        const std::vector<Vector> start = simulation.world().bodies.position;
+        run_for(simulation, 3);
+        double moved = 0, fastest = 0;
+        for (int i = 0; i < 200; ++i) {
+            simulation.step();
+            for (const Vector& v : simulation.world().bodies.velocity)
+                fastest = std::max(fastest, v.norm());
+        }
+        for (std::size_t i = 0; i < start.size(); ++i)
+            moved = std::max(moved, (simulation.world().bodies.position[i] - start[i]).norm());
+        EXPECT_LT(fastest, 1e-4) << dt << " s x " << substeps;
+        EXPECT_LT(moved, 1e-4) << dt << " s x " << substeps;
+    }
+}
+
+}  // namespace
+}  // namespace plumb::test
