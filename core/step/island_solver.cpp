@@ -24,8 +24,9 @@ constexpr double kSoftnessShare = 0.3;
 constexpr double kSoftest = 1, kHard = 1e-6, kHardest = 1e-11;
 
 /// By which γ grows where Newton's method did not end, and shrinks where a round leaves more than
-/// this share of the residual: heavy bodies on light ones feel a soft contact for many rounds.
-constexpr double kSofter = 30, kSlow = 0.1;
+/// this share of the residual, far from the end: heavy bodies on light ones feel a soft contact for
+/// many rounds.
+constexpr double kSofter = 30, kSlow = 0.2, kFar = 1e-2;
 
 /// A round's minimum is found to this share of the residual before it.
 constexpr double kExact = 0.03;
@@ -83,7 +84,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
         report.residual = residual();
         if (!found)
             share *= kSofter;
-        else if (report.residual > kSlow * before)
+        else if (report.residual > std::max(kSlow * before, kFar * speed))
             share /= kSofter;
     }
     if (report.residual > speed) start_anew();

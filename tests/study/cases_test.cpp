@@ -31,7 +31,10 @@ TEST_P(Case, KeepsItsToleranceAtItsOwnSettings) {
     for (std::size_t i = 0; i < errors.size(); ++i)
         RecordProperty("error_" + subject.metrics[i].name, testing::PrintToString(errors[i]));
     EXPECT_LE(errors[0], subject.tolerance) << subject.metrics[0].what;
-    EXPECT_GT(errors[0], subject.tolerance / 3) << "the tolerance says more than is measured";
+    constexpr double kRest = 1e-9;  // below, errors are what the solver stops at, and chance
+    if (subject.tolerance > kRest) {
+        EXPECT_GT(errors[0], subject.tolerance / 3) << "the tolerance says more than is measured";
+    }
 }
 
 TEST_P(Case, KeepsItOnEveryColliderAndInDouble) {
