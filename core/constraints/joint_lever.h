@@ -55,6 +55,20 @@ private:
     Turn<T> turn_;
 };
 
+/// Arms at which a joint's impulse acts on a and b: they meet in the point of a as far as their
+/// levers rest.
+template <class T>
+struct JointArms {
+    Vector3<T> a, b;
+
+    /// `r_a`, `r_b`: arms of the two points; `apart`: p_a − p_b, all three at the start of the
+    /// substep; `opened`: by how much p_a − p_b has changed; `share_b`: of b's lever.
+    JointArms(const LeverTurn<T>& lever_a, const LeverTurn<T>& lever_b, const T& share_b,
+              const Vector3<T>& r_a, const Vector3<T>& r_b, const Vector3<T>& apart,
+              const Vector3<T>& opened)
+        : a(r_a + lever_a.change(r_a)), b(r_b + apart + lever_b.change(r_b) + opened * share_b) {}
+};
+
 template <class T>
 inline T between_0_and_1(const T& x) {
     return min(max(x, T(0)), T(1));

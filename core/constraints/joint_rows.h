@@ -40,6 +40,7 @@ struct JointRows {
     T c[6];                     ///< [m], [rad]
     Vector3<T> e[3];            ///< what the impulse of a translational row does to v
     Vector3<T> g_a[6], g_b[6];  ///< and what each row's does to ω
+    Vector3<T> arm_a, arm_b;    ///< at which impulses act [m]
 };
 
 /// A joint at the preview poses: x₀ + h v, turned by h ω.
@@ -82,9 +83,9 @@ inline void joint_axes(JointRows<T>& rows, const JointGeometry<T>& joint, const 
                        const Velocity<T>& b, const T& h, const Vector3<T>& apart) {
     const LeverTurn<T> lever_a(joint.lever_a, a.w * h), lever_b(joint.lever_b, b.w * h);
     const Vector3<T> opened = apart - joint.apart;
-    const Vector3<T> arm_a = joint.r_a + lever_a.change(joint.r_a);
-    const Vector3<T> arm_b =
-        joint.r_b + joint.apart + lever_b.change(joint.r_b) + opened * joint.lever_b.share;
+    const JointArms<T> arms(lever_a, lever_b, joint.lever_b.share, joint.r_a, joint.r_b,
+                            joint.apart, opened);
+    rows.arm_a = arms.a, rows.arm_b = arms.b;
     const Vector3<T> none(T(0), T(0), T(0));
     for (int k = 0; k < 3; ++k) {
         rows.e[k] = rows.g_a[3 + k] = rows.g_b[3 + k] = none;
@@ -101,8 +102,8 @@ inline void joint_axes(JointRows<T>& rows, const JointGeometry<T>& joint, const 
             rows.e[0][i] = select_greater(joint.length, T(0), line[i] * scale, rows.e[0][i]);
     }
     for (int k = 0; k < 3; ++k) {
-        rows.g_a[k] = cross(arm_a, rows.e[k]);
-        rows.g_b[k] = cross(arm_b, rows.e[k]);
+        rows.g_a[k] = cross(arms.a, rows.e[k]);
+        rows.g_b[k] = cross(arms.b, rows.e[k]);
     }
 }
 

@@ -30,14 +30,13 @@ inline Vector3<T> join(Velocity<T>& change_a, Velocity<T>& change_b, const Veloc
     const Vector3<T> c = gap_before + (total_a.v - total_b.v) * h +
                          (Turn<T>(turn_a).change(r_a) - Turn<T>(turn_b).change(r_b));
 
-    const Vector3<T> now_a = r_a + LeverTurn<T>(lever_a, turn_a).change(r_a);
-    const Vector3<T> now_b = r_b + gap_before + LeverTurn<T>(lever_b, turn_b).change(r_b) +
-                             (c - gap_before) * lever_b.share;
-    const Symmetric3<T> k = point_response(inverse_a, now_a) + point_response(inverse_b, now_b);
+    const JointArms<T> arms(LeverTurn<T>(lever_a, turn_a), LeverTurn<T>(lever_b, turn_b),
+                            lever_b.share, r_a, r_b, gap_before, Vector3<T>(c - gap_before));
+    const Symmetric3<T> k = point_response(inverse_a, arms.a) + point_response(inverse_b, arms.b);
     const Vector3<T> impulse = solve_ldlt<T>(k, c) * (T(-1) / h);
 
-    apply_impulse<T>(change_a, inverse_a, now_a, impulse);
-    apply_impulse<T>(change_b, inverse_b, now_b, -impulse);
+    apply_impulse<T>(change_a, inverse_a, arms.a, impulse);
+    apply_impulse<T>(change_b, inverse_b, arms.b, -impulse);
     return impulse;
 }
 

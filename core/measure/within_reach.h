@@ -6,7 +6,10 @@
 
 namespace plumb {
 
-/// Whether all bodies and particles are where a recording, in single precision, can still tell.
-bool within_reach(const World& world);
+/// Farther than this, or faster, no recording in single precision can tell [m], [m/s], [rad/s].
+inline constexpr double kFar = 1e30;
+
+/// Whether all bodies and particles are nearer to the origin, and slower, than `far`.
+bool within_reach(const World& world, double far = kFar);
 
 }  // namespace plumb

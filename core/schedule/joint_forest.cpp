@@ -103,14 +103,17 @@ JointForest grow_joint_forest(const std::vector<BodyPair>& joints, std::int32_t 
     return forest;
 }
 
-bool is_narrow(const JointForest& forest) {
-    std::vector<std::size_t> depth;  // [node]
-    std::size_t levels = 0;
-    for (const ForestNode& node : forest.nodes) {
+std::vector<std::uint32_t> depths_of(const JointForest& forest) {
+    std::vector<std::uint32_t> depth;
+    for (const ForestNode& node : forest.nodes)
         depth.push_back(node.parent < 0 ? 0 : depth[static_cast<std::size_t>(node.parent)] + 1);
-        levels = std::max(levels, depth.back() + 1);
-    }
-    return 3 * forest.nodes.size() < 4 * levels;
+    return depth;
+}
+
+bool is_narrow(const JointForest& forest) {
+    const std::vector<std::uint32_t> depth = depths_of(forest);
+    const auto deepest = std::max_element(depth.begin(), depth.end());
+    return deepest != depth.end() && 3 * depth.size() < 4 * (std::size_t{*deepest} + 1);
 }
 
 std::vector<JointForest> share_out_trees(const JointForest& forest, std::uint32_t parts) {

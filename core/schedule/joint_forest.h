@@ -35,6 +35,9 @@ struct JointForest {
 /// rows (BodyPair::count = 0) link nothing.
 JointForest grow_joint_forest(const std::vector<BodyPair>& joints, std::int32_t dynamic_count);
 
+/// [node] how many joints are between it and the root of its tree.
+std::vector<std::uint32_t> depths_of(const JointForest& forest);
+
 /// Whether there is hardly more than one body to a level, as in a chain: what is solved level by
 /// level gains nothing from lanes there.
 bool is_narrow(const JointForest& forest);

@@ -9,12 +9,9 @@ namespace plumb {
 std::vector<TreeGroup> find_tree_groups(const JointForest& forest,
                                         const std::vector<std::uint8_t>& side_by_side) {
     const std::size_t count = forest.nodes.size();
-    std::vector<std::uint32_t> depth(count, 0), children(count, 0);
+    const std::vector<std::uint32_t> depth = depths_of(forest);
+    std::vector<std::uint32_t> children(count, 0);
     std::vector<std::int64_t> later(count, 0);  // children of the same parent that come after
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::int32_t parent = forest.nodes[i].parent;
-        if (parent >= 0) depth[i] = depth[parent] + 1;
-    }
     for (std::size_t i = count; i-- > 0;) {
         const std::int32_t parent = forest.nodes[i].parent;
         if (parent >= 0) later[i] = children[parent]++;

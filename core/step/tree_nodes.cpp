@@ -187,7 +187,6 @@ void TreeNodes::find_rows(Node& node) {
     const Velocity<double>&a = node.sign > 0 ? own : other, &b = node.sign > 0 ? other : own;
     joint_axes<double>(node.now, node.geometry, a, b, h_, node.apart);
     take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
-    place_impulse(node, h_ * own.w, h_ * other.w);
     if (!(node.geometry.line_share > 0) || !(node.lambda[0] < 0)) return;
     const auto turned = [this](const Vector3d& w, const Vector3d& arm) -> Vector3d {
         return unit_exponential<double>(h_ * w) * arm;
@@ -197,20 +196,6 @@ void TreeNodes::find_rows(Node& node) {
                              -node.lambda[0] * node.geometry.line_share, node.geometry.length, h_);
 }
 
-/// The arms meet in the point of the joint's a as far as their levers rest. `turn`, `other_turn`:
-/// h ω [rad].
-void TreeNodes::place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn) {
-    const auto turned = [](const JointLever<double>& lever, const Vector3d& by,
-                           const Vector3d& arm) -> Vector3d {
-        return lever.share > 0 ? unit_exponential<double>(lever.angle(by)) * arm : arm;
-    };
-    const JointLever<double>& lever_b = node.geometry.lever_b;
-    node.acting = turned(node.lever(), turn, node.arm());
-    node.other_acting = turned(node.other_lever(), other_turn, node.other_arm());
-    (node.sign > 0 ? node.other_acting : node.acting) +=
-        node.geometry.apart + lever_b.share * (node.apart - node.geometry.apart);
-}
-
 /// With all that hangs on the body.
 void TreeNodes::load_block(Node& node, bool balance, bool leaf) {
     TreeShare<double> whole =
@@ -218,7 +203,7 @@ void TreeNodes::load_block(Node& node, bool balance, bool leaf) {
     Symmetric3<double> stiffness{0, 0, 0, 0, 0, 0};
     if (!node.free)
         stiffness =
-            angular_stiffness<double>(node.acting, impulse_of(node), node.lever().share * h_);
+            angular_stiffness<double>(node.acting(), impulse_of(node), node.lever().share * h_);
     add_body<double>(whole, node.mass, node.inertia, stiffness, node.own, balance);
     node.block = whole.block;
 }
@@ -253,7 +238,7 @@ void TreeNodes::eliminate(std::uint32_t index, bool balance, bool first, bool le
     add_rows(parent.block, e);
     for (const DrivenAxis& axis : node.axes) axis.push_parent(parent.block, node.sign, balance);
     parent.stiffness =
-        parent.stiffness + angular_stiffness<double>(node.other_acting, -impulse_of(node),
+        parent.stiffness + angular_stiffness<double>(node.other_acting(), -impulse_of(node),
                                                      node.other_lever().share * h_);
     put_share(parent, row);
 }

@@ -85,12 +85,11 @@ private:
         bool free, hung;  ///< a root that hangs by nothing; the tree's root hangs by something
         double sign;      ///< 1 where the body is the joint's a, else −1
         double mass;
-        Symmetric3<double> inertia;     ///< world frame, at the start [kg m²]
-        Vector3d apart;                 ///< a's point − b's at the preview [m]
-        Change start, held;             ///< velocity at the start; of an immovable parent
-        Change given, own, written;     ///< changes by others, by this solver, and their sum when
-                                        ///< it was handed on
-        Vector3d acting, other_acting;  ///< arms by which the impulse acts [m]
+        Symmetric3<double> inertia;  ///< world frame, at the start [kg m²]
+        Vector3d apart;              ///< a's point − b's at the preview [m]
+        Change start, held;          ///< velocity at the start; of an immovable parent
+        Change given, own, written;  ///< changes by others, by this solver, and their sum when
+                                     ///< it was handed on
         JointGeometry<double> geometry;
         JointRows<double> now;
         RowsElimination<double> elimination;
@@ -102,6 +101,8 @@ private:
 
         const Vector3d& arm() const { return sign > 0 ? geometry.r_a : geometry.r_b; }
         const Vector3d& other_arm() const { return sign > 0 ? geometry.r_b : geometry.r_a; }
+        const Vector3d& acting() const { return sign > 0 ? now.arm_a : now.arm_b; }
+        const Vector3d& other_acting() const { return sign > 0 ? now.arm_b : now.arm_a; }
         JointLever<double>& lever() { return sign > 0 ? geometry.lever_a : geometry.lever_b; }
         JointLever<double>& other_lever() { return sign > 0 ? geometry.lever_b : geometry.lever_a; }
     };
@@ -122,7 +123,6 @@ private:
     void defer(Node& node, double most);
     Velocity<double> velocity_beyond(const Node& node) const;
     void find_rows(Node& node);
-    static void place_impulse(Node& node, const Vector3d& turn, const Vector3d& other_turn);
     double violation_of(const Node& node) const;
     void load_block(Node& node, bool balance, bool leaf);
     static Vector3d impulse_of(const Node& node);

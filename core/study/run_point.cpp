@@ -3,6 +3,7 @@
 
 #include "host/log.h"
 #include "host/simulation.h"
+#include "measure/within_reach.h"
 #include "scene/error.h"
 #include "study/sweep_plan.h"
 
@@ -15,12 +16,6 @@ namespace {
 
 /// Farther than this from the origin nothing of use happens any more [m].
 constexpr double kReach = 1e9;
-
-bool within_reach(const World& world) {
-    const auto near = [](const Vector3d& x) { return x.cwiseAbs().maxCoeff() < kReach; };
-    return std::all_of(world.bodies.position.begin(), world.bodies.position.end(), near) &&
-           std::all_of(world.particles.position.begin(), world.particles.position.end(), near);
-}
 
 std::vector<std::unique_ptr<Judge>> judges_of(const Subject& subject) {
     std::vector<std::unique_ptr<Judge>> judges;
@@ -53,7 +48,7 @@ Outcome made(const Subject& subject, Simulation& simulation, bool judged, const 
         const StepReport report = simulation.step();
         total += simulation.ledger().step_nanoseconds;
         solver += simulation.ledger().solver_nanoseconds();
-        if (!report.finite || !within_reach(simulation.world()))
+        if (!report.finite || !within_reach(simulation.world(), kReach))
             return diverged("ran off after " + std::to_string(simulation.time()) + " s",
                             simulation.time());
         if (report.collider_unusable) return ended(Status::refused, report.message);

@@ -5,6 +5,7 @@
 /// precision (single).
 #include "host/simulation.h"
 #include "reader/reader.h"
+#include "support/scenes.h"
 
 #include <gtest/gtest.h>
 
@@ -35,13 +36,6 @@ double mean_height(const World& world) {
     return sum / count;
 }
 
-double farthest(const World& world, const std::vector<Eigen::Vector3d>& from) {
-    double most = 0;
-    for (std::size_t i = 0; i < from.size(); ++i)
-        most = std::max(most, (world.bodies.position[i] - from[i]).norm());
-    return most;
-}
-
 void expect_stays(const std::string& heap, const std::string& collider, double seconds) {
     Scene scene =
         read_scene(std::string(PLUMB_TEST_ROOT "/tests/hard/scenes/heap_") + heap + ".json");
@@ -55,7 +49,7 @@ void expect_stays(const std::string& heap, const std::string& collider, double s
     double moved = 0;
     while (simulation.time() < seconds) {
         ASSERT_TRUE(simulation.step().finite);
-        moved = std::max(moved, farthest(simulation.world(), start));
+        moved = std::max(moved, farthest_from(start, simulation.world()));
     }
     const double risen = mean_height(simulation.world()) - height;
     std::cout << heap << " on " << collider << " in " << precision << ", 60 to " << seconds

@@ -15,17 +15,13 @@ INSTANTIATE_TEST_SUITE_P(, MassRatios, every_collider(), where_name);
 double moved_of(Scene s, const std::string& collider, double edge,
                 const std::vector<double>& masses) {
     add_ground(s);
-    const auto first = static_cast<std::uint32_t>(s.bodies.size());
     for (std::size_t i = 0; i < masses.size(); ++i)
         add_body(s, box(edge / 2, edge / 2, edge / 2), {0, edge * (0.5 + double(i)), 0}).mass =
             masses[i];
     Simulation simulation(s, colliders(), collider);
     const std::vector<Vector> start = simulation.world().bodies.position;
     run_for(simulation, 1);
-    double most = 0;
-    for (std::size_t i = first; i < start.size(); ++i)
-        most = std::max(most, (simulation.world().bodies.position[i] - start[i]).norm() / edge);
-    return most;
+    return farthest_from(start, simulation.world()) / edge;
 }
 
 TEST_P(MassRatios, HeavyOnLightStands) {

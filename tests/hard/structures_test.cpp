@@ -24,17 +24,6 @@ int number_from(const char* variable, int otherwise) {
 const double kSeconds = number_from("PLUMB_STRUCTURE_SECONDS", 12);
 const int kDraws = number_from("PLUMB_STRUCTURE_DRAWS", 1);
 
-/// Fastest motion of any point of a body [m/s].
-double fastest(const World& world) {
-    const Bodies& b = world.bodies;
-    double most = 0;
-    for (std::size_t i = 0; i < b.size(); ++i)
-        if (b.motion[i] == Motion::dynamic)
-            most = std::max(
-                most, b.velocity[i].norm() + b.angular_velocity[i].norm() * b.bounding_radius[i]);
-    return most;
-}
-
 /// Force on each body by its contacts in the last substep [N].
 std::vector<Vector> contact_forces(const World& world) {
     const double h = world.settings.dt / world.settings.substeps;
@@ -108,10 +97,8 @@ Motions run_to_rest(Simulation& simulation, double seconds) {
     Motions run;
     while (simulation.time() < seconds - 1e-9) {
         simulation.step();
-        run.fastest = std::max(run.fastest, fastest(simulation.world()));
-        for (std::size_t i = 0; i < start.size(); ++i)
-            run.farthest =
-                std::max(run.farthest, (simulation.world().bodies.position[i] - start[i]).norm());
+        run.fastest = std::max(run.fastest, fastest_point(simulation.world()));
+        run.farthest = std::max(run.farthest, farthest_from(start, simulation.world()));
     }
     return run;
 }

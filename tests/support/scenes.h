@@ -9,10 +9,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 #include <tuple>
+#include <vector>
 
 namespace plumb::test {
 
@@ -38,6 +40,25 @@ inline void run_for(Simulation& simulation, double seconds) {
         ASSERT_TRUE(report.finite);
         ASSERT_FALSE(report.collider_failed) << report.message;
     }
+}
+
+/// The longest way of any body from where it was [m].
+inline double farthest_from(const std::vector<Vector>& start, const World& world) {
+    double most = 0;
+    for (std::size_t i = 0; i < start.size(); ++i)
+        most = std::max(most, (world.bodies.position[i] - start[i]).norm());
+    return most;
+}
+
+/// Fastest motion of any point of a body [m/s].
+inline double fastest_point(const World& world) {
+    const Bodies& b = world.bodies;
+    double most = 0;
+    for (std::size_t i = 0; i < b.size(); ++i)
+        if (b.motion[i] == Motion::dynamic)
+            most = std::max(
+                most, b.velocity[i].norm() + b.angular_velocity[i].norm() * b.bounding_radius[i]);
+    return most;
 }
 
 inline double total_energy(const Simulation& s) {
