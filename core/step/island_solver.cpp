@@ -24,8 +24,8 @@ constexpr double kSoftnessShare = 0.3;
 constexpr double kSoftest = 1, kHard = 1e-6, kHardest = 1e-11;
 
 /// By which γ grows where Newton's method did not end, and shrinks where a round leaves more than
-/// this share of the residual, far from the end: heavy bodies on light ones feel a soft contact for
-/// many rounds.
+/// this share of the residual: heavy bodies on light ones, and the slowest modes of a large heap,
+/// feel a soft contact for many rounds. Near the end it is γ's lower bound that shrinks.
 constexpr double kSofter = 30, kSlow = 0.2, kFar = 1e-2;
 
 /// A round's minimum is found to this share of the residual before it.
@@ -66,7 +66,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
 
     sweep_both_ways();
     report.residual = residual();
-    double share = kSoftnessShare;
+    double share = kSoftnessShare, hard = kHard;
     const auto goes_on = [&](int round) {
         if (report.residual <= kStop * speed) return false;
         if (round < kRounds) return true;
@@ -75,7 +75,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     };
     for (int round = 0; goes_on(round); ++round) {
         const double before = report.residual;
-        begin_round(softness(share * before));
+        begin_round(softness(share * before, hard));
         const bool found = minimise(kExact * before, report.factorisations);
         if (found)
             take_impulses();
@@ -84,8 +84,8 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
         report.residual = residual();
         if (!found)
             share *= kSofter;
-        else if (report.residual > std::max(kSlow * before, kFar * speed))
-            share /= kSofter;
+        else if (report.residual > kSlow * before)
+            (report.residual > kFar * speed ? share : hard) /= kSofter;
     }
     if (report.residual > speed) start_anew();
     report.solved = report.residual <= kSolved * speed;
@@ -101,9 +101,9 @@ void IslandSolver::start_anew() {
     for (int i = 0; i < kSweepsAnew; ++i) sweep_both_ways();
 }
 
-/// γ for an error of so much velocity [m/s]. What a heavy body does to light ones is a mode as slow
-/// as their masses are apart.
-double IslandSolver::softness(double error) const {
+/// γ for an error of so much velocity [m/s], and no less than `hard` where masses are alike. What a
+/// heavy body does to light ones is a mode as slow as their masses are apart.
+double IslandSolver::softness(double error, double hard) const {
     double strongest = 0, lightest = island_.bodies[0].mass, heaviest = lightest;
     for (const IslandPoint& p : island_.points)
         strongest = std::max(strongest, p.impulse[0] / p.mass);
@@ -111,7 +111,7 @@ double IslandSolver::softness(double error) const {
         lightest = std::min(lightest, b.mass);
         heaviest = std::max(heaviest, b.mass);
     }
-    const double hardest = std::max(kHardest, kHard * lightest / heaviest);
+    const double hardest = std::max(kHardest, hard * lightest / heaviest);
     return error < strongest * kSoftest ? std::max(hardest, error / strongest) : kSoftest;
 }
 

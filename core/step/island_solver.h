@@ -47,7 +47,7 @@ private:
 
     double residual() const;
     void start_anew();
-    double softness(double error) const;
+    double softness(double error, double hard) const;
     void sweep_both_ways();
     void sweep(bool forwards);
     void push(const IslandPoint& p, const Vector6d& impulse);
