@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// An engine on Plumb's cases of known accuracy: error against CPU time, as CSV.
 #include "accuracy/peer.h"
+#include "measure/within_reach.h"
 #include "step/joint_state.h"
 #include "study/cases.h"
 
@@ -16,7 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;  // as on Plumb's ledger
 constexpr int kRuns = 3;
-constexpr double kReach = 1e9;  // farther off, a body has run away [m]
+constexpr double kReach = 1e9;  // farther off or faster, a body has run away [m], [m/s], [rad/s]
 
 struct Result {
     std::vector<double> errors;  ///< [metric]
@@ -26,12 +27,6 @@ struct Result {
 
 /// Forces are not read back from the engines.
 bool is_judged(const study::Metric& metric) { return metric.name != "force"; }
-
-bool within_reach(const World& world) {
-    for (const Vector3d& x : world.bodies.position)
-        if (!(x.cwiseAbs().maxCoeff() < kReach)) return false;
-    return true;
-}
 
 /// One run. `limit`: how long it may take [s].
 Result run(const study::Subject& subject, const Engine& engine, const Fineness& fineness,
@@ -58,7 +53,7 @@ Result run(const study::Subject& subject, const Engine& engine, const Fineness& 
         if (!judged) continue;
         peer->read(world);
         world.time = static_cast<double>(++world.steps) * fineness.dt;
-        if (!within_reach(world)) return {{}, 0, "diverged"};
+        if (!within_reach(world, kReach)) return {{}, 0, "diverged"};
         count_turns(world, revolute);
         for (const auto& judge : judges) judge->look(world);
     }

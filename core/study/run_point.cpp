@@ -7,14 +7,14 @@
 #include "scene/error.h"
 #include "study/sweep_plan.h"
 
-#include <algorithm>
 #include <cmath>
 #include <memory>
 
 namespace plumb::study {
 namespace {
 
-/// Farther than this from the origin nothing of use happens any more [m].
+/// Farther than this from the origin, or faster, nothing of use happens any more [m], [m/s],
+/// [rad/s].
 constexpr double kReach = 1e9;
 
 std::vector<std::unique_ptr<Judge>> judges_of(const Subject& subject) {
