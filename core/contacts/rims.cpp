@@ -61,7 +61,10 @@ ContactRim rim_at(const World& world, std::uint32_t body, std::uint32_t part, co
     const double near = kBeside * rim.radius;
     if (!is_on(rim, p, near)) return {};
     const bool tilted = d.cross(rim.axis).norm() > kFlat;
-    return {rim, body, tilted && (farthest_on(rim, d, p) - p).squaredNorm() < near * near};
+    const Vector3d beside = p - farthest_on(rim, d, p);
+    // as deep as the collider has it, or the gap of the next substep would be another
+    rim.centre += d.dot(beside) * d;
+    return {rim, body, tilted && beside.squaredNorm() < near * near};
 }
 
 /// From the centre of mass to a contact's point on its rim [m], in the world, with the body at an

@@ -21,8 +21,10 @@ constexpr std::uint32_t kVerySmall = 8;
 constexpr double kCalm = 0.25;
 
 /// Share of the island's speed below which a velocity is asked for as 0, so that what is at rest
-/// stays there to the last bit: gaps below 10⁻⁵ g h², a billionth of a metre at 10 ms.
-constexpr double kStill = 1e-5;
+/// stays there to the last bit: gaps below 10⁻⁴ g h², a tenth of a micrometre at 10 ms. No
+/// less than the slip that the solver takes for creep: what creeps lifts by as much, and a heap
+/// whose contacts lift and are closed again never comes to rest.
+constexpr double kStill = 1e-4;
 
 /// A contact bears at most this many times the weight of its island (wedges and flat arches thrust
 /// by more than they weigh), and this many times its momentum.
@@ -35,6 +37,10 @@ constexpr double kDeep = 0.02;
 /// So are those beyond this share that an exact solution left at more than this part of what they
 /// were: friction that holds as hard as the push-out pushes locks a wedge, and sweeps let it slip.
 constexpr double kJam = 0.0025, kStuck = 0.95;
+
+/// Shallower ones that stick are left as they are from when the contact bears more than this share
+/// of the most it may: each substep's push would only wind up the stress that locks them.
+constexpr double kLocked = 0.1;
 
 InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t i) {
     return {b.inverse_mass[i], b.world_inverse_inertia[i]};
@@ -77,6 +83,11 @@ double closing_velocity(double gap, double h, double recovery, double stiffness)
     return -gap_below(gap - left, std::min(gap, 0.0) - left, stiffness) / h;
 }
 
+/// Whether an exact solution left an overlap about as deep as it was.
+bool is_stuck(const ContactMemory& before, double overlap) {
+    return before.known && before.exact && overlap > -kStuck * before.gap;
+}
+
 }  // namespace
 
 IslandGroup::IslandGroup(const Plan& plan, Workers& workers)
@@ -89,7 +100,7 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers)
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0;
-    bodies_.clear(), points_.clear(), contacts_.clear(), jammed_.clear();
+    bodies_.clear(), points_.clear(), locked_.clear(), contacts_.clear(), jammed_.clear();
     if (pairs.empty()) return;
     found_.find(pairs, world.dynamic_count);
     mark_jointed(world);
@@ -156,8 +167,8 @@ void IslandGroup::find_upset(const World& world, const ContactIsland& island,
         for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
             const double overlap = -world.contacts.found[k].gap;
             const ContactMemory& before = world.contacts.memory[k];
-            const bool stuck = before.known && before.exact && overlap > -kStuck * before.gap;
-            const bool jammed = overlap > kJam * radius && (stuck || before.jammed);
+            const bool jammed =
+                overlap > kJam * radius && (is_stuck(before, overlap) || before.jammed);
             if (jammed) jammed_.push_back(k);
             upset |= jammed || overlap > kDeep * radius;
         }
@@ -260,6 +271,7 @@ void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint
     const Vector3d n = to_eigen(world.contacts.found[contact].normal), x = tangent_of<double>(n);
     contacts_.push_back(contact);
     IslandPoint& p = points_.emplace_back();
+    locked_.push_back(0);
     p.a = a, p.b = b;
     p.frame << n, x, n.cross(x);
     p.length = 1;
@@ -385,7 +397,10 @@ void IslandGroup::ask(const World& world, std::size_t k, double h, double recove
 
     const double bounce = restitution_velocity_of(c, contact);
     double normal = closing_velocity(gap_in_substep(c, contact), h, recovery, s.stiffness);
-    if (std::abs(normal) < least) normal = 0;
+    const ContactMemory& before = c.memory[contact];
+    locked_[k] = is_stuck(before, -c.found[contact].gap) &&
+                 (before.jammed || p.impulse[0] > kLocked * p.cone.most);
+    if (std::abs(normal) < least || (locked_[k] && normal > 0)) normal = 0;
     if (bounce > 0) normal = bounce;
 
     Vector3d across = Vector3d::Zero();
@@ -470,7 +485,7 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         memory.friction_impulse = p.frame.rightCols<2>() * p.impulse.segment<2>(1);
         memory.rolling_impulse = p.length * (p.frame * p.impulse.tail<3>());
         memory.exact = true;
-        memory.jammed = false;
+        memory.jammed = locked_[k] != 0;
         memory.gap = contacts.found[contacts_[k]].gap;
         memory.sticks =
             p.impulse.segment<2>(1).norm() < (1 - 1e-5) * p.cone.friction * p.impulse[0];

@@ -97,6 +97,7 @@ private:
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
     std::vector<IslandPoint> points_;
+    std::vector<std::uint8_t> locked_;     // [point] whether it is pushed out no more
     std::vector<std::uint32_t> jammed_;    // contacts that are left to sweeps until they are out
     std::vector<std::uint32_t> contacts_;  // [point] in the contact table
     std::vector<IslandSolver> solvers_;    // [worker]
