@@ -114,6 +114,9 @@ void foresee_rims(World& world, double h) {
         const Vector3d now = arm_at(at, q, n, point),
                        middle = arm_at(at, turned(q, 0.5 * h * w), n, point),
                        end = arm_at(at, turned(q, h * w), n, point);
+        // what falls flat would go on on the other side, but stops
+        c.bend[i].setZero();
+        if ((end - now).squaredNorm() > 2 * at.rim.radius * at.rim.radius) continue;
         // along the normal how far it comes by the end, across it how fast it is in the middle
         const Vector3d across = w.cross(middle - now);
         const double along = n.dot(end - now) / h - n.dot(w.cross(now));
