@@ -65,7 +65,7 @@ Subject slope_sticks() {
     s.metrics = {
         largest("creep", "m", "largest distance from where it was put",
                 [start](const World& w) { return (w.bodies.position[1] - start).norm(); })};
-    s.tolerance = 1e-10;
+    s.tolerance = 1e-9;
     return s;
 }
 
