@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Boxes, balls, capsules, cylinders and cones dropped into a bin come to rest, whatever their
-/// sizes, the step and its substeps: wedges that friction locks, rims, cones on their slopes.
+/// Boxes, balls, capsules, cylinders and cones dropped into a bin come to rest, at four settings of
+/// up to three substeps: wedges that friction locks, rims, cones on their slopes.
 #include "support/random.h"
 #include "support/scenes.h"
 
