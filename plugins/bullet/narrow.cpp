@@ -123,7 +123,7 @@ bool Narrow::ask_closest(Witness& witness, const Part& a, const Part& b) {
     const Vec3 n = from(result.normal);
     witness = {n, to_world(result.point, a) + (0.5 * result.depth) * n, result.depth + cushions,
                false};
-    if (kSingle || is_bent(a) || is_bent(b)) sharpen(witness, a, b);
+    kSingle ? sharpen(witness, a, b) : sharpen_bent(witness, a, b);
     return true;
 }
 

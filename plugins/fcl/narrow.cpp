@@ -14,6 +14,7 @@
 #include "manifold/least_overlap.h"
 #include "manifold/mesh_pair.h"
 #include "manifold/mesh_points.h"
+#include "manifold/sharpen.h"
 #include "manifold/support.h"
 
 #include <fcl/narrowphase/collision.h>
@@ -189,6 +190,7 @@ bool Narrow::ask(Witness& witness, const Part& a, const Part& b, std::uint32_t) 
         validate_normal(witness, a, b);
     else
         witness = ask_gjk(a, b);
+    sharpen_bent(witness, a, b);
     return true;
 }
 
@@ -196,8 +198,10 @@ void Narrow::collide_convex(ContactList& contacts, DetectStats& stats, const Par
                             const Part& b) {
     // A half-space needs no question: its normal is the contact's.
     Witness witness{{0, 1, 0}, is(a, ShapeKind::plane) ? b.world.origin : a.world.origin, 0};
-    if (either(a, b, ShapeKind::plane) || ask(witness, a, b))
-        build_manifold(contacts, stats, a, b, witness);
+    const bool plane = either(a, b, ShapeKind::plane);
+    if (!plane && !ask(witness, a, b)) return;
+    if (!plane) sharpen_bent(witness, a, b);
+    build_manifold(contacts, stats, a, b, witness);
 }
 
 void Narrow::take_all(ContactList& contacts, DetectStats& stats, const Part& a, const Part& b) {

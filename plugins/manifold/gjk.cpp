@@ -140,6 +140,12 @@ bool closest(Witness& witness, const Part& a, const Part& b, const Change& chang
     return true;
 }
 
+/// How far a is drawn away before its normal is looked for, as a share of both sizes.
+constexpr double kDrawn = 1e-3;
+constexpr int kMostDrawings = 8;
+/// Turned by less, a normal is as straight as rounding lets closest points tell [rad].
+constexpr double kStraight = 1e-6;
+
 }  // namespace
 
 bool closest_when_apart(Witness& witness, const Part& a, const Part& b, Vec3 way) {
@@ -150,6 +156,22 @@ bool closest_when_touching(Witness& witness, const Part& a, const Part& b) {
     if (!closest(witness, a, b, {0.98, {}, {}})) return false;
     witness.gap = support_gap(a, b, witness.normal);
     return true;
+}
+
+bool straighten(Vec3& normal, const Part& a, const Part& b) {
+    const double drawn = kDrawn * (size_of(a) + size_of(b));
+    Vec3 n = normal;
+    for (int i = 0; i < kMostDrawings; ++i) {
+        const double apart = std::max(0.0, drawn - support_gap(a, b, n));
+        Witness witness;
+        if (!closest(witness, a, b, {1, apart * n, n})) return false;
+        const double turned = norm(witness.normal - n);
+        n = witness.normal;
+        if (turned > kStraight) continue;
+        normal = n;
+        return true;
+    }
+    return false;
 }
 
 bool touching_point(Vec3& point, const Part& a, const Part& b, Vec3 n, double gap) {

@@ -21,4 +21,10 @@ bool closest_when_touching(Witness& witness, const Part& a, const Part& b);
 /// apart along n before they are asked. False where that finds none.
 bool touching_point(Vec3& point, const Part& a, const Part& b, Vec3 n, double gap);
 
+/// Turns the unit normal of two parts that touch or overlap a little to where their support gap is
+/// greatest nearby: to the way between their closest points once a is drawn away along it, over and
+/// over. A normal off by an angle is then off by that angle times how far they were drawn apart
+/// over their radius of curvature. False where that leads nowhere.
+bool straighten(Vec3& normal, const Part& a, const Part& b);
+
 }  // namespace plumb

@@ -7,8 +7,7 @@
 namespace plumb {
 namespace {
 
-constexpr double kNear = 0.05;                        ///< how far a direction may be off, as a sine
-constexpr double kGoldenAngle = 2.39996322972865332;  ///< [rad]
+constexpr double kNear = 0.05;  ///< how far a direction may be off, as a sine
 
 /// The directions of a face's edges that lie across the normal; parallel ones once.
 struct Edges {
@@ -36,30 +35,19 @@ public:
     Search(const Part& a, const Part& b, Vec3 n)
         : a_(a), b_(b), n_(n), slack_(1e-9 * (size_of(a) + size_of(b))) {}
 
-    /// Whether it is better.
-    bool offer(Vec3 way) {
+    /// Takes a direction that is better.
+    void offer(Vec3 way) {
         const double length = norm(way);
-        if (!(length > 1e-6)) return false;
+        if (!(length > 1e-6)) return;
         const Vec3 m = (dot(way, n_) < 0 ? -1 / length : 1 / length) * way;
-        if (norm(cross(m, n_)) > kNear) return false;
+        if (norm(cross(m, n_)) > kNear) return;
         const double gap = support_gap(a_, b_, m);
-        if (!(gap > gap_ + slack_)) return false;
-        gap_ = gap, best_ = m;
-        return true;
-    }
-
-    /// Goes uphill from the best with smaller and smaller steps. Their directions never repeat
-    /// (they follow the golden angle), so that one of them will lead along a ridge.
-    void climb() {
-        const Vec3 other = std::abs(best_.x) < 0.6 ? Vec3{1, 0, 0} : Vec3{0, 1, 0};
-        const Vec3 u = unit_or(cross(best_, other), {0, 0, 1}), v = cross(best_, u);
-        double angle = 0;
-        for (double step = 0.25 * kNear; step > 1e-6; step *= 0.7)
-            for (int i = 0; i < 12; ++i, angle += kGoldenAngle)
-                while (offer(best_ + step * (std::cos(angle) * u + std::sin(angle) * v))) {
-                }
+        if (gap > gap_ + slack_) gap_ = gap, best_ = m;
     }
     Vec3 best() const { return best_; }
+
+    /// The best, or another direction where that is better still.
+    Vec3 better_of(Vec3 other) const { return support_gap(a_, b_, other) > gap_ ? other : best_; }
 
 private:
     const Part &a_, &b_;
@@ -91,15 +79,19 @@ void sharpen(Witness& witness, const Part& a, const Part& b) {
     }
     for (int i = 0; i < edges_a.count; ++i)
         for (int j = 0; j < edges_b.count; ++j) search.offer(cross(edges_a.way[i], edges_b.way[j]));
-    for (const Edges* edges : {&edges_a, &edges_b})
-        for (int i = 0; i < edges->count; ++i)
-            search.offer(n - dot(n, edges->way[i]) * edges->way[i]);
 
-    Witness exact;
-    const bool apart = closest_when_apart(exact, a, b, n);
-    if (apart) search.offer(exact.normal);
+    const bool bent = is_bent(a) || is_bent(b);
+    Vec3 straight = search.better_of(n);
+    if (bent && straighten(straight, a, b)) {
+        search.offer(straight);
+    } else {
+        for (const Edges* edges : {&edges_a, &edges_b})
+            for (int i = 0; i < edges->count; ++i)
+                search.offer(n - dot(n, edges->way[i]) * edges->way[i]);
+        Witness closest;
+        if (closest_when_apart(closest, a, b, n)) search.offer(closest.normal);
+    }
     search.offer(n);
-    if (!apart && (is_bent(a) || is_bent(b))) search.climb();
     witness.normal = search.best();
 }
 

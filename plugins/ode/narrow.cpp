@@ -10,6 +10,7 @@
 #include "manifold/least_overlap.h"
 #include "manifold/mesh_pair.h"
 #include "manifold/mesh_points.h"
+#include "manifold/sharpen.h"
 #include "manifold/support.h"
 
 #include <mutex>
@@ -125,7 +126,9 @@ bool ask_any(Witness& witness, const Part& a, const Part& b) {
     if (overlap) validate_normal(witness, a, b);
     if (overlap && (is(a, ShapeKind::hull) || is(b, ShapeKind::hull))) shorten(witness, a, b);
     if (boxes) return overlap || ask_boxes_apart(witness, a, b);
-    return (!overlap && ask_gjk(witness, a, b)) || ask_deep(witness, a, b, overlap);
+    const bool found = (!overlap && ask_gjk(witness, a, b)) || ask_deep(witness, a, b, overlap);
+    if (found) sharpen_bent(witness, a, b);
+    return found;
 }
 
 bool is_plane_pair(const Part& a, const Part& b) {
@@ -181,6 +184,12 @@ void TriangleAnswers::begin(const Part& a, const Part& b) {
 }
 
 bool TriangleAnswers::ask(Witness& witness, const Part& a, const Part& b, std::uint32_t id) {
+    const bool found = find(witness, a, b, id);
+    if (found) sharpen_bent(witness, a, b);
+    return found;
+}
+
+bool TriangleAnswers::find(Witness& witness, const Part& a, const Part& b, std::uint32_t id) const {
     const auto it = std::lower_bound(named_.begin(), named_.end(), id,
                                      [](const Named& n, std::uint32_t i) { return n.id < i; });
     if (it == named_.end() || it->id != id) return ask_gjk(witness, a, b);

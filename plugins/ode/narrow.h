@@ -22,6 +22,8 @@ public:
     bool ask(Witness& witness, const Part& a, const Part& b, std::uint32_t id) override;
 
 private:
+    bool find(Witness& witness, const Part& a, const Part& b, std::uint32_t id) const;
+
     struct Named {
         std::uint32_t id;
         Witness witness;
