@@ -86,22 +86,53 @@ void polygon_in_polygon(FacingPoints& out, const Roles& r) {
     }
 }
 
-void segment_in_polygon(FacingPoints& out, const Roles& r) {
-    const Vec3 p = r.subject.corner[0], d = r.subject.corner[1] - p;
+/// The stretch of a segment that is left, and the lines that cut it.
+struct Stretch {
     double low = 0, high = 1;
     std::uint32_t low_line = 0, high_line = 1;
+};
+
+void emit(FacingPoints& out, const Roles& r, const Stretch& s) {
+    if (s.low > s.high) return;
+    const Vec3 p = r.subject.corner[0], d = r.subject.corner[1] - p;
+    emit(out, r, p + s.low * d, on_plane(r, p + s.low * d), 128 * 0 + s.low_line);
+    if ((s.high - s.low) * norm(d) > 1e-9)
+        emit(out, r, p + s.high * d, on_plane(r, p + s.high * d), 128 * 1 + s.high_line);
+}
+
+/// A flat round end is round here, and no polygon: what lies on it may balance on its rim.
+void segment_in_disc(FacingPoints& out, const Roles& r) {
+    const Vec3 start = on_plane(r, r.subject.corner[0]) - r.window.rim_centre;
+    const Vec3 way = on_plane(r, r.subject.corner[1]) - r.window.rim_centre - start;
+    const double radius = r.window.rim_radius + r.slack, a = dot(way, way), b = dot(way, start);
+    const double root = b * b - a * (dot(start, start) - radius * radius);
+    if (!(root >= 0) || a < 1e-18) return;
+    const double in = (-b - std::sqrt(root)) / a, from = (-b + std::sqrt(root)) / a;
+    Stretch s;
+    if (in > 0) s.low = in, s.low_line = kWindowLine;
+    if (from < 1) s.high = from, s.high_line = kWindowLine;
+    emit(out, r, s);
+}
+
+void segment_in_polygon(FacingPoints& out, const Roles& r) {
+    const Vec3 p = r.subject.corner[0], d = r.subject.corner[1] - p;
+    Stretch s;
     for (int i = 0; i < r.window.count; ++i) {
         const Vec3 m = side_normal(r, i);
         const double start = dot(m, p - r.window.corner[i]) + r.slack, slope = dot(m, d);
         const auto line = kWindowLine + static_cast<std::uint32_t>(i);
         if (start < 0 && start + slope < 0) return;
-        if (start < 0 && -start / slope > low) low = -start / slope, low_line = line;
-        if (start + slope < 0 && -start / slope < high) high = -start / slope, high_line = line;
+        if (start < 0 && -start / slope > s.low) s.low = -start / slope, s.low_line = line;
+        if (start + slope < 0 && -start / slope < s.high)
+            s.high = -start / slope, s.high_line = line;
     }
-    if (low > high) return;
-    emit(out, r, p + low * d, on_plane(r, p + low * d), 128 * 0 + low_line);
-    if ((high - low) * norm(d) > 1e-9)
-        emit(out, r, p + high * d, on_plane(r, p + high * d), 128 * 1 + high_line);
+    emit(out, r, s);
+}
+
+void point_in_disc(FacingPoints& out, const Roles& r) {
+    const Vec3 p = r.subject.corner[0];
+    if (norm(on_plane(r, p) - r.window.rim_centre) <= r.window.rim_radius + r.slack)
+        emit(out, r, p, on_plane(r, p), 0);
 }
 
 void point_in_polygon(FacingPoints& out, const Roles& r) {
@@ -158,10 +189,11 @@ FacingPoints facing_points(const SupportFace& a, const SupportFace& b, Vec3 n) {
     const Roles r{subject, window, a_is_subject, n, 1e-7 * (size + subject.radius) + 1e-12};
 
     FacingPoints out;
+    const bool round = window.rim_radius > 0;
     if (window.count >= 3)
         (subject.count >= 3   ? polygon_in_polygon
-         : subject.count == 2 ? segment_in_polygon
-                              : point_in_polygon)(out, r);
+         : subject.count == 2 ? (round ? segment_in_disc : segment_in_polygon)
+                              : (round ? point_in_disc : point_in_polygon))(out, r);
     else if (window.count == 2)
         (subject.count == 2 ? segment_on_segment : point_on_segment)(out, r);
     else

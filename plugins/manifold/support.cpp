@@ -83,6 +83,8 @@ void disc_face(SupportFace& face, double radius, double y, Vec3 d) {
     // Seen from above (+y), angles from x to z run clockwise: turn the order.
     std::reverse(face.corner, face.corner + face.count);
     face.normal = {0, side, 0};
+    face.rim_centre = {0, y, 0};
+    face.rim_radius = radius;
     face.id = side > 0 ? 1 : 2;
 }
 
@@ -217,6 +219,7 @@ SupportFace support_face(const Part& part, Vec3 d, Vec3 around, double half) {
     face.radius = core_radius(part);
     for (int i = 0; i < face.count; ++i) face.corner[i] = to_outer(part.world, face.corner[i]);
     face.normal = rotated(part.world, face.normal);
+    face.rim_centre = to_outer(part.world, face.rim_centre);
     return face;
 }
 

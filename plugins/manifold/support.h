@@ -34,6 +34,8 @@ struct SupportFace {
     double radius = 0;       ///< of a round shape's skin [m]
     double side_radius = 0;  ///< segment on a cylinder's side: distance of its axis [m]
     Vec3 normal{};           ///< of a polygon, unit
+    Vec3 rim_centre{};       ///< of a flat round end, whose corners are some of its rim [m]
+    double rim_radius = 0;   ///< [m]; 0: not round
 
     void add(Vec3 p) {
         if (count < kMost) corner[count++] = p;
