@@ -101,6 +101,35 @@ Vertex support(const Part& a, const Part& b, Vec3 d, const Change& change) {
     return {p, q, p - q};
 }
 
+/// The shortest difference so far, and the points that it joins.
+struct Shortest {
+    Vec3 v, on_a, on_b;
+    double size;  ///< of both parts [m]
+
+    /// Whether a support in the direction of v leads any further.
+    bool is_found(const Vertex& support) const {
+        const double vv = dot(v, v);
+        return vv - dot(v, support.w) <= 1e-12 * vv + 1e-16 * size * std::sqrt(vv);
+    }
+};
+
+constexpr int kPolishSteps = 16;
+
+/// Weights lose a simplex's last digits where its vertices are far apart or nearly one; steps
+/// towards single supports (Frank and Wolfe) win them back. A flat side or a rim is as long a
+/// lever, and what is lost as an angle is a gap.
+void polish(Shortest& s, const Part& a, const Part& b, const Change& change) {
+    for (int i = 0; i < kPolishSteps; ++i) {
+        const Vertex next = support(a, b, s.v, change);
+        if (s.is_found(next)) return;
+        const Vec3 way = next.w - s.v;
+        const double t = std::min(1.0, -dot(s.v, way) / dot(way, way));
+        s.v = s.v + t * way;
+        s.on_a = s.on_a + t * (next.on_a - s.on_a);
+        s.on_b = s.on_b + t * (next.on_b - s.on_b);
+    }
+}
+
 bool closest(Witness& witness, const Part& a, const Part& b, const Change& change) {
     const double size = size_of(a) + size_of(b), tiny = 1e-9 * size;
     Simplex s;
@@ -113,8 +142,7 @@ bool closest(Witness& witness, const Part& a, const Part& b, const Change& chang
         const double vv = dot(v, v);
         if (vv < tiny * tiny) return false;
         const Vertex next = support(a, b, v, change);
-        // No further progress: v is the shortest difference.
-        if (vv - dot(v, next.w) <= 1e-12 * vv + 1e-16 * size * std::sqrt(vv)) break;
+        if (Shortest{v, {}, {}, size}.is_found(next)) break;
         if (s.count == 4) return false;
         const Simplex before = s;
         s.vertex[s.count++] = next;
@@ -125,17 +153,18 @@ bool closest(Witness& witness, const Part& a, const Part& b, const Change& chang
         }
         v = shorter;
     }
-    Vec3 on_a{}, on_b{};
+    Shortest found{v, {}, {}, size};
     for (int i = 0; i < s.count; ++i) {
-        on_a = on_a + s.weight[i] * s.vertex[i].on_a;
-        on_b = on_b + s.weight[i] * s.vertex[i].on_b;
+        found.on_a = found.on_a + s.weight[i] * s.vertex[i].on_a;
+        found.on_b = found.on_b + s.weight[i] * s.vertex[i].on_b;
     }
-    const double distance = norm(v);
+    polish(found, a, b, change);
+    const double distance = norm(found.v);
     if (!(distance > tiny)) return false;
-    witness.normal = (1 / distance) * v;
+    witness.normal = (1 / distance) * found.v;
     witness.gap = distance - core_radius(a) - core_radius(b);
-    witness.point =
-        0.5 * (on_a - core_radius(a) * witness.normal + on_b + core_radius(b) * witness.normal);
+    witness.point = 0.5 * (found.on_a - core_radius(a) * witness.normal + found.on_b +
+                           core_radius(b) * witness.normal);
     witness.approximate = false;
     return true;
 }

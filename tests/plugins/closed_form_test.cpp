@@ -132,6 +132,34 @@ TEST_P(ClosedForm, MeetsClosedForms) {
         }
 }
 
+/// What lies across a flat round end touches it over the chord of the circle, whichever way it
+/// points.
+TEST_P(ClosedForm, EndsWhatLiesAcrossARimOnTheCircle) {
+    const double radius = .3, off = .11, chord = std::sqrt(radius * radius - off * off);
+    for (const Shape& rod : {capsule(.1, 1), cylinder(.1, 1)})
+        for (const Shape& disc : {cylinder(radius, .2), cone(radius, .2)})
+            for (double angle : {0., 10., 22.5, 50.}) {
+                if (!claims(rod, disc, kPairManifold)) continue;
+                const bool upside_down = disc.kind == ShapeKind::cone;  // its flat end up
+                const Q up = upside_down ? turn(180, V::UnitX()) : Q::Identity();
+                const V way = turn(angle, V::UnitY()) * V::UnitX();
+                World world(GetParam());
+                world.add(0, disc, {V(0, -.2, 0), up});
+                world.add(1, rod,
+                          {V(0, .0999, 0) + off * V::UnitY().cross(way),
+                           Q::FromTwoVectors(V::UnitY(), way)});
+                SCOPED_TRACE(std::string(name_of(rod.kind)) + " on " + name_of(disc.kind) + " " +
+                             std::to_string(angle));
+                double low = 0, high = 0;
+                for (const Contact& c : world.detect(0.01)) {
+                    low = std::min(low, v(c.point_a).dot(way));
+                    high = std::max(high, v(c.point_a).dot(way));
+                }
+                EXPECT_NEAR(low, -chord, 1e-5);
+                EXPECT_NEAR(high, chord, 1e-5);
+            }
+}
+
 TEST_P(ClosedForm, LaysATorusMeshOnAFlatMesh) {
     const std::uint32_t able = ability(GetParam(), ShapeKind::mesh, ShapeKind::mesh);
     World world(GetParam());

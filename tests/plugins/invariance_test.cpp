@@ -50,6 +50,28 @@ TEST_P(Invariance, SwappingAAndBTurnsTheNormal) {
     }
 }
 
+/// Of what just touches, a nanometre must not turn the normal, or a body on its rim never rests.
+TEST_P(Invariance, TinyMovesTurnTheNormalOfRimsLittle) {
+    Dice dice(33);
+    int pairs = 0, turned = 0;
+    for (ShapeKind a : {ShapeKind::cylinder, ShapeKind::cone})
+        for (ShapeKind b : solid_kinds()) {
+            if (!claims(a, b, kPairManifold)) continue;
+            for (int i = 0; i < 20; ++i) {
+                const NearPair pair = near_pair(a, b, i % 2 ? -2e-6 : -5e-5, dice);
+                NearPair moved = pair;
+                moved.pb.x += 1e-9 * dice.way();
+                const auto before = contacts_of(GetParam(), pair, kMargin),
+                           after = contacts_of(GetParam(), moved, kMargin);
+                ASSERT_FALSE(before.empty() || after.empty());
+                const V turn = v(deepest(before).normal) - v(deepest(after).normal);
+                ++pairs, turned += turn.norm() > 1e-5;
+            }
+        }
+    if (pairs == 0) GTEST_SKIP() << "no cylinders and cones";
+    EXPECT_LE(turned, pairs / 100) << "of " << pairs;
+}
+
 TEST_P(Invariance, MovingTheWorldMovesTheContacts) {
     Dice dice(32);
     for (const NearPair& pair : near_pairs()) {
