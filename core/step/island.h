@@ -18,6 +18,11 @@ namespace plumb {
 
 inline constexpr std::uint32_t kImmovable = ~0u;
 
+/// Slip below this share of the island's speed is creep: it stays the solution of a convex problem,
+/// and what creeps lifts by as much. So a velocity below it is asked for as 0, a gap of a tenth of
+/// a micrometre at 10 ms: a heap whose contacts lift and are closed again never comes to rest.
+inline constexpr double kCreep = 1e-4;
+
 struct IslandBody {
     std::uint32_t body;  ///< in the world's tables
     double mass;

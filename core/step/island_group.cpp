@@ -20,12 +20,6 @@ constexpr std::uint32_t kVerySmall = 8;
 /// r/32. One body that drops on a heap does not take all others out of their rest.
 constexpr double kCalm = 0.25;
 
-/// Share of the island's speed below which a velocity is asked for as 0, so that what is at rest
-/// stays there to the last bit: gaps below 10⁻⁴ g h², a tenth of a micrometre at 10 ms. No
-/// less than the slip that the solver takes for creep: what creeps lifts by as much, and a heap
-/// whose contacts lift and are closed again never comes to rest.
-constexpr double kStill = 1e-4;
-
 /// A contact bears at most this many times the weight of its island (wedges and flat arches thrust
 /// by more than they weigh), and this many times its momentum.
 constexpr double kThrust = 100, kBlow = 10;
@@ -355,7 +349,7 @@ std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) 
         const double most = strongest(world, member, h);
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
-            ask(world, k, h, recovery, kStill * member.speed);
+            ask(world, k, h, recovery, kCreep * member.speed);
             clamped += -world.contacts.gap[contacts_[k]] > recovery;
         }
     }

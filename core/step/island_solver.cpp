@@ -15,9 +15,6 @@ constexpr double kStop = 1e-8;
 /// What an island may miss without counting as unsolved.
 constexpr double kSolved = 1e-6;
 
-/// Slip below this is creep: it stays the solution of a convex problem.
-constexpr double kSlack = 1e-4;
-
 /// γ is this share of what the residual is of the strongest push; slow modes of a structure are
 /// missed by as little as their softness, so that γ comes down to theirs from round to round.
 constexpr double kSoftnessShare = 0.3;
@@ -36,6 +33,12 @@ constexpr int kRounds = 4, kMostRounds = 16;
 
 /// No round begins after so many factorisations.
 constexpr std::uint32_t kEnoughFactorisations = 60;
+
+/// An island may stand that slips no faster than this; one slides where the shift is so many times
+/// the residual.
+constexpr double kFast = 2, kClear = 100;
+
+constexpr double kAnySlip = 1e300;  ///< slack that leaves no shift [m/s]
 
 constexpr int kNewtonSteps = 20, kLineSteps = 20, kSweepsAnew = 5;
 
@@ -59,19 +62,52 @@ Matrix6d mass_matrix(const IslandBody& b) {
 IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed) {
     island_ = island;
     system_ = &system;
-    slack_ = kSlack * speed;
+    slack_ = kCreep * speed;
     IslandReport report;
     report.residual = residual();
     if (report.residual <= kStop * speed) return report;
 
     sweep_both_ways();
     report.residual = residual();
+    const bool may_stand = report.residual > kFar * speed && most_shift(speed) < kFast * speed;
+    if (!may_stand || !stands(report, speed)) improve(report, speed);
+    if (report.residual > speed) start_anew();
+    report.solved = report.residual <= kSolved * speed;
+    return report;
+}
+
+/// Whether the island stands. Then it solves a convex problem, without de Saxcé's shift: rounds
+/// that are not done yet slip, and would be shifted away from it. Otherwise all is as it was.
+bool IslandSolver::stands(IslandReport& report, double speed) {
+    kept_velocity_.assign(island_.velocity.begin(), island_.velocity.end());
+    kept_impulse_.clear();
+    for (const IslandPoint& p : island_.points) kept_impulse_.push_back(p.impulse);
+    const double residual_before = report.residual;
+
+    slack_ = kAnySlip;
+    report.residual = residual();
+    improve(report, speed);
+    slack_ = kCreep * speed;
+    report.residual = residual();
+    if (report.residual <= kSolved * speed) return true;
+
+    std::copy(kept_velocity_.begin(), kept_velocity_.end(), island_.velocity.begin());
+    for (std::size_t k = 0; k < kept_impulse_.size(); ++k)
+        island_.points[k].impulse = kept_impulse_[k];
+    report.residual = residual_before;
+    return false;
+}
+
+/// Rounds, until the law of contact holds.
+void IslandSolver::improve(IslandReport& report, double speed) {
     double share = kSoftnessShare, hard = kHard;
+    const std::uint32_t enough = report.factorisations + kEnoughFactorisations;
     const auto goes_on = [&](int round) {
         if (report.residual <= kStop * speed) return false;
+        if (slack_ == kAnySlip && most_shift(speed) > kClear * report.residual) return false;
         if (round < kRounds) return true;
         return round < kMostRounds && report.residual > kSolved * speed &&
-               report.factorisations < kEnoughFactorisations;
+               report.factorisations < enough;
     };
     for (int round = 0; goes_on(round); ++round) {
         const double before = report.residual;
@@ -84,12 +120,11 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
         report.residual = residual();
         if (!found)
             share *= kSofter;
+        else if (report.residual > kSlow * before && report.residual > kFar * speed)
+            share /= kSofter;
         else if (report.residual > kSlow * before)
-            (report.residual > kFar * speed ? share : hard) /= kSofter;
+            hard /= kSofter;
     }
-    if (report.residual > speed) start_anew();
-    report.solved = report.residual <= kSolved * speed;
-    return report;
 }
 
 /// Where nothing was found: sweeps from impulses of 0, which can make no more of it than there is.
@@ -115,12 +150,25 @@ double IslandSolver::softness(double error, double hard) const {
     return error < strongest * kSoftest ? std::max(hardest, error / strongest) : kSoftest;
 }
 
+/// The greatest of the shifts that slip asks for.
+double IslandSolver::most_shift(double speed) const {
+    double most = 0;
+    for (const IslandPoint& p : island_.points) {
+        const Vector6d slip = p.wanted - velocity_of(p, island_.velocity);
+        if (p.impulse[0] > 0)
+            most = std::max(most, slip_shift(p.impulse, slip, kCreep * speed, p.cone));
+    }
+    return most;
+}
+
 double IslandSolver::residual() const {
     double worst = 0;
     for (const IslandPoint& p : island_.points) {
         Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
         // what slides may lift by what the slack leaves
-        const double lift = slipping(p.impulse, {slack_, slack_, slack_}, p.cone);
+        std::array<double, 3> slow = cone::lengths(lack);
+        for (double& x : slow) x = std::min(x, slack_);
+        const double lift = slipping(p.impulse, slow, p.cone);
         if (lack[0] < 0) lack[0] = std::min(0.0, lack[0] + lift);
         const Vector6d off = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
         worst = std::max(worst, off.cwiseAbs().maxCoeff() / p.mass);

@@ -11,7 +11,7 @@
 /// is made of 6 × 6 blocks on the graph of the island. γ is how soft a contact is against its
 /// bodies. The next round starts from the impulses of this one, so that nothing is left of γ in the
 /// end (the proximal point method), and corrects the normal velocity of what slides (de Saxcé's
-/// shift).
+/// shift). What may stand is first solved without that shift: if it sticks, it is right.
 ///
 /// Sources: convex contact of Anitescu (2006) and Castro et al. (2022), proximal rounds after
 /// Rockafellar (1976), the shift as a fixed point after Acary and Cadoux (2013).
@@ -45,6 +45,9 @@ private:
         Vector6d direction;  ///< of u, along which the line is searched
     };
 
+    bool stands(IslandReport& report, double speed);
+    void improve(IslandReport& report, double speed);
+    double most_shift(double speed) const;
     double residual() const;
     void start_anew();
     double softness(double error, double hard) const;
@@ -64,6 +67,8 @@ private:
     double slack_ = 0;
     std::vector<PointWork> work_;                          // [point]
     std::vector<Vector6d> change_, downhill_, direction_;  // [body]
+    std::vector<Vector6d> kept_velocity_;                  // [body]
+    std::vector<Vector6d> kept_impulse_;                   // [point]
 };
 
 }  // namespace plumb

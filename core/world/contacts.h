@@ -23,7 +23,8 @@ struct ContactMemory {
     bool sticks = false;
     bool exact = false;    ///< whether its impulses are those of an island solved exactly
     double gap = 0;        ///< of the step before, where it was solved exactly [m]
-    bool jammed = false;   ///< an exact solution could not push it out
+    bool jammed = false;   ///< friction holds its overlap: an exact solution could not push it
+                           ///< out, or left it as it is
     bool known = false;    ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };

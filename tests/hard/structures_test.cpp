@@ -86,23 +86,6 @@ void expect_statics(const World& world) {
     }
 }
 
-struct Motions {
-    double fastest = 0, farthest = 0;  ///< after 3 s [m/s], [m]
-};
-
-/// Runs on after 3 s, and says how far anything moved since.
-Motions run_to_rest(Simulation& simulation, double seconds) {
-    run_for(simulation, 3);
-    const std::vector<Vector> start = simulation.world().bodies.position;
-    Motions run;
-    while (simulation.time() < seconds - 1e-9) {
-        simulation.step();
-        run.fastest = std::max(run.fastest, fastest_point(simulation.world()));
-        run.farthest = std::max(run.farthest, farthest_from(start, simulation.world()));
-    }
-    return run;
-}
-
 void expect_rests(const Scene& empty, const std::string& collider, const Structure& structure,
                   double seconds, const std::string& name) {
     SCOPED_TRACE(name);
@@ -110,7 +93,7 @@ void expect_rests(const Scene& empty, const std::string& collider, const Structu
     add_ground(s);
     add_structure(s, structure);
     Simulation simulation(s, colliders(), collider);
-    const Motions run = run_to_rest(simulation, seconds);
+    const Motions run = motions_between(simulation, 3, seconds);
     EXPECT_LT(run.fastest, 1e-4);
     EXPECT_LT(run.farthest, 1e-4);
     expect_statics(simulation.world());
@@ -200,7 +183,7 @@ TEST_P(Structures, ATowerCarriesATopAThousandTimesHeavier) {
         add_structure(s, unevenly(tower(20, {0.5, 0.5, 0.5}), off, 3));
         s.bodies.back().mass = 1e6;
         Simulation simulation(s, colliders(), collider());
-        const Motions run = run_to_rest(simulation, 20);
+        const Motions run = motions_between(simulation, 3, 20);
         EXPECT_LT(run.fastest, 1e-4);
         EXPECT_LT(run.farthest, 1e-4);
         expect_statics(simulation.world());

@@ -61,6 +61,24 @@ inline double fastest_point(const World& world) {
     return most;
 }
 
+/// How anything moves: the fastest point [m/s], and the longest way of any body [m].
+struct Motions {
+    double fastest = 0, farthest = 0;
+};
+
+/// Runs from now until `settled` [s], and on until `end`; says how anything moved after `settled`.
+inline Motions motions_between(Simulation& simulation, double settled, double end) {
+    run_for(simulation, settled - simulation.time());
+    const std::vector<Vector> start = simulation.world().bodies.position;
+    Motions motions;
+    while (simulation.time() < end - 1e-9) {
+        simulation.step();
+        motions.fastest = std::max(motions.fastest, fastest_point(simulation.world()));
+        motions.farthest = std::max(motions.farthest, farthest_from(start, simulation.world()));
+    }
+    return motions;
+}
+
 inline double total_energy(const Simulation& s) {
     return kinetic_energy(s.world()) + potential_energy(s.world());
 }
