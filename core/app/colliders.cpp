@@ -90,7 +90,8 @@ int list_json(const std::string& path) {
 
 int list(const std::string& path, bool pairs) {
     const ColliderLibrary library(path);
-    if (library.all().empty()) logger()->error("no collision plugin was found");
+    if (library.all().empty())
+        logger()->error("no collision plugin was found in {}", library.searched());
     for (const ColliderInfo& c : library.all()) {
         if (!c.table) {
             std::printf("%-12s refused: %s\n    %s\n", c.name.c_str(), c.refusal.c_str(),

@@ -11,6 +11,8 @@
 
 #include "math/lanes.h"
 
+#include <algorithm>
+
 namespace plumb {
 
 /// Gap that one position iteration shall close [m] (§6, intersection resolution).
@@ -30,6 +32,20 @@ inline T gap_to_solve(const T& c, const T& d, const T& s) {
 template <class T>
 inline T gap_below(const T& c, const T& d, const T& s) {
     return (c - d) + s * d;
+}
+
+/// How old overlap is pushed out in a substep.
+struct PushOut {
+    double share = 0;  ///< of it that is removed
+    double most = 0;   ///< no more of it counts than this [m]
+};
+
+/// Share that a substep of h [s] removes where `stiffness` is that of 10 ms or longer. What pushes
+/// bodies apart stays in their velocities, and would throw them the higher the shorter substeps
+/// are.
+inline double push_out_share(double stiffness, double h) {
+    constexpr double kUnhurried = 0.01;  // [s]
+    return stiffness * std::min(1.0, h / kUnhurried);
 }
 
 /// Part of an overlap that is left alone in this substep [m], at most 0: no more than `most` [m] is

@@ -129,11 +129,15 @@ const ColliderInfo& ColliderLibrary::find(const std::string& name) const {
     if (refused)
         throw ColliderError("collider \"" + name + "\" (" + refused->file.string() +
                             ") was refused: " + refused->refusal);
-    std::string searched;
-    for (const std::string& d : searched_) searched += (searched.empty() ? "" : ", ") + d;
     throw ColliderError(
         "there is no collider \"" + name + "\"" + spelling_advice(name, colliders_) +
-        "; installed are: " + names_of(colliders_) + " (searched " + searched + ")");
+        "; installed are: " + names_of(colliders_) + " (searched " + searched() + ")");
+}
+
+std::string ColliderLibrary::searched() const {
+    std::string all;
+    for (const std::string& d : searched_) all += (all.empty() ? "" : ", ") + d;
+    return all;
 }
 
 ColliderChoice ColliderLibrary::choose(const Scene& scene) const {

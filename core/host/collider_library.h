@@ -35,6 +35,9 @@ public:
 
     const std::vector<ColliderInfo>& all() const { return colliders_; }
 
+    /// The folders that were looked through, in one sentence's words.
+    std::string searched() const;
+
     /// Throws ColliderError when there is none of this name, or it was refused; the sentence lists
     /// those there are.
     const ColliderInfo& find(const std::string& name) const;

@@ -28,9 +28,10 @@ constexpr double kThrust = 100, kBlow = 10;
 /// contradict each other there is nothing to be exact about.
 constexpr double kDeep = 0.02;
 
-/// So are those beyond this share that an exact solution left at more than this part of what they
-/// were: friction that holds as hard as the push-out pushes locks a wedge, and sweeps let it slip.
-constexpr double kJam = 0.0025, kStuck = 0.95;
+/// So are those beyond this share of which an exact solution pushed out less than this part of what
+/// it was asked to: friction that holds as hard as the push-out pushes locks a wedge, and sweeps
+/// let it slip.
+constexpr double kJam = 0.0025, kStuck = 0.25;
 
 /// Shallower ones that stick are left as they are from when the contact bears more than this share
 /// of the most it may: each substep's push would only wind up the stress that locks them.
@@ -72,14 +73,15 @@ double largest(const Symmetric3<double>& k) {
 }
 
 /// Velocity along the normal that makes the gap what it shall be at the end of the substep [m/s].
-double closing_velocity(double gap, double h, double recovery, double stiffness) {
-    const double left = overlap_left(gap, recovery);
-    return -gap_below(gap - left, std::min(gap, 0.0) - left, stiffness) / h;
+double closing_velocity(double gap, double h, const PushOut& push_out) {
+    const double left = overlap_left(gap, push_out.most);
+    return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
 }
 
-/// Whether an exact solution left an overlap about as deep as it was.
-bool is_stuck(const ContactMemory& before, double overlap) {
-    return before.known && before.exact && overlap > -kStuck * before.gap;
+/// Share of an overlap that counts as left as it was after a step.
+double stuck_share(const Settings& s) {
+    const double left = 1 - push_out_share(s.stiffness, substep_of(s));
+    return 1 - kStuck * (1 - std::pow(left, s.substeps));
 }
 
 }  // namespace
@@ -90,10 +92,16 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers)
       resists_rolling_(plan.runs(Effect::turning_friction)),
       solvers_(workers.count()) {}
 
+/// Whether an exact solution left an overlap about as deep as it was.
+bool IslandGroup::is_stuck(const ContactMemory& before, double overlap) const {
+    return before.known && before.exact && overlap > -stuck_share_ * before.gap;
+}
+
 // ---- once a step
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0;
+    stuck_share_ = stuck_share(world.settings);
     bodies_.clear(), points_.clear(), locked_.clear(), contacts_.clear(), jammed_.clear();
     if (pairs.empty()) return;
     found_.find(pairs, world.dynamic_count);
@@ -334,7 +342,7 @@ bool IslandGroup::goes_on(const World& world, std::uint32_t contact) const {
 
 // ---- once a substep
 
-std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) {
+std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& push_out) {
     if (!is_fresh_) take_geometry(world);
     is_fresh_ = false;
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -345,12 +353,12 @@ std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) 
     std::uint32_t clamped = 0;
     for (std::size_t i = 0; i < count_; ++i) {
         Member& member = members_[i];
-        member.speed = speed_of(world, member, h, recovery);
+        member.speed = speed_of(world, member, h, push_out);
         const double most = strongest(world, member, h);
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
-            ask(world, k, h, recovery, kCreep * member.speed);
-            clamped += -world.contacts.gap[contacts_[k]] > recovery;
+            ask(world, k, h, push_out, kCreep * member.speed);
+            clamped += -world.contacts.gap[contacts_[k]] > push_out.most;
         }
     }
     apply_impulses();
@@ -359,15 +367,14 @@ std::uint32_t IslandGroup::begin(const World& world, double h, double recovery) 
 
 /// How fast contacts approach or part if nothing pushes, or how fast an overlap shall go.
 double IslandGroup::speed_of(const World& world, const Member& member, double h,
-                             double recovery) const {
+                             const PushOut& push_out) const {
     const ContactTable& c = world.contacts;
     double speed = 0;
     for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
         const Contact& contact = c.found[contacts_[k]];
         const double overlap = std::min(c.gap[contacts_[k]], 0.0);
         const double normal = to_eigen(contact.normal).dot(relative_velocity(world, contacts_[k]));
-        speed = std::max({speed, std::abs(normal),
-                          closing_velocity(overlap, h, recovery, world.settings.stiffness)});
+        speed = std::max({speed, std::abs(normal), closing_velocity(overlap, h, push_out)});
     }
     return speed;
 }
@@ -383,14 +390,15 @@ double IslandGroup::strongest(const World& world, const Member& member, double h
 }
 
 /// What the substep asks of a point; velocities below `least` [m/s] are asked for as 0.
-void IslandGroup::ask(const World& world, std::size_t k, double h, double recovery, double least) {
+void IslandGroup::ask(const World& world, std::size_t k, double h, const PushOut& push_out,
+                      double least) {
     const ContactTable& c = world.contacts;
     const Settings& s = world.settings;
     const std::uint32_t contact = contacts_[k];
     IslandPoint& p = points_[k];
 
     const double bounce = restitution_velocity_of(c, contact);
-    double normal = closing_velocity(gap_in_substep(c, contact), h, recovery, s.stiffness);
+    double normal = closing_velocity(gap_in_substep(c, contact), h, push_out);
     const ContactMemory& before = c.memory[contact];
     locked_[k] = is_stuck(before, -c.found[contact].gap) &&
                  (before.jammed || p.impulse[0] > kLocked * p.cone.most);

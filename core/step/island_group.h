@@ -8,6 +8,7 @@
 /// creep.
 #pragma once
 
+#include "constraints/contact.h"
 #include "contacts/contact_sums.h"
 #include "effects/plan.h"
 #include "schedule/contact_islands.h"
@@ -27,16 +28,18 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
-    /// Whether a contact that was solved exactly goes on from its impulses in the sweeps: where its
-    /// island is left to them because it has grown, or some of it moves, is jammed or too deep,
-    /// neither of its bodies touches what is jammed or too deep, it is at rest, and it bears no
-    /// more than the island weighs. What is jammed or was hit may hold each other by more than
-    /// sweeps can take back.
+    /// Whether a contact that was solved exactly goes on from its impulses in the sweeps, to which
+    /// its island is left because it has grown, or some of it moves, is jammed or overlaps deeply.
+    /// It does unless
+    ///   - one of its bodies touches what is jammed or too deep,
+    ///   - it moves,
+    ///   - or it bears more than the island weighs:
+    /// what is jammed or was hit may hold each other by more than sweeps can take back.
     bool goes_on(const World& world, std::uint32_t contact) const;
 
     /// Once a substep of length h [s]: velocities, forces included, and what is asked of them.
-    /// Returns how many contacts overlap deeper than `recovery` [m], the most that is pushed out.
-    std::uint32_t begin(const World& world, double h, double recovery);
+    /// Returns how many contacts overlap deeper than what is pushed out.
+    std::uint32_t begin(const World& world, double h, const PushOut& push_out);
 
     /// Returns how many islands still miss the law of contact.
     std::uint32_t solve();
@@ -75,9 +78,12 @@ private:
     void take_memory(const World& world);
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
-    double speed_of(const World& world, const Member& member, double h, double recovery) const;
+    bool is_stuck(const ContactMemory& before, double overlap) const;
+    double speed_of(const World& world, const Member& member, double h,
+                    const PushOut& push_out) const;
     double strongest(const World& world, const Member& member, double h) const;
-    void ask(const World& world, std::size_t point, double h, double recovery, double least);
+    void ask(const World& world, std::size_t point, double h, const PushOut& push_out,
+             double least);
     void apply_impulses();
     Island island_of(const Member& member);
 
@@ -93,7 +99,8 @@ private:
 
     std::vector<Member> members_;  // the first count_ are in use
     std::size_t count_ = 0;
-    bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
+    double stuck_share_ = 1;  ///< of an overlap, from which it counts as left as it was
+    bool is_fresh_ = false;   // whether arms and inertia are those of the substep that begins
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
     std::vector<IslandPoint> points_;

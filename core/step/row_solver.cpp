@@ -24,21 +24,26 @@
 namespace plumb {
 namespace {
 
-/// What a substep does about old overlap.
+/// What a substep of h [s] does about old overlap.
 struct Recovery {
     double stiffness;  ///< s′: the share that is removed where both passes share one push, of a
                        ///< substep; to the paper's letter, of an iteration
-    double share;      ///< what that comes to in a substep
+    PushOut push_out;  ///< what that comes to in a substep
 };
 
-/// Where both passes share one push, s is the share of a substep. To the paper's letter it is the
-/// share of an iteration, of five a step, whatever number is made.
-Recovery recovery(const Settings& s) {
-    if (s.shared_push) return {s.stiffness, s.stiffness};
+/// To the paper's letter s is the share of an iteration, of five a step, whatever number is made.
+Recovery recovery(const Settings& s, double h) {
+    const auto with = [&](double stiffness, double share) {
+        return Recovery{stiffness, {share, share > 0 ? h * s.recovery_speed / share : 0}};
+    };
+    if (s.shared_push) {
+        const double share = push_out_share(s.stiffness, h);
+        return with(share, share);
+    }
     const double left = 1 - s.stiffness, after_five = left * left * left * left * left;
     const std::uint32_t iterations = s.position_iterations * s.substeps;
-    return {iterations > 0 ? 1 - root_of_share(after_five, iterations) : 0,
-            1 - root_of_share(after_five, s.substeps)};
+    return with(iterations > 0 ? 1 - root_of_share(after_five, iterations) : 0,
+                1 - root_of_share(after_five, s.substeps));
 }
 
 /// How often shock propagation solves a level before it goes on to the next: until the points of a
@@ -78,10 +83,9 @@ public:
         table_.begin(world, h);
         pass_.h = static_cast<Real>(h);
         pass_.inverse_h = static_cast<Real>(1 / h);
-        const Recovery r = recovery(settings_);
+        const Recovery r = recovery(settings_, h);
         pass_.stiffness = static_cast<Real>(r.stiffness);
-        pass_.recovery =
-            static_cast<Real>(r.share > 0 ? h * settings_.recovery_speed / r.share : 0);
+        pass_.recovery = static_cast<Real>(r.push_out.most);
         pass_.warm_start = warm_start_;
         pass_.shared_cone = settings_.shared_cone;
         pass_.shared_push = settings_.shared_push;
@@ -92,7 +96,7 @@ public:
             group->begin(world, table_.rows(), pass_, h);
         }
         std::uint32_t clamped = contacts_->clamped();
-        if (islands_) clamped += islands_->begin(world, h, static_cast<double>(pass_.recovery));
+        if (islands_) clamped += islands_->begin(world, h, r.push_out);
         if (shocks_) shock_->begin(world, table_.rows(), pass_, h);
         return clamped;
     }

@@ -30,6 +30,22 @@ TEST_P(Overlap, PartsAtNoMoreThanTheSetSpeed) {
     }
 }
 
+/// Eight cubes in a row, each 1 mm into the next, with seven on top: 7 mm to make room for, 3.5 at
+/// either end, whatever the steps and substeps.
+TEST_P(Overlap, OpensByItsSizeHoweverShortTheSubsteps) {
+    for (const auto& [dt, substeps] :
+         {std::pair{0.01, 1u}, {0.01, 20u}, {0.001, 1u}, {0.015, 3u}}) {
+        Scene s = scene();
+        s.settings.dt = dt, s.settings.substeps = substeps;
+        add_ground(s);
+        for (int row = 0; row < 2; ++row)
+            for (int i = 0; i < 8 - row; ++i)
+                add_body(s, box(0.2, 0.2, 0.2), {0.399 * (i + 0.5 * row), 0.2 + 0.4 * row, 0});
+        Simulation simulation(s, colliders(), collider());
+        EXPECT_LT(motions_between(simulation, 0, 0.5).farthest, 5e-3) << dt << " s x " << substeps;
+    }
+}
+
 TEST_P(Overlap, IsRepeatable) {
     std::uint64_t hashes[2];
     for (std::uint64_t& hash : hashes) {
