@@ -40,9 +40,9 @@ struct PushOut {
     double most = 0;   ///< no more of it counts than this [m]
 };
 
-/// Share that a substep of h [s] removes where `stiffness` is that of 10 ms or longer. What pushes
-/// bodies apart stays in their velocities, and would throw them the higher the shorter substeps
-/// are.
+/// Share that a substep of h [s] removes in an exact solution; `stiffness` is that of 10 ms or
+/// longer. What pushes bodies apart stays in their velocities, and would throw them the higher the
+/// shorter substeps are.
 inline double push_out_share(double stiffness, double h) {
     constexpr double kUnhurried = 0.01;  // [s]
     return stiffness * std::min(1.0, h / kUnhurried);

@@ -83,10 +83,9 @@ const Table<Settings>& settings_table() {
                  "distance at which contacts are found [m]"),
         field<S>("reuse_distance", Number{{0, 1e3}}, &S::reuse_distance,
                  "contacts of a pair are kept while its points move by less [m]; 0: always detect"),
-        field<S>(
-            "stiffness", Number{{0, 1}}, &S::stiffness,
-            "share of an old overlap removed a substep of 10 ms or longer, and of shorter ones in "
-            "proportion; an iteration, of five, without shared_push"),
+        field<S>("stiffness", Number{{0, 1}}, &S::stiffness,
+                 "share of an old overlap removed a substep (where solved exactly, one of 10 ms or "
+                 "longer, and less in shorter ones); an iteration, of five, without shared_push"),
         field<S>("recovery_speed", Number{kNotNegative}, &S::recovery_speed,
                  "greatest speed at which old overlap is pushed out, and at which joints come back "
                  "that are beyond a limit or far from a coupling's offset [m/s], [rad/s]"),

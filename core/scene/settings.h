@@ -42,9 +42,9 @@ struct Settings {
     double margin = 0.005;         ///< distance of detection [m]
     double reuse_distance = 1e-4;  ///< d: while the points of a pair move by less, its contacts are
                                    ///< kept and not detected again [m]; 0 = always detect
-    double stiffness = 0.2;  ///< s of §6: share of an old overlap removed a substep of 10 ms or
-                             ///< longer, and of shorter ones in proportion; an iteration, of five,
-                             ///< where shared_push is off
+    double stiffness = 0.2;  ///< s of §6: share of an old overlap removed a substep (where solved
+                             ///< exactly, one of 10 ms or longer, and less in shorter ones); an
+                             ///< iteration, of five, where shared_push is off
     double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out, and at
                                   ///< which what joints are beyond a limit or off a coupling goes
                                   ///< [m/s], [rad/s]

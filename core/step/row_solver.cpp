@@ -24,26 +24,26 @@
 namespace plumb {
 namespace {
 
-/// What a substep of h [s] does about old overlap.
+/// What sweeps do about old overlap in a substep.
 struct Recovery {
     double stiffness;  ///< s′: the share that is removed where both passes share one push, of a
                        ///< substep; to the paper's letter, of an iteration
-    PushOut push_out;  ///< what that comes to in a substep
+    double share;      ///< what that comes to in a substep
 };
 
-/// To the paper's letter s is the share of an iteration, of five a step, whatever number is made.
-Recovery recovery(const Settings& s, double h) {
-    const auto with = [&](double stiffness, double share) {
-        return Recovery{stiffness, {share, share > 0 ? h * s.recovery_speed / share : 0}};
-    };
-    if (s.shared_push) {
-        const double share = push_out_share(s.stiffness, h);
-        return with(share, share);
-    }
+/// Where both passes share one push, s is the share of a substep. To the paper's letter it is the
+/// share of an iteration, of five a step, whatever number is made.
+Recovery recovery(const Settings& s) {
+    if (s.shared_push) return {s.stiffness, s.stiffness};
     const double left = 1 - s.stiffness, after_five = left * left * left * left * left;
     const std::uint32_t iterations = s.position_iterations * s.substeps;
-    return with(iterations > 0 ? 1 - root_of_share(after_five, iterations) : 0,
-                1 - root_of_share(after_five, s.substeps));
+    return {iterations > 0 ? 1 - root_of_share(after_five, iterations) : 0,
+            1 - root_of_share(after_five, s.substeps)};
+}
+
+/// Removes a share of old overlap in a substep of h [s], at no more than the set speed.
+PushOut push_out(const Settings& s, double share, double h) {
+    return {share, share > 0 ? h * s.recovery_speed / share : 0};
 }
 
 /// How often shock propagation solves a level before it goes on to the next: until the points of a
@@ -83,9 +83,9 @@ public:
         table_.begin(world, h);
         pass_.h = static_cast<Real>(h);
         pass_.inverse_h = static_cast<Real>(1 / h);
-        const Recovery r = recovery(settings_, h);
+        const Recovery r = recovery(settings_);
         pass_.stiffness = static_cast<Real>(r.stiffness);
-        pass_.recovery = static_cast<Real>(r.push_out.most);
+        pass_.recovery = static_cast<Real>(push_out(settings_, r.share, h).most);
         pass_.warm_start = warm_start_;
         pass_.shared_cone = settings_.shared_cone;
         pass_.shared_push = settings_.shared_push;
@@ -96,7 +96,9 @@ public:
             group->begin(world, table_.rows(), pass_, h);
         }
         std::uint32_t clamped = contacts_->clamped();
-        if (islands_) clamped += islands_->begin(world, h, r.push_out);
+        if (islands_)
+            clamped += islands_->begin(
+                world, h, push_out(settings_, push_out_share(settings_.stiffness, h), h));
         if (shocks_) shock_->begin(world, table_.rows(), pass_, h);
         return clamped;
     }
