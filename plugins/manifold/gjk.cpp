@@ -106,7 +106,7 @@ struct Shortest {
     Vec3 v, on_a, on_b;
     double size;  ///< of both parts [m]
 
-    /// Whether a support in the direction of v leads any further.
+    /// Whether v is the shortest: a support in its direction leads no further.
     bool is_found(const Vertex& support) const {
         const double vv = dot(v, v);
         return vv - dot(v, support.w) <= 1e-12 * vv + 1e-16 * size * std::sqrt(vv);
