@@ -114,6 +114,9 @@ private:
             at = at * Placement{{0, -kDeep, 0}, Quaterniond::Identity()};
         } else if (g.kind == ShapeKind::box) {
             shape = keep(std::make_unique<btBoxShape>(to_bullet(g.half_extents)));
+        } else if (g.kind == ShapeKind::cylinder) {
+            shape = keep(
+                std::make_unique<btCylinderShape>(btVector3(g.radius, g.half_height, g.radius)));
         } else {
             shape = keep(std::make_unique<btSphereShape>(g.radius));
         }
@@ -207,7 +210,7 @@ private:
 std::string unable(const Scene& scene) {
     if (!joints_are(scene, {JointKind::ball, JointKind::hinge, JointKind::distance}))
         return "only ball, hinge and distance joints are passed on";
-    return other_shapes(scene);
+    return other_shapes(scene, true);
 }
 
 Engine engine(const char* name, bool direct) {

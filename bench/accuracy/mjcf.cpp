@@ -112,10 +112,13 @@ private:
         if (scene_.bodies[i].geometry == kNoIndex) return;
         const Geometry& g = scene_.geometries[scene_.bodies[i].geometry];
         text_ << "<geom type='";
-        if (g.kind == ShapeKind::plane) {  // whose normal is z
+        if (g.kind == ShapeKind::plane || g.kind == ShapeKind::cylinder)  // along z
             at = at * Placement{Vector3d::Zero(),
                                 Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitY())};
+        if (g.kind == ShapeKind::plane) {
             text_ << "plane' size='0 0 1'";
+        } else if (g.kind == ShapeKind::cylinder) {
+            text_ << "cylinder' size='" << g.radius << " " << g.half_height << "'";
         } else if (g.kind == ShapeKind::box) {
             text_ << "box' size='" << g.half_extents.transpose() << "'";
         } else {

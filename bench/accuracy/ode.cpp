@@ -92,7 +92,7 @@ private:
     }
 
     void add_geom(const Geometry& g, std::size_t i) {
-        const Placement at = geometry_placement(start_.bodies, i);
+        Placement at = geometry_placement(start_.bodies, i);
         if (g.kind == ShapeKind::plane) {
             const Vector3d normal = at.rotation * Vector3d::UnitY();
             const dGeomID plane =
@@ -100,9 +100,16 @@ private:
             return number(plane, i);
         }
         const Vector3d side = 2 * g.half_extents;
-        const dGeomID geom = g.kind == ShapeKind::box
-                                 ? dCreateBox(space_, side.x(), side.y(), side.z())
-                                 : dCreateSphere(space_, g.radius);
+        dGeomID geom = nullptr;
+        if (g.kind == ShapeKind::box) {
+            geom = dCreateBox(space_, side.x(), side.y(), side.z());
+        } else if (g.kind == ShapeKind::cylinder) {  // about z
+            geom = dCreateCylinder(space_, g.radius, 2 * g.half_height);
+            at.rotation =
+                at.rotation * Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitY());
+        } else {
+            geom = dCreateSphere(space_, g.radius);
+        }
         number(geom, i);
         if (bodies_[i]) dGeomSetBody(geom, bodies_[i]);
         const dQuaternion turn = {at.rotation.w(), at.rotation.x(), at.rotation.y(),
@@ -192,7 +199,7 @@ std::string unable(const Scene& scene) {
         return "only ball, hinge and distance joints are passed on";
     for (const CouplingSpec& coupling : scene.couplings)
         if (coupling.ratio > 0) return "its gears are outer ones, which turn against each other";
-    return other_shapes(scene);
+    return other_shapes(scene, true);
 }
 
 Engine engine(const char* name, bool quick) {

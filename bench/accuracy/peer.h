@@ -70,11 +70,15 @@ inline bool joints_are(const Scene& scene, std::initializer_list<JointKind> kind
     });
 }
 
-/// Why the shapes are not those of the cases; "" where they are.
-inline std::string other_shapes(const Scene& scene) {
-    for (const Geometry& g : scene.geometries)
-        if (g.kind != ShapeKind::plane && g.kind != ShapeKind::box && g.kind != ShapeKind::sphere)
-            return "only planes, boxes and spheres are passed on";
+/// Why the shapes are not those of the cases; "" where they are. `cylinders`: whether the engine
+/// has them.
+inline std::string other_shapes(const Scene& scene, bool cylinders) {
+    for (const Geometry& g : scene.geometries) {
+        if (g.kind == ShapeKind::plane || g.kind == ShapeKind::box || g.kind == ShapeKind::sphere)
+            continue;
+        if (g.kind != ShapeKind::cylinder) return "only simple shapes are passed on";
+        if (!cylinders) return "it has no cylinders";
+    }
     return "";
 }
 

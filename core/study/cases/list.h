@@ -21,11 +21,13 @@ Subject braking();
 
 Subject rolling_start();
 Subject rolling_down();
+Subject rolling_disk();
 
 Subject bouncing();
 Subject cradle();
 
 Subject stack();
+Subject loaded_stack();
 
 Subject catenary();
 Subject hanging_chain();

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// Balls that roll.
+/// Balls and a disk that roll.
 #include "study/cases/list.h"
 #include "study/cases/parts.h"
 #include "study/judges.h"
+#include "study/steady_circle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -56,6 +57,37 @@ Subject rolling_down() {
     s.metrics = {largest("way", "m", "largest error of the way", [=](const World& w) {
         return w.bodies.position[1].dot(down) - 0.5 * rate * w.time * w.time;
     })};
+    s.tolerance = 3e-3;
+    s.orders = {.substeps = 1, .step = 1};
+    return s;
+}
+
+Subject rolling_disk() {
+    Subject s = begin_subject("rolling_disk", "A disk rolls in a circle, its axis 60° from upright",
+                              "steady precession of a disk that does not slide", 3);
+    const SteadyCircle circle{0.5, 0.005, std::numbers::pi / 3, 2, kGravity};
+    s.scene.materials[0].friction = 1;
+    add_ground(s.scene);
+    const Quaterniond turn(Eigen::AngleAxisd(circle.tilt, Vector3d::UnitX()));
+    const Vector3d axis = turn * Vector3d::UnitY(), up = Vector3d::UnitY();
+    const Vector3d foot = turn * Vector3d(0, -circle.half_height, circle.radius);
+    const Vector3d spin = circle.round * up +
+                          (circle.rate_about_axis() - circle.round * std::cos(circle.tilt)) * axis;
+    const Vector3d velocity = -spin.cross(foot);
+    BodySpec& disk = add_body(s.scene, cylinder(circle.radius, circle.half_height), -foot);
+    disk.placement.rotation = turn;
+    disk.velocity = velocity, disk.angular_velocity = spin;
+    const Vector3d arm = velocity.cross(up) / circle.round;  // from the middle of the circle
+    s.metrics = {
+        largest("position", "m", "largest distance of the centre from where it should be",
+                [=](const World& w) {
+                    const Vector3d now = Eigen::AngleAxisd(circle.round * w.time, up) * arm;
+                    return (w.bodies.position[1] + foot - (now - arm)).norm();
+                }),
+        largest("tilt", "rad", "largest error of the tilt", [=](const World& w) {
+            const Vector3d now = geometry_placement(w.bodies, 1).rotation * Vector3d::UnitY();
+            return std::acos(now.y()) - circle.tilt;
+        })};
     s.tolerance = 3e-3;
     s.orders = {.substeps = 1, .step = 1};
     return s;

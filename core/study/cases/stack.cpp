@@ -5,11 +5,11 @@
 #include "study/judges.h"
 
 #include <algorithm>
+#include <vector>
 
 namespace plumb::study {
 namespace {
 
-constexpr std::uint32_t kCount = 10;
 constexpr double kHalf = 0.25;  // [m]
 
 /// Force with which body a + 1 presses on body a [N], from the impulses of the last substep.
@@ -24,7 +24,7 @@ double force_on(const World& w, std::uint32_t a) {
 
 double force_error(const World& w) {
     double worst = 0, weight = 0;
-    for (std::uint32_t a = kCount; a-- > 0;) {
+    for (auto a = static_cast<std::uint32_t>(w.bodies.size()) - 1; a-- > 0;) {
         weight += w.bodies.mass[a + 1] * kGravity;
         worst = std::max(worst, size_of(force_on(w, a) / weight - 1));
     }
@@ -34,11 +34,21 @@ double force_error(const World& w) {
 /// How far the cubes are from where they were put, of an edge.
 double shift(const World& w) {
     double worst = 0;
-    for (std::uint32_t i = 1; i <= kCount; ++i) {
+    for (std::uint32_t i = 1; i < w.bodies.size(); ++i) {
         const Vector3d start(0, kHalf * (2 * i - 1), 0);
         worst = std::max(worst, size_of((w.bodies.position[i] - start).norm() / (2 * kHalf)));
     }
     return worst;
+}
+
+/// Cubes of these masses on the ground, from below [kg].
+void add_cubes(Subject& s, const std::vector<double>& masses) {
+    add_ground(s.scene);
+    for (std::uint32_t i = 0; i < masses.size(); ++i)
+        add_body(s.scene, box(Vector3d::Constant(kHalf)), {0, kHalf * (2 * i + 1), 0}).mass =
+            masses[i];
+    s.metrics = {largest("shift", "", "largest way of a cube, of its edge", shift),
+                 last("force", "", "largest error of a level's force in the end", force_error)};
 }
 
 }  // namespace
@@ -46,11 +56,15 @@ double shift(const World& w) {
 Subject stack() {
     Subject s = begin_subject("stack", "Ten cubes stand on each other",
                               "each level bears the weight of what is above it", 3);
-    add_ground(s.scene);
-    for (std::uint32_t i = 0; i < kCount; ++i)
-        add_body(s.scene, box(Vector3d::Constant(kHalf)), {0, kHalf * (2 * i + 1), 0});
-    s.metrics = {largest("shift", "", "largest way of a cube, of its edge", shift),
-                 last("force", "", "largest error of a level's force in the end", force_error)};
+    add_cubes(s, std::vector<double>(10, 125));
+    s.tolerance = 1e-10;
+    return s;
+}
+
+Subject loaded_stack() {
+    Subject s = begin_subject("loaded_stack", "Three cubes bear one that is 1000 times as heavy",
+                              "each level bears the weight of what is above it", 3);
+    add_cubes(s, {1, 1, 1, 1000});
     s.tolerance = 1e-10;
     return s;
 }
