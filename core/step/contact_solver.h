@@ -76,7 +76,7 @@ public:
             const ContactMemory& memory = world.contacts.memory[contact];
             if (!memory.matched) return;
             if (memory.exact &&
-                !(exact && exact->goes_on(world, static_cast<std::uint32_t>(contact))))
+                !(exact && exact->choice().goes_on(world, static_cast<std::uint32_t>(contact))))
                 return;
             rows.normals[k].lambda_velocity[lane] = static_cast<Real>(memory.normal_impulse);
             if (!rows.frictions) return;

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// The islands that are solved exactly: from the world's tables to the solver's, and back.
 ///
-/// Their contacts are taken out of the sweeps. An island is solved exactly where no joint holds its
-/// bodies, it has at most Settings::exact_islands of them, and, unless it is very small, it is
-/// calm: what flies and tumbles needs no exact forces, and they would cost most there. Sweeps are
-/// enough for a body that rolls or slides on what is immovable; one that hardly moves shall not
-/// creep.
+/// Their contacts are taken out of the sweeps.
 #pragma once
 
 #include "constraints/contact.h"
 #include "contacts/contact_sums.h"
 #include "effects/plan.h"
-#include "schedule/contact_islands.h"
 #include "schedule/workers.h"
+#include "step/island_choice.h"
 #include "step/island_solver.h"
 #include "world/world.h"
 
@@ -28,14 +24,8 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
-    /// Whether a contact that was solved exactly goes on from its impulses in the sweeps, to which
-    /// its island is left because it has grown, or some of it moves, is jammed or overlaps deeply.
-    /// It does unless
-    ///   - one of its bodies touches what is jammed or too deep,
-    ///   - it moves,
-    ///   - or it bears more than the island weighs:
-    /// what is jammed or was hit may hold each other by more than sweeps can take back.
-    bool goes_on(const World& world, std::uint32_t contact) const;
+    /// Of what is left to sweeps, and why.
+    const IslandChoice& choice() const { return choice_; }
 
     /// Once a substep of length h [s]: velocities, forces included, and what is asked of them.
     /// Returns how many contacts overlap deeper than what is pushed out.
@@ -60,25 +50,12 @@ private:
         BlockCholesky system;
         bool solved;
     };
-    bool is_exact(const World& world, const ContactIsland& island,
-                  const std::vector<BodyPair>& pairs);
-    void find_upset(const World& world, const ContactIsland& island,
-                    const std::vector<BodyPair>& pairs);
-    void mark_what_goes_on(const World& world, const ContactIsland& island,
-                           const std::vector<BodyPair>& pairs);
-    bool is_slow(const World& world, const Contact& contact) const;
-    bool is_calm(const World& world, const ContactIsland& island,
-                 const std::vector<BodyPair>& pairs) const;
-    void mark_jointed(const World& world);
-    void mark(const World& world, const BodyPair& pair, double bears);
-    double weight_of(const World& world, const ContactIsland& island,
-                     const std::vector<BodyPair>& pairs);
-    void take(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
+    void take(const World& world, const ContactIsland& island, const ContactIslands& found,
+              const std::vector<BodyPair>& pairs);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
     void take_memory(const World& world);
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
-    bool is_stuck(const ContactMemory& before, double overlap) const;
     double speed_of(const World& world, const Member& member, double h,
                     const PushOut& push_out) const;
     double strongest(const World& world, const Member& member, double h) const;
@@ -89,23 +66,17 @@ private:
 
     Workers& workers_;
     bool has_friction_, resists_rolling_;
-    ContactIslands found_;
-    std::vector<std::uint8_t> jointed_;  // [dynamic row]
-    std::vector<double> bears_;          // [dynamic row], see goes_on [N s]
-    std::vector<std::uint8_t> weighed_;  // [body of an island]
-    std::vector<BodyPair> upset_;        // of an island: what is jammed or too deep
-    std::vector<std::uint8_t> taken_;    // [pair]
+    IslandChoice choice_;
+    std::vector<std::uint8_t> taken_;  // [pair]
     BlockCholesky::Pattern pattern_;
 
     std::vector<Member> members_;  // the first count_ are in use
     std::size_t count_ = 0;
-    double stuck_share_ = 1;  ///< of an overlap, from which it counts as left as it was
-    bool is_fresh_ = false;   // whether arms and inertia are those of the substep that begins
+    bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
     std::vector<IslandPoint> points_;
     std::vector<std::uint8_t> locked_;     // [point] whether it is pushed out no more
-    std::vector<std::uint32_t> jammed_;    // contacts that are left to sweeps until they are out
     std::vector<std::uint32_t> contacts_;  // [point] in the contact table
     std::vector<IslandSolver> solvers_;    // [worker]
 };

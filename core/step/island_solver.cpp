@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 namespace {
@@ -38,8 +39,7 @@ constexpr std::uint32_t kEnoughFactorisations = 60;
 /// the residual.
 constexpr double kFast = 2, kClear = 100;
 
-constexpr double kAnySlip = 1e300;  ///< slack that leaves no shift [m/s]
-
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kNewtonSteps = 20, kLineSteps = 20, kSweepsAnew = 5;
 
 /// [r]ₓ: what multiplies ω to give r × ω.
@@ -62,14 +62,15 @@ Matrix6d mass_matrix(const IslandBody& b) {
 IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed) {
     island_ = island;
     system_ = &system;
-    slack_ = kCreep * speed;
+    creep_ = kCreep * speed;
+    shifts_ = true;
     IslandReport report;
     report.residual = residual();
     if (report.residual <= kStop * speed) return report;
 
     sweep_both_ways();
     report.residual = residual();
-    const bool may_stand = report.residual > kFar * speed && most_shift(speed) < kFast * speed;
+    const bool may_stand = report.residual > kFar * speed && most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
     if (report.residual > speed) start_anew();
     report.solved = report.residual <= kSolved * speed;
@@ -84,10 +85,10 @@ bool IslandSolver::stands(IslandReport& report, double speed) {
     for (const IslandPoint& p : island_.points) kept_impulse_.push_back(p.impulse);
     const double residual_before = report.residual;
 
-    slack_ = kAnySlip;
+    shifts_ = false;
     report.residual = residual();
     improve(report, speed);
-    slack_ = kCreep * speed;
+    shifts_ = true;
     report.residual = residual();
     if (report.residual <= kSolved * speed) return true;
 
@@ -104,7 +105,7 @@ void IslandSolver::improve(IslandReport& report, double speed) {
     const std::uint32_t enough = report.factorisations + kEnoughFactorisations;
     const auto goes_on = [&](int round) {
         if (report.residual <= kStop * speed) return false;
-        if (slack_ == kAnySlip && most_shift(speed) > kClear * report.residual) return false;
+        if (!shifts_ && most_shift() > kClear * report.residual) return false;
         if (round < kRounds) return true;
         return round < kMostRounds && report.residual > kSolved * speed &&
                report.factorisations < enough;
@@ -151,23 +152,23 @@ double IslandSolver::softness(double error, double hard) const {
 }
 
 /// The greatest of the shifts that slip asks for.
-double IslandSolver::most_shift(double speed) const {
+double IslandSolver::most_shift() const {
     double most = 0;
     for (const IslandPoint& p : island_.points) {
         const Vector6d slip = p.wanted - velocity_of(p, island_.velocity);
-        if (p.impulse[0] > 0)
-            most = std::max(most, slip_shift(p.impulse, slip, kCreep * speed, p.cone));
+        if (p.impulse[0] > 0) most = std::max(most, slip_shift(p.impulse, slip, creep_, p.cone));
     }
     return most;
 }
 
 double IslandSolver::residual() const {
+    const double slack = shifts_ ? creep_ : kInfinity;
     double worst = 0;
     for (const IslandPoint& p : island_.points) {
         Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
-        // what slides may lift by what the slack leaves
+        // what slides may lift by what the shift leaves it
         std::array<double, 3> slow = cone::lengths(lack);
-        for (double& x : slow) x = std::min(x, slack_);
+        for (double& x : slow) x = std::min(x, slack);
         const double lift = slipping(p.impulse, slow, p.cone);
         if (lack[0] < 0) lack[0] = std::min(0.0, lack[0] + lift);
         const Vector6d off = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
@@ -223,7 +224,7 @@ void IslandSolver::begin_round(double softness) {
         PointWork& w = work_[k];
         w.stiffness = p.mass / softness;
         Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
-        lack[0] -= slip_shift(p.impulse, lack, slack_, p.cone);
+        if (shifts_) lack[0] -= slip_shift(p.impulse, lack, creep_, p.cone);
         w.z = p.impulse + w.stiffness * lack;
     }
 }

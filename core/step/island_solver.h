@@ -47,7 +47,7 @@ private:
 
     bool stands(IslandReport& report, double speed);
     void improve(IslandReport& report, double speed);
-    double most_shift(double speed) const;
+    double most_shift() const;
     double residual() const;
     void start_anew();
     double softness(double error, double hard) const;
@@ -64,8 +64,9 @@ private:
 
     Island island_;
     BlockCholesky* system_ = nullptr;
-    double slack_ = 0;
-    std::vector<PointWork> work_;                          // [point]
+    double creep_ = 0;             ///< slip that is not shifted away [m/s]
+    bool shifts_ = true;           ///< whether what slides is shifted (de Saxcé)
+    std::vector<PointWork> work_;  // [point]
     std::vector<Vector6d> change_, downhill_, direction_;  // [body]
     std::vector<Vector6d> kept_velocity_;                  // [body]
     std::vector<Vector6d> kept_impulse_;                   // [point]

@@ -24,21 +24,24 @@
 namespace plumb {
 namespace {
 
-/// What sweeps do about old overlap in a substep.
-struct Recovery {
-    double stiffness;  ///< s′: the share that is removed where both passes share one push, of a
-                       ///< substep; to the paper's letter, of an iteration
-    double share;      ///< what that comes to in a substep
-};
+/// What the five iterations of a step leave of old overlap, to the paper's letter: there s is the
+/// share of one of them, and other numbers of iterations remove as much.
+double left_after_five(const Settings& s) {
+    const double left = 1 - s.stiffness;
+    return left * left * left * left * left;
+}
 
-/// Where both passes share one push, s is the share of a substep. To the paper's letter it is the
-/// share of an iteration, of five a step, whatever number is made.
-Recovery recovery(const Settings& s) {
-    if (s.shared_push) return {s.stiffness, s.stiffness};
-    const double left = 1 - s.stiffness, after_five = left * left * left * left * left;
+/// Share of old overlap that sweeps remove in a substep. Where both passes share one push it is s.
+double share_of_substep(const Settings& s) {
+    return s.shared_push ? s.stiffness : 1 - root_of_share(left_after_five(s), s.substeps);
+}
+
+/// Share by which a position iteration closes old overlap. Where both passes share one push, all
+/// iterations of a substep close the same share of it.
+double share_of_iteration(const Settings& s) {
+    if (s.shared_push) return s.stiffness;
     const std::uint32_t iterations = s.position_iterations * s.substeps;
-    return {iterations > 0 ? 1 - root_of_share(after_five, iterations) : 0,
-            1 - root_of_share(after_five, s.substeps)};
+    return iterations > 0 ? 1 - root_of_share(left_after_five(s), iterations) : 0;
 }
 
 /// Removes a share of old overlap in a substep of h [s], at no more than the set speed.
@@ -83,9 +86,9 @@ public:
         table_.begin(world, h);
         pass_.h = static_cast<Real>(h);
         pass_.inverse_h = static_cast<Real>(1 / h);
-        const Recovery r = recovery(settings_);
-        pass_.stiffness = static_cast<Real>(r.stiffness);
-        pass_.recovery = static_cast<Real>(push_out(settings_, r.share, h).most);
+        pass_.stiffness = static_cast<Real>(share_of_iteration(settings_));
+        pass_.recovery =
+            static_cast<Real>(push_out(settings_, share_of_substep(settings_), h).most);
         pass_.warm_start = warm_start_;
         pass_.shared_cone = settings_.shared_cone;
         pass_.shared_push = settings_.shared_push;

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "step/island_choice.h"
+
+#include "constraints/contact.h"
+#include "contacts/contact_measures.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// Islands of so many bodies are solved exactly however they move.
+constexpr std::uint32_t kVerySmall = 8;
+
+/// An island is calm where its contacts slide, part and approach by less than this times √(g r), r
+/// the radius of its largest body, in the root of the mean square: about the speed of what fell by
+/// r/32. One body that drops on a heap does not take all others out of their rest.
+constexpr double kCalm = 0.25;
+
+/// Overlaps deeper than this share of the radius of a body are pushed out by sweeps: where normals
+/// contradict each other there is nothing to be exact about.
+constexpr double kDeep = 0.02;
+
+/// So are those beyond this share of which an exact solution pushed out less than this part of what
+/// it was asked to: friction that holds as hard as the push-out pushes locks a wedge, and sweeps
+/// let it slip.
+constexpr double kJam = 0.0025, kStuck = 0.25;
+
+/// What rests has been pulled on for a substep already; what is hardly faster counts as resting.
+constexpr double kPulled = 1.05;
+
+/// Length of a substep [s].
+double substep_of(const Settings& settings) { return settings.dt / settings.substeps; }
+
+/// kCalm of a body, with what a pull [m/s²] makes of rest in a substep or two [m/s].
+double calm_speed(const World& world, double radius, double pull) {
+    return kCalm * std::sqrt(pull * radius) + 2 * pull * substep_of(world.settings);
+}
+
+/// Share of an overlap that counts as left as it was after a step.
+double stuck_share(const Settings& s) {
+    const double left = 1 - push_out_share(s.stiffness, substep_of(s));
+    return 1 - kStuck * (1 - std::pow(left, s.substeps));
+}
+
+}  // namespace
+
+double pull_on(const World& world, std::uint32_t body) {
+    const Bodies& b = world.bodies;
+    return (world.settings.gravity + b.force[body] * b.inverse_mass[body]).norm();
+}
+
+Vector3d relative_velocity(const World& world, std::uint32_t contact) {
+    const Bodies& b = world.bodies;
+    return relative_velocity(b, b.velocity, b.angular_velocity, world.contacts.found[contact],
+                             world.contacts.point[contact]);
+}
+
+const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs) {
+    stuck_share_ = stuck_share(world.settings);
+    jammed_.clear();
+    found_.find(pairs, world.dynamic_count);
+    mark_jointed(world);
+    bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+    return found_;
+}
+
+void IslandChoice::mark_jointed(const World& world) {
+    jointed_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+    const auto mark = [&](std::uint32_t body) {
+        if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
+            jointed_[world.bodies.row[body]] = 1;
+    };
+    for (const Joint& joint : world.joints.joints) mark(joint.a), mark(joint.b);
+    world.each_body_among_particles(mark);
+}
+
+bool IslandChoice::is_exact(const World& world, const ContactIsland& island,
+                            const std::vector<BodyPair>& pairs) {
+    const std::uint32_t n = island.last_body - island.first_body;
+    if (n == 1 &&
+        !is_slow(world, world.contacts.found[pairs[found_.pairs()[island.first_pair]].first]))
+        return false;
+    for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
+        if (jointed_[found_.bodies()[i]]) return false;
+    upset_.clear();
+    if (n <= world.settings.exact_islands) {
+        find_upset(world, island, pairs);
+        if (upset_.empty() && (n <= kVerySmall || is_calm(world, island, pairs))) return true;
+    }
+    mark_what_goes_on(world, island, pairs);
+    return false;
+}
+
+bool IslandChoice::is_slow(const World& world, const Contact& contact) const {
+    const Bodies& b = world.bodies;
+    const std::uint32_t body = b.motion[contact.a] == Motion::dynamic ? contact.a : contact.b;
+    const double speed =
+        b.velocity[body].norm() + b.bounding_radius[body] * b.angular_velocity[body].norm();
+    return speed <= calm_speed(world, b.bounding_radius[body], pull_on(world, body));
+}
+
+void IslandChoice::find_upset(const World& world, const ContactIsland& island,
+                              const std::vector<BodyPair>& pairs) {
+    const Bodies& b = world.bodies;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[found_.pairs()[i]];
+        const Contact& first = world.contacts.found[pair.first];
+        const double radius = smaller_radius(b, first);
+        bool upset = false;
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
+            const double overlap = -world.contacts.found[k].gap;
+            const ContactMemory& before = world.contacts.memory[k];
+            const bool jammed =
+                overlap > kJam * radius && (is_stuck(before, overlap) || before.jammed);
+            if (jammed) jammed_.push_back(k);
+            upset |= jammed || overlap > kDeep * radius;
+        }
+        if (upset) upset_.push_back(pair);
+    }
+}
+
+void IslandChoice::mark_what_goes_on(const World& world, const ContactIsland& island,
+                                     const std::vector<BodyPair>& pairs) {
+    // what others squeeze is jammed as a whole
+    if (!upset_.empty() && world.kinematic_count > 0) return;
+    const std::vector<ContactMemory>& memory = world.contacts.memory;
+    const auto was_exact = [&](std::uint32_t at) {
+        const auto first = memory.begin() + pairs[at].first;
+        return std::any_of(first, first + pairs[at].count,
+                           [](const ContactMemory& m) { return m.matched && m.exact; });
+    };
+    const auto first = found_.pairs().begin();
+    if (std::none_of(first + island.first_pair, first + island.last_pair, was_exact)) return;
+    const double bears = weight_of(world, island, pairs) * substep_of(world.settings);
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+        mark(world, pairs[found_.pairs()[i]], bears);
+    for (const BodyPair& pair : upset_) mark(world, pair, 0);
+}
+
+double IslandChoice::weight_of(const World& world, const ContactIsland& island,
+                               const std::vector<BodyPair>& pairs) {
+    weighed_.assign(island.last_body - island.first_body, 0);
+    double weight = 0;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const Contact& c = world.contacts.found[pairs[found_.pairs()[i]].first];
+        for (const std::uint32_t body : {c.a, c.b}) {
+            if (world.bodies.motion[body] != Motion::dynamic) continue;
+            std::uint8_t& weighed = weighed_[found_.index_in_island(world.bodies.row[body])];
+            if (!weighed) weight += world.bodies.mass[body] * pull_on(world, body);
+            weighed = 1;
+        }
+    }
+    return weight;
+}
+
+void IslandChoice::mark(const World& world, const BodyPair& pair, double bears) {
+    for (const std::int32_t row : {pair.row_a, pair.row_b})
+        if (row < world.dynamic_count) bears_[static_cast<std::size_t>(row)] = bears;
+}
+
+bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
+                           const std::vector<BodyPair>& pairs) const {
+    const Bodies& b = world.bodies;
+    double squares = 0, contacts = 0, radius = 0, pull = 0;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[found_.pairs()[i]];
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
+            squares += relative_velocity(world, k).squaredNorm();
+        contacts += pair.count;
+        const Contact& c = world.contacts.found[pair.first];
+        for (const std::uint32_t body : {c.a, c.b}) {
+            if (b.motion[body] != Motion::dynamic) continue;
+            radius = std::max(radius, b.bounding_radius[body]);
+            pull = std::max(pull, pull_on(world, body));
+        }
+    }
+    return std::sqrt(squares / contacts) <= calm_speed(world, radius, pull);
+}
+
+bool IslandChoice::goes_on(const World& world, std::uint32_t contact) const {
+    const Contact& c = world.contacts.found[contact];
+    const double impulse = world.contacts.memory[contact].normal_impulse;
+    double pull = 0;
+    for (const std::uint32_t body : {c.a, c.b}) {
+        if (world.bodies.motion[body] != Motion::dynamic) continue;
+        if (impulse > bears_[world.bodies.row[body]]) return false;
+        pull = std::max(pull, pull_on(world, body));
+    }
+    const double fallen = pull * substep_of(world.settings);
+    return relative_velocity(world, contact).norm() <= kPulled * fallen;
+}
+
+bool IslandChoice::is_stuck(const ContactMemory& before, double overlap) const {
+    return before.known && before.exact && overlap > -stuck_share_ * before.gap;
+}
+
+}  // namespace plumb

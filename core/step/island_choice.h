@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+/// Which islands are solved exactly, and what becomes of those that are no longer.
+///
+/// An island is solved exactly where no joint holds its bodies, it has at most
+/// Settings::exact_islands of them, and, unless it is very small, it is calm: what flies and
+/// tumbles needs no exact forces, and they would cost most there. Sweeps are enough for a body that
+/// rolls or slides on what is immovable; one that hardly moves shall not creep.
+#pragma once
+
+#include "schedule/contact_islands.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+/// How fast gravity and the constant force would make a body in a second [m/s²].
+double pull_on(const World& world, std::uint32_t body);
+
+/// Of a contact's point on a against that on b, forces included [m/s].
+Vector3d relative_velocity(const World& world, std::uint32_t contact);
+
+class IslandChoice {
+public:
+    /// Once a step, before the others: finds the islands that pairs make.
+    const ContactIslands& find(const World& world, const std::vector<BodyPair>& pairs);
+
+    bool is_exact(const World& world, const ContactIsland& island,
+                  const std::vector<BodyPair>& pairs);
+
+    /// Whether a contact that was solved exactly goes on from its impulses in the sweeps, to which
+    /// its island is left because it has grown, or some of it moves, is jammed or overlaps deeply.
+    /// It does unless
+    ///   - one of its bodies touches what is jammed or too deep,
+    ///   - it moves,
+    ///   - or it bears more than the island weighs:
+    /// what is jammed or was hit may hold each other by more than sweeps can take back.
+    bool goes_on(const World& world, std::uint32_t contact) const;
+
+    /// Whether an exact solution left an overlap [m] about as deep as it was.
+    bool is_stuck(const ContactMemory& before, double overlap) const;
+
+    /// Contacts that are left to sweeps until they are out.
+    const std::vector<std::uint32_t>& jammed() const { return jammed_; }
+
+private:
+    void mark_jointed(const World& world);
+    bool is_slow(const World& world, const Contact& contact) const;
+    bool is_calm(const World& world, const ContactIsland& island,
+                 const std::vector<BodyPair>& pairs) const;
+    void find_upset(const World& world, const ContactIsland& island,
+                    const std::vector<BodyPair>& pairs);
+    void mark_what_goes_on(const World& world, const ContactIsland& island,
+                           const std::vector<BodyPair>& pairs);
+    void mark(const World& world, const BodyPair& pair, double bears);
+    double weight_of(const World& world, const ContactIsland& island,
+                     const std::vector<BodyPair>& pairs);
+
+    ContactIslands found_;
+    double stuck_share_ = 1;             ///< of an overlap, from which it counts as left as it was
+    std::vector<std::uint8_t> jointed_;  // [dynamic row]
+    std::vector<double> bears_;          // [dynamic row], see goes_on [N s]
+    std::vector<std::uint8_t> weighed_;  // [body of an island]
+    std::vector<BodyPair> upset_;        // of an island: what is jammed or too deep
+    std::vector<std::uint32_t> jammed_;
+};
+
+}  // namespace plumb
