@@ -60,7 +60,8 @@ Vector3d relative_velocity(const World& world, std::uint32_t contact) {
 const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs) {
     stuck_share_ = stuck_share(world.settings);
     jammed_.clear();
-    found_.find(pairs, world.dynamic_count);
+    found_.find(pairs, pairs.empty() ? 0 : world.dynamic_count);
+    if (pairs.empty()) return found_;
     mark_jointed(world);
     bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     return found_;
