@@ -79,6 +79,12 @@ inline Motions motions_between(Simulation& simulation, double settled, double en
     return motions;
 }
 
+/// At rest nothing is faster than 0.1 mm/s, nor farther than 0.1 mm from where it was.
+inline void expect_still(const Motions& motions) {
+    EXPECT_LT(motions.fastest, 1e-4);
+    EXPECT_LT(motions.farthest, 1e-4);
+}
+
 inline double total_energy(const Simulation& s) {
     return kinetic_energy(s.world()) + potential_energy(s.world());
 }
