@@ -6,7 +6,9 @@
 #include "host/log.h"
 #include "output/error.h"
 #include "scene/error.h"
+#include "scene/nearest.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -49,7 +51,12 @@ int complain(int code, const std::string& sentence) {
     return code;
 }
 
-constexpr std::array kLevels{"trace", "debug", "info", "warn", "error", "off"};
+/// "" where it is one of the levels, otherwise why it is not.
+std::string bad_level(const std::string& level) {
+    static const std::vector<std::string> levels{"trace", "debug", "info", "warn", "error", "off"};
+    if (std::find(levels.begin(), levels.end(), level) != levels.end()) return "";
+    return "unknown level \"" + level + '"' + advice(level, levels);
+}
 
 /// What of the messages is written, for every verb.
 void add_log_level(CLI::App& command) {
@@ -59,7 +66,7 @@ void add_log_level(CLI::App& command) {
             [](const std::string& level) { logger()->set_level(spdlog::level::from_str(level)); },
             "least level of the messages on stderr: trace, debug, info, warn, error or off; info "
             "unless told")
-        ->check(CLI::IsMember(std::vector<std::string>(kLevels.begin(), kLevels.end())))
+        ->check(bad_level)
         ->type_name("LEVEL");
 }
 

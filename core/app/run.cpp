@@ -143,7 +143,8 @@ void warn(const Simulation& simulation, const Statistics& statistics) {
 }
 
 void greet(const Simulation& simulation, const Outputs& outputs) {
-    if (!outputs.quiet && !simulation.collider_reason().empty())
+    const bool was_told = logger()->should_log(spdlog::level::debug);  // by the library
+    if (!outputs.quiet && !was_told && !simulation.collider_reason().empty())
         logger()->info("collider {}: {}", simulation.collider_name(), simulation.collider_reason());
 }
 

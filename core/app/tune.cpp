@@ -126,7 +126,7 @@ int tune(const Options& o) {
         };
         result = study::tune(subject, colliders, options);
     }
-    if (!o.quiet) print_trials(subject, result);
+    if (!o.quiet && logger()->should_log(spdlog::level::info)) print_trials(subject, result);
     if (!result.best) return not_reached(o, subject, result);
     const study::Trial& best = *result.best;
     std::printf("\"settings\": {\n");
@@ -134,11 +134,10 @@ int tune(const Options& o) {
         std::printf("%s%s\n", json_line(best.point.settings[i]).c_str(),
                     i + 1 < best.point.settings.size() ? "," : "");
     std::printf("}\n");
-    std::fprintf(stderr,
-                 "%s: %s is %.3g %s at %.0f µs of CPU a simulated second, on %s, in %zu runs\n",
-                 subject.name.c_str(), subject.metrics.front().what.c_str(), best.error(),
-                 subject.metrics.front().unit.c_str(), best.outcome.cost.total,
-                 best.point.collider.c_str(), result.trials.size() + 1);
+    logger()->info("{}: {} is {:.3g} {} at {:.0f} µs of CPU a simulated second, on {}, in {} runs",
+                   subject.name, subject.metrics.front().what, best.error(),
+                   subject.metrics.front().unit, best.outcome.cost.total, best.point.collider,
+                   result.trials.size() + 1);
     return kDone;
 }
 

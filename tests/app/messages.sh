@@ -29,6 +29,7 @@ says off
 says debug --plugin-path "$bad"
 grep -q "^plumb: debug: plugin .*/plumb_collider_junk.so is refused: " "$work/err" || fail "debug does not say why a plugin is refused"
 grep -q '^plumb: debug: plugin .* is collider "ode"' "$work/err" || fail "debug does not list the plugins"
+[ "$(grep -c "collider [a-z]*: supports" "$work/err")" = 1 ] || fail "debug does not say once which collider was chosen"
 says trace --plugin-path "$bad"
 grep -q "^plumb: debug: plugin " "$work/err" || fail "trace tells less than debug"
 
@@ -53,4 +54,6 @@ grep -q "^plumb: .*there is no such file" "$work/err" || fail "error does not te
 "$plumb" run "$small" --log-level loud >"$work/out" 2>"$work/err"
 [ $? = 2 ] || fail "there is a level called loud"
 grep -q "^plumb: --log-level: .*loud" "$work/err" || fail "a bad level has no sentence"
+"$plumb" run "$small" --log-level inf >"$work/out" 2>"$work/err"
+grep -q 'did you mean "info"' "$work/err" || fail "no nearest spelling: $(cat "$work/err")"
 exit $((failures > 0))
