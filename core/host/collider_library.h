@@ -35,7 +35,7 @@ public:
 
     const std::vector<ColliderInfo>& all() const { return colliders_; }
 
-    /// The folders that were looked through, in one sentence's words.
+    /// The folders that were looked through, separated by commas.
     std::string searched() const;
 
     /// Throws ColliderError when there is none of this name, or it was refused; the sentence lists
