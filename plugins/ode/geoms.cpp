@@ -6,10 +6,12 @@
 namespace plumb::ode {
 namespace {
 
-/// A hull about its middle, with its merged faces as polygons.
+/// A hull about the mean of its vertices, with its merged faces as polygons. The middle of its
+/// bounds will not do: that of a wedge lies on a face, and ODE wants the origin inside of all.
 dGeomID make_hull(Geoms& g, const Part& part) {
     const Shape& s = part.shape;
-    g.centre = 0.5 * (part.own_bounds.low + part.own_bounds.high);
+    for (std::uint32_t i = 0; i < s.vertex_count; ++i) g.centre = g.centre + s.vertices[i];
+    g.centre = (1.0 / s.vertex_count) * g.centre;
     for (std::uint32_t i = 0; i < s.vertex_count; ++i) {
         const Vec3 p = s.vertices[i] - g.centre;
         g.points.insert(g.points.end(), {p.x, p.y, p.z});

@@ -24,7 +24,7 @@ struct Geoms {
     dGeomID exact = nullptr;
     dGeomID wide = nullptr;  ///< sphere, capsule; else nullptr
     double wider_by = 0;     ///< [m]
-    Vec3 centre{};  ///< of a hull, in its own frame: ODE wants hulls about their middle [m]
+    Vec3 centre{};           ///< of a hull, in its own frame: a point inside, which ODE wants [m]
     std::vector<dReal> planes, points;  ///< behind a hull
     std::vector<unsigned> polygons;     ///< behind a hull
     dTriMeshDataID mesh = nullptr;      ///< behind a mesh or height field

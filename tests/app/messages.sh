@@ -33,6 +33,20 @@ grep -q '^plumb: debug: plugin .* is collider "ode"' "$work/err" || fail "debug 
 says trace --plugin-path "$bad"
 grep -q "^plumb: debug: plugin " "$work/err" || fail "trace tells less than debug"
 
+# A wedge, of whose bounds the middle lies on a face: no back-end writes on stdout.
+cat >"$work/wedge.json" <<'END'
+{"bodies": [
+  {"motion": "fixed", "shape": {"plane": {}}},
+  {"shape": {"hull": {"vertices": [[-0.3, 0, -0.3], [-0.3, 0, 0.3], [0.3, 0, -0.3], [0.3, 0, 0.3], [0.3, 0.31, -0.3], [0.3, 0.31, 0.3]]}}},
+  {"position": [0, 1, 0],
+   "shape": {"hull": {"vertices": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]}}}
+]}
+END
+for collider in ode bullet fcl; do
+  "$plumb" run "$work/wedge.json" --collider $collider --duration 0.1 --summary - >"$work/out" 2>"$work/err" || fail "a wedge on $collider"
+  "$json_has" "$work/out" /state_hash || fail "a wedge on $collider: stdout is no summary: $(head -1 "$work/out")"
+done
+
 # The same without the option; all verbs have it.
 "$plumb" run "$small" --duration 0.05 --set 'forbid=["friction"]' >"$work/out" 2>"$work/err" || fail "run ends with $?"
 grep -qF "$warned" "$work/err" || fail "a run does not warn unless told"
