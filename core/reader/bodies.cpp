@@ -102,6 +102,10 @@ void check_motion(const BodySpec& body, const Node& node) {
     if (body.motion == Motion::fixed && moves) {
         node.fail("a fixed body has no velocity; it can be \"kinematic\" or \"dynamic\"");
     }
+    const bool is_pushed = !body.force.isZero(0) || !body.torque.isZero(0);
+    if (body.motion != Motion::dynamic && is_pushed) {
+        node.fail("only a dynamic body feels a \"force\" or \"torque\"");
+    }
     if (body.motion != Motion::kinematic && node.has("script")) {
         node.at("script").fail(
             "only a kinematic body follows a script; add \"motion\": \"kinematic\"");

@@ -236,7 +236,7 @@ const Table<MeshKeys>& mesh_table() {
 
 void check_mesh(const Draft& draft, const Node& node) {
     if (node.has("file") == node.has("points"))
-        node.fail("must have either \"file\" or \"points\"");
+        node.fail("must have either \"file\" or \"points\", not both");
     if (node.has("scale") && !node.has("file"))
         node.at("scale").fail("\"scale\" is for \"file\" alone");
     const DeformableKind kind = draft.spec.kind;

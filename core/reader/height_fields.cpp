@@ -88,7 +88,7 @@ Geometry field_of(const Node& node) {
     FieldDraft draft;
     read_object(draft, node, height_field_table());
     if (node.has("heights") == node.has("hills"))
-        node.fail("must have either \"heights\" or \"hills\"");
+        node.fail("must have either \"heights\" or \"hills\", not both");
     Geometry& g = draft.geometry;
     g.kind = ShapeKind::height_field;
     const std::uint64_t wanted = std::uint64_t{g.rows} * g.columns;

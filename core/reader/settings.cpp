@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// The keys of "settings", and single settings from a command line.
 #include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <string>
 
 #include "reader/drafts.h"
@@ -141,10 +143,16 @@ const Table<Settings>& settings_table() {
 
 namespace {
 
-/// One value of a command line: JSON if it is JSON, else a text.
+/// One value of a command line: JSON if it is JSON, a number where a shell's user writes it
+/// shorter (".1"), else a text.
 Json loose_value(std::string_view text) {
     const Json value = Json::parse(text.begin(), text.end(), nullptr, false);
-    return value.is_discarded() || value.is_object() ? Json(std::string(text)) : value;
+    if (!value.is_discarded() && !value.is_object()) return value;
+    double number = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, number);
+    if (error == std::errc() && stop == end && std::isfinite(number)) return number;
+    return std::string(text);
 }
 
 /// "0,-9.81,0" → [0, -9.81, 0].

@@ -113,7 +113,7 @@ auto reads(ShapeKind kind, const Table<G>& table) {
 void read_box(ShapeDraft& draft, const Node& node) {
     reads(ShapeKind::box, box_table())(draft, node);
     if (node.has("half_extents") == node.has("size")) {
-        node.fail("must have either \"half_extents\" or \"size\"");
+        node.fail("must have either \"half_extents\" or \"size\", not both");
     }
 }
 

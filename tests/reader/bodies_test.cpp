@@ -87,6 +87,8 @@ TEST(Bodies, RefuseWhatDoesNotFitTheirMotion) {
                  "Allowed: dynamic, fixed, kinematic");
     expect_error(with_body(R"("motion": "fixed", "velocity": [1, 0, 0])"), "/bodies/0",
                  "no velocity");
+    expect_error(with_body(R"("motion": "kinematic", "force": [1, 0, 0])"), "/bodies/0",
+                 "only a dynamic body");
     expect_error(with_body(R"("script": {"keyframes": [{"time": 0}]})"), "/bodies/0/script",
                  "kinematic");
     expect_error(R"({"bodies": [{"shape": {"plane": {}}}]})", "/bodies/0", "\"motion\": \"fixed\"");

@@ -115,6 +115,8 @@ TEST(ApplySetting, TakesLooseValues) {
     Settings s;
     apply_setting(s, "wind=3,0,1");
     EXPECT_EQ(s.wind, Eigen::Vector3d(3, 0, 1));
+    apply_setting(s, "duration=.5");
+    EXPECT_EQ(s.duration, 0.5);
     apply_setting(s, "dt=0.005");
     apply_setting(s, "precision=double");
     apply_setting(s, "warm_start=false");
