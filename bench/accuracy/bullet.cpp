@@ -210,7 +210,7 @@ private:
 std::string unable(const Scene& scene) {
     if (!joints_are(scene, {JointKind::ball, JointKind::hinge, JointKind::distance}))
         return "only ball, hinge and distance joints are passed on";
-    return other_shapes(scene, true);
+    return other_shapes(scene, {ShapeKind::sphere, ShapeKind::cylinder});
 }
 
 Engine engine(const char* name, bool direct) {

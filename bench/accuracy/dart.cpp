@@ -219,7 +219,7 @@ std::string unable(const Scene& scene) {
     if (!joints_are(scene, {JointKind::ball, JointKind::hinge, JointKind::distance}))
         return "only ball, hinge and distance joints are passed on";
     if (!scene.couplings.empty()) return "its gears do not act back on the wheel that drives";
-    return other_shapes(scene, false);  // of its own detector
+    return other_shapes(scene, {ShapeKind::sphere});  // of its own detector
 }
 
 /// Of the solver nothing is seen where it has nothing to solve.

@@ -113,8 +113,7 @@ private:
         const Geometry& g = scene_.geometries[scene_.bodies[i].geometry];
         text_ << "<geom type='";
         if (g.kind == ShapeKind::plane || g.kind == ShapeKind::cylinder)  // along z
-            at = at * Placement{Vector3d::Zero(),
-                                Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitY())};
+            at = at * Placement{Vector3d::Zero(), z_to_y()};
         if (g.kind == ShapeKind::plane) {
             text_ << "plane' size='0 0 1'";
         } else if (g.kind == ShapeKind::cylinder) {

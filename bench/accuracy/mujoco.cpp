@@ -88,7 +88,9 @@ private:
 std::string unable(const Scene& scene) {
     if (!joints_are(scene, {JointKind::ball, JointKind::hinge, JointKind::distance}))
         return "only ball, hinge and distance joints are passed on";
-    if (const std::string reason = other_shapes(scene, true); !reason.empty()) return reason;
+    if (const std::string reason = other_shapes(scene, {ShapeKind::sphere, ShapeKind::cylinder});
+        !reason.empty())
+        return reason;
     try {
         const ModelPointer model(
             load(mjcf(scene, build_world(scene), scene.settings.dt, {"Euler", "elliptic"})),

@@ -105,8 +105,7 @@ private:
             geom = dCreateBox(space_, side.x(), side.y(), side.z());
         } else if (g.kind == ShapeKind::cylinder) {  // about z
             geom = dCreateCylinder(space_, g.radius, 2 * g.half_height);
-            at.rotation =
-                at.rotation * Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitY());
+            at.rotation = at.rotation * z_to_y();
         } else {
             geom = dCreateSphere(space_, g.radius);
         }
@@ -199,7 +198,7 @@ std::string unable(const Scene& scene) {
         return "only ball, hinge and distance joints are passed on";
     for (const CouplingSpec& coupling : scene.couplings)
         if (coupling.ratio > 0) return "its gears are outer ones, which turn against each other";
-    return other_shapes(scene, true);
+    return other_shapes(scene, {ShapeKind::sphere, ShapeKind::cylinder});
 }
 
 Engine engine(const char* name, bool quick) {

@@ -48,6 +48,11 @@ struct Engine {
 /// Those of this program.
 std::vector<Engine> engines();
 
+/// Turn from z, along which others lay planes and cylinders, to y, along which Plumb does.
+inline Quaterniond z_to_y() {
+    return Quaterniond::FromTwoVectors(Vector3d::UnitZ(), Vector3d::UnitY());
+}
+
 inline bool collides(const Scene& scene) {
     const auto& forbidden = scene.settings.forbid;
     return std::find(forbidden.begin(), forbidden.end(), "contacts") == forbidden.end();
@@ -70,14 +75,13 @@ inline bool joints_are(const Scene& scene, std::initializer_list<JointKind> kind
     });
 }
 
-/// Why the shapes are not those of the cases; "" where they are. `cylinders`: whether the engine
-/// has them.
-inline std::string other_shapes(const Scene& scene, bool cylinders) {
+/// Why an engine with these round shapes beside planes and boxes does not do a scene; "" where it
+/// does.
+inline std::string other_shapes(const Scene& scene, std::initializer_list<ShapeKind> round) {
     for (const Geometry& g : scene.geometries) {
-        if (g.kind == ShapeKind::plane || g.kind == ShapeKind::box || g.kind == ShapeKind::sphere)
-            continue;
-        if (g.kind != ShapeKind::cylinder) return "only simple shapes are passed on";
-        if (!cylinders) return "it has no cylinders";
+        if (g.kind == ShapeKind::plane || g.kind == ShapeKind::box) continue;
+        if (std::find(round.begin(), round.end(), g.kind) == round.end())
+            return "shapes of kind " + std::string(name_of(g.kind)) + " are not passed on";
     }
     return "";
 }

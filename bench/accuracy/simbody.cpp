@@ -214,7 +214,7 @@ std::string unable(const Scene& scene, Method method) {
     if (method != Method::rigid && touches(scene)) return "its integrators have no rigid contacts";
     if (method == Method::rigid && has_assertions())
         return "its stepper prints each step in a library with assertions, as Debian's is";
-    return other_shapes(scene, false);
+    return other_shapes(scene, {ShapeKind::sphere});
 }
 
 Engine engine(const char* name, Method method) {

@@ -149,9 +149,7 @@ void check_lattice(const Node& node) {
         node.fail("\"cell\" is missing, the edge of a cell in the mesh");
     if (node.has("mesh") && node.has("cells"))
         node.at("cells").fail("\"cells\" are of a box; a mesh has a \"cell\", its edge");
-    for (const char* key : {"cell", "scale"})
-        if (!node.has("mesh") && node.has(key))
-            node.at(key).fail(std::string("\"") + key + "\" is for \"mesh\" alone");
+    for (const char* key : {"cell", "scale"}) node.require_beside(key, "mesh");
 }
 
 void read_lattice(Draft& draft, const Node& node) {
@@ -235,10 +233,8 @@ const Table<MeshKeys>& mesh_table() {
 }
 
 void check_mesh(const Draft& draft, const Node& node) {
-    if (node.has("file") == node.has("points"))
-        node.fail("must have either \"file\" or \"points\", not both");
-    if (node.has("scale") && !node.has("file"))
-        node.at("scale").fail("\"scale\" is for \"file\" alone");
+    node.require_one("file", "points");
+    node.require_beside("scale", "file");
     const DeformableKind kind = draft.spec.kind;
     const std::string wanted = kind == DeformableKind::rope    ? "segments"
                                : kind == DeformableKind::solid ? "tetrahedra"

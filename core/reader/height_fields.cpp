@@ -87,8 +87,7 @@ const Table<FieldDraft>& height_field_table() {
 Geometry field_of(const Node& node) {
     FieldDraft draft;
     read_object(draft, node, height_field_table());
-    if (node.has("heights") == node.has("hills"))
-        node.fail("must have either \"heights\" or \"hills\", not both");
+    node.require_one("heights", "hills");
     Geometry& g = draft.geometry;
     g.kind = ShapeKind::height_field;
     const std::uint64_t wanted = std::uint64_t{g.rows} * g.columns;

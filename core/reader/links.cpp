@@ -56,8 +56,7 @@ ScenePoint read_end(SceneDraft& scene, const Node& node) {
         for (const char* key : {"body", "position"})
             if (node.has(key))
                 node.at(key).fail(std::string("an end on a \"deformable\" has no \"") + key + "\"");
-        if (node.has("point") == node.has("near"))
-            node.fail("an end on a \"deformable\" has either a \"point\" or a \"near\"");
+        node.require_one("point", "near");
         draft.end.point =
             draft.near ? nearest_point(scene.scene.deformables[draft.end.deformable], *draft.near)
                        : *draft.point;

@@ -71,4 +71,12 @@ void Node::fail_wanting(const std::string& wanted) const {
     fail("must be " + wanted + ", but is " + described(*json_));
 }
 
+void Node::require_one(const std::string& a, const std::string& b) const {
+    if (has(a) == has(b)) fail("must have either \"" + a + "\" or \"" + b + "\", not both");
+}
+
+void Node::require_beside(const std::string& key, const std::string& owner) const {
+    if (has(key) && !has(owner)) at(key).fail("\"" + key + "\" is for \"" + owner + "\" alone");
+}
+
 }  // namespace plumb::reader

@@ -37,6 +37,12 @@ public:
     /// Throws "must be WANTED, but is what stands here".
     [[noreturn]] void fail_wanting(const std::string& wanted) const;
 
+    /// Throws unless exactly one of two keys is there.
+    void require_one(const std::string& a, const std::string& b) const;
+
+    /// Throws where a key is there without the one that it belongs to.
+    void require_beside(const std::string& key, const std::string& owner) const;
+
 private:
     const Json* json_;
     const Source* source_;

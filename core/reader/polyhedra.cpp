@@ -84,11 +84,9 @@ std::vector<Eigen::Vector3d> scaled(std::vector<Eigen::Vector3d> points, double 
     return points;
 }
 
-void require_one_source(const PointsDraft& draft, const Node& node) {
-    if (node.has("vertices") == node.has("obj"))
-        node.fail("must have either \"vertices\" or \"obj\"");
-    if (node.has("scale") && draft.obj.empty())
-        node.at("scale").fail("\"scale\" is for \"obj\" alone");
+void require_one_source(const Node& node) {
+    node.require_one("vertices", "obj");
+    node.require_beside("scale", "obj");
 }
 
 void check_triangles(const PointsDraft& draft, const Node& node) {
@@ -126,7 +124,7 @@ Geometry hull_geometry(const std::vector<Eigen::Vector3d>& points) {
 void read_hull(ShapeDraft& draft, const Node& node) {
     PointsDraft points;
     read_object(points, node, hull_table());
-    require_one_source(points, node);
+    require_one_source(node);
     if (points.obj.empty()) {
         draft.geometry = at_node(node, [&] { return hull_geometry(points.vertices); });
         return;
@@ -145,7 +143,7 @@ void read_mesh(ShapeDraft& draft, const Node& node) {
             node.fail(
                 "a mesh of a height field has no other source, and is open, so it cannot be "
                 "decomposed");
-    } else if (require_one_source(points, node); points.obj.empty()) {
+    } else if (require_one_source(node); points.obj.empty()) {
         check_triangles(points, node);
     } else {
         if (node.has("triangles"))

@@ -52,8 +52,7 @@ void read_motors(RobotDraft& draft, const Node& node) {
     for (const auto& item : node.json().items()) {
         const Node motor = node.at(item.key());
         read_object(draft.options.motors[item.key()], motor, motor_table());
-        if (motor.has("position") == motor.has("velocity"))
-            motor.fail("must have either \"position\" or \"velocity\"");
+        motor.require_one("position", "velocity");
     }
 }
 

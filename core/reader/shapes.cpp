@@ -112,17 +112,14 @@ auto reads(ShapeKind kind, const Table<G>& table) {
 
 void read_box(ShapeDraft& draft, const Node& node) {
     reads(ShapeKind::box, box_table())(draft, node);
-    if (node.has("half_extents") == node.has("size")) {
-        node.fail("must have either \"half_extents\" or \"size\", not both");
-    }
+    node.require_one("half_extents", "size");
 }
 
 void read_compound(ShapeDraft& draft, const Node& node) {
     CompoundDraft compound{draft.scene, {}};
     read_object(compound, node, compound_table());
-    if (node.has("parts") == node.has("obj")) node.fail("must have either \"parts\" or \"obj\"");
-    if (node.has("scale") && !node.has("obj"))
-        node.at("scale").fail("\"scale\" is for \"obj\" alone");
+    node.require_one("parts", "obj");
+    node.require_beside("scale", "obj");
     draft.geometry.kind = ShapeKind::compound;
     draft.geometry.parts = std::move(compound.parts);
 }

@@ -36,6 +36,9 @@ struct SteadyCircle {
         const double slope = round * v_slope * (b * c + r * s) - inertia_c * round * s;
         return -rest / slope;
     }
+
+    /// ω is Ω about upright and this about the axis, w less Ω's share of it [rad/s].
+    double rate_beside_round() const { return rate_about_axis() - round * std::cos(tilt); }
 };
 
 }  // namespace plumb::study

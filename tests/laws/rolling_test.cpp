@@ -60,6 +60,11 @@ Start cylinder(const std::string& name, double radius, double half_height, doubl
             std::min(radius, half_height)};
 }
 
+Start disk_in(const std::string& name, const SteadyCircle& circle) {
+    return cylinder(name, circle.radius, circle.half_height, circle.tilt,
+                    circle.rate_beside_round(), circle.round);
+}
+
 /// Ground and a body that touches it at its lowest point and does not slide there.
 Scene scene_of(Scene s, const Start& start) {
     add_ground(s);
@@ -256,10 +261,7 @@ TEST_P(Rolling, ADiskGoesRoundInItsCircleAsTheFormulaSays) {
     for (const SteadyCircle& circle :
          {SteadyCircle{0.5, 0.005, 60 * kDegree, 2}, SteadyCircle{0.5, 0.005, 75 * kDegree, 1},
           SteadyCircle{0.012, 0.0005, 40 * kDegree, 30}}) {
-        const double w = circle.rate_about_axis();
-        // ω = Ω (upright) + (w − Ω cos θ) (axis)
-        const Start start = cylinder("disk", circle.radius, circle.half_height, circle.tilt,
-                                     w - circle.round * std::cos(circle.tilt), circle.round);
+        const Start start = disk_in("disk", circle);
         Scene s = scene();
         s.settings.dt = 1e-3;
         s.materials[0].friction = 5;
@@ -301,9 +303,7 @@ TEST_P(Rolling, ACoinThatWobblesLiesDownInItsTime) {
     Scene s = scene();
     s.settings.dt = 1e-3;
     s.materials[0].rolling_friction = lever;
-    const Start start =
-        cylinder("coin", radius, circle.half_height, tilt,
-                 circle.rate_about_axis() - circle.round * std::cos(tilt), circle.round);
+    const Start start = disk_in("coin", circle);
     Simulation simulation(scene_of(s, start), colliders(), collider());
     const double energy = energy_above_rest(simulation, start.rests_at);
     double lay_down = 0;

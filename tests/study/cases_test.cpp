@@ -4,12 +4,20 @@
 #include "study/measured.h"
 
 #include "effects/plan.h"
+#include "host/shape_pairs.h"
 
 #include <algorithm>
 #include <set>
 
 namespace plumb::test {
 namespace {
+
+bool has_all_pairs(const std::string& collider, const Scene& scene) {
+    const auto needs = shape_pair_needs(scene);
+    return std::all_of(needs.begin(), needs.end(), [&](const ShapePairNeed& need) {
+        return supports(*colliders().find(collider).table, need);
+    });
+}
 
 class Case : public testing::TestWithParam<study::CaseEntry> {};
 INSTANTIATE_TEST_SUITE_P(, Case, testing::ValuesIn(study::cases()),
@@ -40,12 +48,8 @@ TEST_P(Case, KeepsItsToleranceAtItsOwnSettings) {
 
 TEST_P(Case, KeepsItOnEveryColliderAndInDouble) {
     study::Subject subject = GetParam().make();
-    const auto& geometries = subject.scene.geometries;
-    const bool has_cylinders = std::any_of(geometries.begin(), geometries.end(), [](const auto& g) {
-        return g.kind == ShapeKind::cylinder;  // which the reference has not
-    });
     std::vector<std::string> names;
-    if (!has_cylinders) names.emplace_back("reference");
+    if (has_all_pairs("reference", subject.scene)) names.emplace_back("reference");
     if (make_plan(build_world(subject.scene)).runs(Effect::contacts))
         names.insert(names.end(), {"ode", "bullet", "fcl"});
     for (const Precision precision : {Precision::single, Precision::double_})

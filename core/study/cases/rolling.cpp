@@ -71,8 +71,7 @@ Subject rolling_disk() {
     const Quaterniond turn(Eigen::AngleAxisd(circle.tilt, Vector3d::UnitX()));
     const Vector3d axis = turn * Vector3d::UnitY(), up = Vector3d::UnitY();
     const Vector3d foot = turn * Vector3d(0, -circle.half_height, circle.radius);
-    const Vector3d spin = circle.round * up +
-                          (circle.rate_about_axis() - circle.round * std::cos(circle.tilt)) * axis;
+    const Vector3d spin = circle.round * up + circle.rate_beside_round() * axis;
     const Vector3d velocity = -spin.cross(foot);
     BodySpec& disk = add_body(s.scene, cylinder(circle.radius, circle.half_height), -foot);
     disk.placement.rotation = turn;
