@@ -107,6 +107,8 @@ def write_chart(out, charts, engines):
 
 def main(out, cases):
     charts = {case: read_case(out, case) for case in cases}
+    only_plumb = [case for case, (_, _, fronts, _) in charts.items() if list(fronts) == ["Plumb"]]
+    charts = {case: chart for case, chart in charts.items() if case not in only_plumb}
     engines = ["Plumb"] + sorted({e for c in charts.values() for e in c[2] if e != "Plumb"})
     print("ratio: the engine's CPU time over Plumb's, the geometric mean over the errors up to "
           f"{USELESS} that both keep within; above 1 Plumb is ahead")
@@ -137,6 +139,7 @@ def main(out, cases):
             print(f"{case:16} {engine:20} {reason}")
     for engine, won in wins.items():
         print(f"against {engine}: ahead on {sum(won)} of {len(won)} cases")
+    print(f"No other engine does: {', '.join(only_plumb) or 'none'}")
     print(f"Another alone reaches the least errors on: {'; '.join(finer) or 'none'}")
     print(f"Plumb's front is ahead of all on {len(charts) - len(behind)} of {len(charts)} cases; behind on: "
           + ("; ".join(f"{case} ({', '.join(by)})" for case, by in behind.items()) or "none"))

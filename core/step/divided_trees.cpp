@@ -22,6 +22,11 @@ constexpr double kTurn = 0.05, kTooFar = 0.1, kLittle = 0.005;
 /// would not do, and levers that turn with the bodies have to (constraints/joint_lever.h).
 constexpr double kSwing = 0.5, kHeavy = 16;
 
+/// h ω of what the moments of a joint may turn out to swing in a part. They come and go within less
+/// than a substep: a thin rod on a universal joint, whose axis comes near the joint's first one, is
+/// turned about that the faster the nearer it comes.
+constexpr double kTwist = 0.2;
+
 /// For how long fewer parts must do before fewer are taken [s]: longer than what swings quickly
 /// takes to come back.
 constexpr double kCalm = 5;
@@ -100,6 +105,20 @@ double greatest_load(const World& world, const std::vector<std::uint32_t>& joint
             most = std::max(most, tree_load(world, joint, body, arm, h));
         };
         if (!joint.broken) see(joint.a, joint.frame_a), see(joint.b, joint.frame_b);
+    }
+    return most;
+}
+
+/// The same of the joints' moments alone, squared.
+double greatest_angular_load(const World& world, const std::vector<std::uint32_t>& joints,
+                             double h) {
+    double most = 0;
+    for (const std::uint32_t i : joints) {
+        const Joint& joint = world.joints.joints[i];
+        if (joint.broken) continue;
+        for (const std::uint32_t body : {joint.a, joint.b})
+            if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
+                most = std::max(most, angular_load(world, joint, body, h));
     }
     return most;
 }
@@ -250,9 +269,10 @@ void DividedTrees::choose(World& world, double h) {
     }
 }
 
-/// From where its bodies began. Returns whether the part can stand as it is.
+/// From where its bodies began. Returns whether the part can stand as it is, which the `last` try
+/// has to.
 bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& time, double fall,
-                            Tree& tree) const {
+                            bool last, Tree& tree) const {
     Bodies& b = world.bodies;
     for (const std::uint32_t body : tree.bodies) {
         b.velocity[body] = b.velocity_now[body];
@@ -264,7 +284,10 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     tree.solver.solve();
     if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, tree);
     tree.solver.take_velocities(b);
-    return tree.solver.open().empty() && !(time.h * angular_rate(world, tree.joints) > kTooFar);
+    if (!last && !tree.solver.open().empty()) return false;
+    tree.solver.store_impulses(world.joints);
+    return last || (time.h * angular_rate(world, tree.joints) <= kTooFar &&
+                    greatest_angular_load(world, tree.joints, time.h) <= kTwist * kTwist);
 }
 
 /// Until the rates are those of free bodies with the momentum that the joints leave them: what
@@ -297,9 +320,8 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
             const double fall = fresh ? time.push() : 0.5 * (before + time.h);
             // the tables hold impulses of whole substeps
             scale_impulses(world.joints, tree.joints, tree.drives, fall / h);
-            const bool stands =
-                try_part(world, plan, time, fall, tree) || 2 * parts > world.settings.tree_parts;
-            if (stands) tree.solver.store_impulses(world.joints);
+            const bool last = 2 * parts > world.settings.tree_parts;
+            const bool stands = try_part(world, plan, time, fall, last, tree);
             scale_impulses(world.joints, tree.joints, tree.drives, h / fall);
             if (stands) break;
         }

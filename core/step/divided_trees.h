@@ -63,7 +63,7 @@ private:
     static bool turns_little(const Bodies& bodies, const Tree& tree, double h);
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
-    bool try_part(World& world, const Plan& plan, const SubstepTime& time, double fall,
+    bool try_part(World& world, const Plan& plan, const SubstepTime& time, double fall, bool last,
                   Tree& tree) const;
     void turn_as_free(const Bodies& bodies, double h, Tree& tree) const;
 
