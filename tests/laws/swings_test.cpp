@@ -234,7 +234,7 @@ TEST_P(Swings, KeepTheirEnergyForAMinute) {
 
 /// One to four rods of any size and thickness, let go in line, on joints whose axes point anywhere.
 /// A universal joint turns a rod that comes near its first axis about that, the faster the thinner
-/// the rod is: none of theirs is thinner than 1 : 10.
+/// the rod is: none of theirs is thinner than 1 : 5.
 void add_drawn_pendulum(Scene& s, Random& random, const Vector& at = Vector::Zero()) {
     constexpr JointKind kKinds[] = {JointKind::ball, JointKind::hinge, JointKind::universal};
     const std::uint32_t rods = 1 + random.below(4);
