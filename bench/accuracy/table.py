@@ -79,8 +79,8 @@ def read_case(out, case):
 
 
 def style(engines, engine):
-    width = 3 if engine == "Plumb" else 1.5
-    return f"with linespoints lw {width} pt 7 ps 0.3 lc '{COLOURS[engines.index(engine) % len(COLOURS)]}'"
+    width, point = (3, 0.7) if engine == "Plumb" else (1.5, 0.3)
+    return f"with linespoints lw {width} pt 7 ps {point} lc '{COLOURS[engines.index(engine) % len(COLOURS)]}'"
 
 
 def write_chart(out, charts, engines):
@@ -95,13 +95,15 @@ def write_chart(out, charts, engines):
                  "set xlabel 'CPU time [µs per simulated s]' font ',9'\n")
         for case, (metric, unit, fronts, _) in charts.items():
             gp.write(f"set title '{case}: {metric}{' [' + unit + ']' if unit else ''}' noenhanced\n")
+            errors = [e for line in fronts.values() for e, _ in line]
+            gp.write(f"set yrange [{min(errors) / 4}:{max(errors) * 4}]\n")  # points on an edge are not seen
             plots = []
             for engine, line in reversed(fronts.items()):  # Plumb above the others
                 block = f"${case}_{engine}".replace(" ", "_")
                 gp.write(f"{block} << EOD\n" + "".join(f"{c} {e}\n" for e, c in line) + "EOD\n")
                 plots.append(f"{block} using 1:2 {style(engines, engine)}")
             gp.write("plot " + ", ".join(plots) + "\n")
-        gp.write("unset border\nunset tics\nunset xlabel\nunset title\nset key center center\nplot [1:2][1:2] "
+        gp.write("unset border\nunset tics\nunset xlabel\nunset title\nset key center center\nset autoscale\nplot [1:2][1:2] "
                  + ", ".join(f"NaN {style(engines, e)} title '{e}'" for e in engines) + "\n")
 
 
