@@ -36,8 +36,11 @@ public:
 
     TuneResult run() {
         colliders_.check_abilities(colliders_.find(collider_), subject_.scene);
-        Choice best = refine({}, &Choice::substeps);
-        Choice finer;
+        Choice first;
+        if (has_joints_) first = likelier_of(first, joints_otherwise(first));
+        sweeps_ |= first.joints == "iterate";
+        Choice best = refine(first, &Choice::substeps);
+        Choice finer = first;
         finer.substeps = 4;
         for (finer.step_share = 0.25;
              !reaches(best) && options_.error > 0 && may_run() && finer.step_share > kFinestStep;
@@ -128,6 +131,13 @@ private:
         return error_of(b) < error_of(a) ? b : a;
     }
 
+    /// Of two choices the one from which less is left to pay for, if the error falls as the cost
+    /// grows.
+    Choice likelier_of(const Choice& a, const Choice& b) {
+        const double left_of_a = error_of(a) * cost_of(a), left_of_b = error_of(b) * cost_of(b);
+        return left_of_b < left_of_a ? b : a;
+    }
+
     /// How many will do of what is refined, by the two trials that came last: the error as a power
     /// of it, or the cost in proportion.
     std::uint32_t foretold(const Choice& before, const Choice& last, Knob knob) {
@@ -199,7 +209,7 @@ private:
     }
 
     Choice joints_otherwise(Choice c) const {
-        c.joints = solves_trees_ ? "iterate" : "tree";
+        c.joints = !c.joints.empty() ? "" : solves_trees_ ? "iterate" : "tree";
         return c;
     }
 
