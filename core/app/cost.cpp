@@ -27,6 +27,9 @@
 namespace plumb::app {
 namespace {
 
+/// Of the budget, what the references of scenes without a formula may take.
+constexpr double kForReferences = 0.25;
+
 struct Options {
     std::vector<std::string> subjects, colliders, curves, merge;
     std::string out, plugin_path, budget = "5m", shard = "1/1", metric;
@@ -88,10 +91,12 @@ std::vector<study::Subject> subjects_of(const Options& o, const ColliderLibrary&
                                  "\", too; rename a file");
         const study::SubjectSummary* known = before ? before->find(called) : nullptr;
         try {
-            subjects.push_back(subject_named(name, colliders,
-                                             o.colliders.empty() ? "auto" : o.colliders.front(),
-                                             seconds / static_cast<double>(names.size()),
-                                             known ? known->reference_substeps : o.reference));
+            study::ReferenceOptions references;
+            if (!o.colliders.empty()) references.collider = o.colliders.front();
+            references.seconds = seconds / static_cast<double>(names.size());
+            references.substeps = known ? known->reference_substeps : o.reference;
+            references.stop = interrupted;
+            subjects.push_back(subject_named(name, colliders, references));
         } catch (const study::NoReference& e) {
             if (e.reason == study::NoReference::stopped || names.size() == 1) throw;
             logger()->warn("left out: {}", e.what());

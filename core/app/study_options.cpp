@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/study_options.h"
 
-#include "app/interrupt.h"
 #include "app/usage.h"
 #include "app/verbs.h"
 #include "host/log.h"
@@ -10,7 +9,6 @@
 #include "reader/reader.h"
 #include "scene/nearest.h"
 #include "study/cases.h"
-#include "study/self_reference.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -53,8 +51,7 @@ double seconds_of(std::string_view text, const std::string& option) {
 }
 
 study::Subject subject_named(const std::string& name, const ColliderLibrary& colliders,
-                             const std::string& collider, double seconds,
-                             std::uint32_t reference_substeps) {
+                             const study::ReferenceOptions& references) {
     if (const study::CaseEntry* entry = study::find_case(name)) return entry->make();
     const std::filesystem::path file(name);
     if (!std::filesystem::exists(file) && file.extension().empty())
@@ -62,8 +59,7 @@ study::Subject subject_named(const std::string& name, const ColliderLibrary& col
                          advice(name, case_names()) + "; plumb cost --list names the cases");
     const Scene scene = read_scene(file);
     study::Subject subject =
-        study::self_referenced(scene, file.stem().string(), colliders,
-                               {collider, seconds, reference_substeps, interrupted});
+        study::self_referenced(scene, file.stem().string(), colliders, references);
     subject.fingerprint = fingerprint(read_file(name));
     return subject;
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "host/collider_library.h"
+#include "study/self_reference.h"
 #include "study/subject.h"
 
 #include <CLI/CLI.hpp>
@@ -15,18 +16,13 @@
 
 namespace plumb::app {
 
-/// Of a budget, what the references of scenes without a formula may take.
-inline constexpr double kForReferences = 0.25;
-
 /// "90", "90s", "5m", "1h" as seconds. Throws UsageError, naming the option, for anything else.
 double seconds_of(std::string_view text, const std::string& option);
 
 /// The case of this name, or the scene of this file, which is measured against finer runs of
-/// itself that may take `seconds`, or have so many substeps to a step. Throws UsageError for a name
-/// that is neither.
+/// itself, made as the options say. Throws UsageError for a name that is neither.
 study::Subject subject_named(const std::string& name, const ColliderLibrary& colliders,
-                             const std::string& collider, double seconds,
-                             std::uint32_t reference_substeps = 0);
+                             const study::ReferenceOptions& references);
 
 /// Runs a verb of the study; what leaves a scene without a reference gets its sentence and code.
 int with_references(const std::function<int()>& verb);

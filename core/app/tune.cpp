@@ -9,6 +9,8 @@
 #include "app/verbs.h"
 #include "host/log.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <memory>
 
@@ -26,6 +28,9 @@ void check(const Options& o) {
     if (o.error > 0 || o.time > 0) return;
     throw UsageError("--error or --time is required; write --error 0.001");
 }
+
+/// Of the budget, what the references of a scene may take; they end where they are known well.
+constexpr double kForReferences = 0.5;
 
 /// A reference that is itself less exact than what is asked for cannot tell.
 void check_reach(const Options& o, const study::Subject& subject) {
@@ -102,13 +107,33 @@ int not_reached(const Options& o, const study::Subject& subject, const study::Tu
     return kUsage;
 }
 
+/// What the error is against, and how well that is known.
+void print_reference(const study::Subject& subject) {
+    if (subject.reference_substeps == 0) return;
+    const study::Metric& metric = subject.metrics.front();
+    logger()->info("against {}, which is itself known to {:.2g} {}", subject.reference,
+                   metric.reference_error, metric.unit);
+    if (metric.name == "pose" && subject.horizon > 0)
+        logger()->warn(
+            "poses are compared until {:.3g} of {:.3g} s, where prediction ends: ask for a larger "
+            "error, or give more time, to have them compared for longer",
+            subject.horizon, subject.scene.settings.duration);
+}
+
 int tune(const Options& o) {
     check(o);
     const double seconds = seconds_of(o.budget, "--budget");
     const ColliderLibrary colliders(o.plugin_path);
     catch_interrupts();
-    study::Subject subject =
-        subject_named(o.subject, colliders, o.collider, kForReferences * seconds, o.reference);
+    const auto began = std::chrono::steady_clock::now();
+    study::ReferenceOptions references;
+    references.collider = o.collider;
+    references.seconds = kForReferences * seconds;
+    references.substeps = o.reference;
+    references.error = o.error;
+    references.metric = o.metric;
+    references.stop = interrupted;
+    study::Subject subject = subject_named(o.subject, colliders, references);
     if (!o.metric.empty()) choose_metric(subject, o.metric);
     check_reach(o, subject);
 
@@ -116,7 +141,8 @@ int tune(const Options& o) {
     options.error = o.error;
     if (o.time > 0) options.time = o.time;
     options.collider = o.collider;
-    options.seconds = (1 - kForReferences) * seconds;
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - began;
+    options.seconds = std::max(seconds - spent.count(), 0.0);
     options.stop = interrupted;
     study::TuneResult result;
     {
@@ -138,6 +164,7 @@ int tune(const Options& o) {
                    subject.name, subject.metrics.front().what, best.error(),
                    subject.metrics.front().unit, best.outcome.cost.total, best.point.collider,
                    result.trials.size() + 1);
+    print_reference(subject);
     return kDone;
 }
 
@@ -162,14 +189,15 @@ Verb add_tune(CLI::App& command) {
                     "collision plugin; auto = the cheapest that can do the scene")
         ->type_name("NAME");
     command
-        .add_option("--reference", o->reference,
-                    "substeps of a scene's reference to one of its steps; as many as a quarter of "
-                    "the budget allows unless told")
+        .add_option(
+            "--reference", o->reference,
+            "substeps of a scene's reference to one of its steps; as many as tell the error, "
+            "or as half of the budget allows, unless told")
         ->check(CLI::Range(8u, 1u << 20))
         ->type_name("N");
     command
         .add_option("--budget", o->budget,
-                    "time for all runs, of which the references of a scene may take a quarter; "
+                    "time for all runs, of which the references of a scene may take half; "
                     "4m unless told")
         ->type_name("TIME");
     command.add_flag("--quiet", o->quiet, "no progress bar, no table of runs");

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <numbers>
 
 namespace plumb::study {
 namespace {
@@ -21,8 +22,10 @@ constexpr std::uint32_t kCoarsest = 4;       ///< times dt: the longest step tha
 constexpr std::uint32_t kFinest = 4096;      ///< substeps to one of the scene's steps, at most
 constexpr std::uint32_t kDetections = 8;     ///< to one of the scene's steps
 constexpr int kFewest = 2 * int(kCoarsest);  ///< steps of a scene
-constexpr double kPatience = 4;   ///< times the seconds that were asked for, after which it ends
-constexpr double kParted = 0.01;  ///< share of a body's radius at which prediction ends
+constexpr std::uint32_t kFirst = 4;          ///< substeps of the coarsest reference
+constexpr double kPatience = 4;      ///< times the seconds that were asked for, after which it ends
+constexpr double kParted = 0.01;     ///< share of a body's radius at which prediction ends
+constexpr double kKnownWell = 0.15;  ///< share of a wanted error that a reference may have
 
 using Clock = std::chrono::steady_clock;
 using Shared = std::shared_ptr<const Trajectory>;
@@ -73,22 +76,6 @@ Trajectory recorded(const Scene& scene, double interval, double duration,
             t.moments.push_back(moment_of(simulation.world()));
     }
     return t;
-}
-
-/// Substeps to one of the scene's steps that two references may have in the time: by how long a
-/// short run takes.
-std::uint32_t affordable(const Scene& scene, const ColliderLibrary& colliders,
-                         const ReferenceOptions& options, Clock::time_point deadline) {
-    constexpr std::uint32_t kTrial = 8;
-    constexpr double kShare = 0.05;
-    const auto start = Clock::now();
-    const double duration = std::max(kShare * scene.settings.duration, scene.settings.dt);
-    recorded(refined(scene, kTrial), duration, duration, colliders, options, deadline);
-    const double spent = std::chrono::duration<double>(Clock::now() - start).count();
-    const double of_one = spent * scene.settings.duration / duration / kTrial;
-    std::uint32_t substeps = kTrial;
-    while (substeps < kFinest && 1.5 * of_one * 2 * substeps < options.seconds) substeps *= 2;
-    return substeps;
 }
 
 /// Mean bounding radius of the dynamic bodies and of the deformables, as they are at the start [m].
@@ -167,24 +154,55 @@ private:
     double square_ = 0, count_ = 0;
 };
 
-/// The references of a run, and how exact the finer is.
+/// Error of the finest of three runs, each twice as fine as the one before, by how far the finest
+/// is from the second, and the second from the coarsest. Where the error falls as a power of the
+/// substeps, the first distance is as many times the error as the power of two less one says; it is
+/// never taken to be less than the distance, nor to fall more slowly than as the root.
+double error_of_finest(double to_second, double second_to_coarsest) {
+    const double falls =
+        to_second > 0 ? std::max(second_to_coarsest / to_second, std::numbers::sqrt2) : 2;
+    return to_second * std::max(1.0, 1 / (falls - 1));
+}
+
+/// Root of the mean square over time of how far two runs' quantities are apart.
+double apart(const Trajectory& a, const Trajectory& b, double Moment::*quantity) {
+    const std::size_t count = std::min(a.moments.size(), b.moments.size());
+    double square = 0;
+    for (std::size_t i = 1; i < count; ++i) {
+        const double d = a.moments[i].*quantity - b.moments[i].*quantity;
+        square += d * d / static_cast<double>(count - 1);
+    }
+    return std::sqrt(square);
+}
+
+/// Largest distance of two runs' poses, up to and with one of their moments.
+double apart(const Trajectory& a, const Trajectory& b, std::size_t last) {
+    double most = 0;
+    for (std::size_t i = 0; i <= std::min({last, a.moments.size() - 1, b.moments.size() - 1}); ++i)
+        most = std::max(most, largest_distance(a.moments[i], b.moments[i]));
+    return most;
+}
+
+/// The last references of a run.
 struct References {
-    Shared finer, coarser;
+    Shared finest, second, coarsest;
 
     Metric mean(std::string name, std::string unit, std::string what, Quantity quantity,
                 double scale = 1) const {
-        double square = 0;
-        const std::size_t count = std::min(finer->moments.size(), coarser->moments.size());
-        for (std::size_t i = 1; i < count; ++i) {
-            const double d =
-                finer->moments[i].*quantity.stored - coarser->moments[i].*quantity.stored;
-            square += d * d / static_cast<double>(count - 1);
-        }
         return {std::move(name), std::move(unit), std::move(what),
-                [reference = finer, quantity, scale] {
+                [reference = finest, quantity, scale] {
                     return std::make_unique<MeanAgainst>(reference, quantity, scale);
                 },
-                std::sqrt(square) / scale};
+                error_of_finest(apart(*finest, *second, quantity.stored),
+                                apart(*second, *coarsest, quantity.stored)) /
+                    scale};
+    }
+
+    Metric pose(double interval, std::size_t last) const {
+        Metric m = pose_metric(finest, static_cast<double>(last) * interval);
+        m.reference_error =
+            error_of_finest(apart(*finest, *second, last), apart(*second, *coarsest, last));
+        return m;
     }
 };
 
@@ -195,55 +213,76 @@ double turnover(const Trajectory& t) {
     return most > 0 ? most : 1;
 }
 
+/// What can be measured against the references, and until when.
+void put_metrics(Subject& s, const References& references, double parted, bool deforms) {
+    const Trajectory& finest = *references.finest;
+    const std::size_t last = together(finest, *references.second, parted);
+    s.metrics.clear();
+    if (last > 0) s.metrics.push_back(references.pose(finest.interval, last));
+    s.horizon = last > 0 && last + 1 < finest.moments.size()
+                    ? static_cast<double>(last) * finest.interval
+                    : 0;
+    s.metrics.push_back(references.mean("height", "m", "error of the mean height, rms over time",
+                                        {mean_height, &Moment::height}));
+    s.metrics.push_back(
+        references.mean("energy", "", "error of the energy over what was in motion, rms over time",
+                        {energy, &Moment::energy}, turnover(finest)));
+    s.metrics.push_back(references.mean("momentum", "m/s",
+                                        "error of the momentum over all mass, rms over time",
+                                        {mean_speed, &Moment::speed}));
+    if (deforms)
+        s.metrics.push_back(references.mean("strain", "",
+                                            "error of the deformables' mean strain, rms over time",
+                                            {mean_strain, &Moment::strain}));
+}
+
+/// Whether the references tell the error that is wanted, over all the time.
+bool are_known_well(const Subject& s, const ReferenceOptions& options) {
+    for (const Metric& m : s.metrics)
+        if (m.name == options.metric || (options.metric.empty() && &m == &s.metrics.front()))
+            return m.reference_error <= kKnownWell * options.error &&
+                   (s.horizon == 0 || m.name != "pose");
+    return options.error > 0;  // needs none
+}
+
 }  // namespace
 
 Subject self_referenced(const Scene& scene, const std::string& name,
                         const ColliderLibrary& colliders, const ReferenceOptions& options) {
     const Simulation start(scene, colliders, options.collider);
     check_length(scene, start.world());
-    const Clock::time_point deadline =
-        Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
-                           options.substeps > 0 ? 1e9 : kPatience * options.seconds));
+    const auto began = Clock::now();
+    const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
+    const double patience = options.substeps > 0 ? 1e9 : kPatience * options.seconds;
+    const Clock::time_point deadline = began + std::chrono::duration_cast<Clock::duration>(
+                                                   std::chrono::duration<double>(patience));
     const double interval = interval_of(scene.settings);
-    const double duration = scene.settings.duration;
-    const std::uint32_t substeps =
-        options.substeps > 0 ? options.substeps : affordable(scene, colliders, options, deadline);
-    const auto record = [&](std::uint32_t n) {
-        return std::make_shared<const Trajectory>(
-            recorded(refined(scene, n), interval, duration, colliders, options, deadline));
-    };
-    const References references{record(substeps), record(substeps / 2)};
-    const auto& [finer, coarser] = references;
-    const std::size_t parted = together(*finer, *coarser, kParted * size_of(start.world()));
+    const double parted =
+        options.error > 0 ? kKnownWell * options.error : kParted * size_of(start.world());
 
     Subject s;
     s.name = name;
     s.title = scene.description.empty() ? scene.name : scene.description;
     s.scene = scene;
-    s.reference = "a run of " + std::to_string(substeps) + " substeps to each step of " +
-                  std::to_string(scene.settings.dt) + " s, in double";
-    s.reference_substeps = substeps;
-    const bool ends = parted + 1 < finer->moments.size();
-    const double horizon = static_cast<double>(parted) * interval;
-    if (parted > 0) {
-        s.metrics.push_back(pose_metric(finer, horizon));
-        s.horizon = ends ? horizon : 0;
-        double& error = s.metrics.front().reference_error;
-        for (std::size_t i = 0; i <= parted; ++i)
-            error = std::max(error, largest_distance(finer->moments[i], coarser->moments[i]));
+    References references;
+    for (std::uint32_t n = options.substeps > 0 ? options.substeps / 4 : kFirst;; n *= 2) {
+        const double before = spent();
+        references = {std::make_shared<const Trajectory>(recorded(refined(scene, n), interval,
+                                                                  scene.settings.duration,
+                                                                  colliders, options, deadline)),
+                      references.finest, references.second};
+        if (!references.coarsest) continue;
+        put_metrics(s, references, parted, !start.world().deformables.empty());
+        s.reference_substeps = n;
+        const double next = 2 * (spent() - before);
+        if (options.substeps > 0
+                ? n >= options.substeps
+                : n >= kFinest || spent() + next > options.seconds || are_known_well(s, options))
+            break;
     }
-    s.metrics.push_back(references.mean("height", "m", "error of the mean height, rms over time",
-                                        {mean_height, &Moment::height}));
-    s.metrics.push_back(
-        references.mean("energy", "", "error of the energy over what was in motion, rms over time",
-                        {energy, &Moment::energy}, turnover(*finer)));
-    s.metrics.push_back(references.mean("momentum", "m/s",
-                                        "error of the momentum over all mass, rms over time",
-                                        {mean_speed, &Moment::speed}));
-    if (!start.world().deformables.empty())
-        s.metrics.push_back(references.mean("strain", "",
-                                            "error of the deformables' mean strain, rms over time",
-                                            {mean_strain, &Moment::strain}));
+    s.reference = "a run of " + std::to_string(s.reference_substeps) +
+                  " substeps to each step of " + std::to_string(scene.settings.dt) +
+                  " s, in double";
     for (Metric& gauge : gauges_of(start.plan(), start.world()))
         s.metrics.push_back(std::move(gauge));
     return s;

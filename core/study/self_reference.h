@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// A subject of any scene: it is measured against runs of itself that are far finer.
 ///
-/// Two references are made, one twice as fine as the other. How far they part tells the error of
-/// the references themselves; when they part by more than a hundredth of a body, prediction ends:
-/// poses are compared until then, and means over time (energy, momentum, height, strain) all along.
+/// References are made, each twice as fine as the one before, until the finest is known well enough
+/// or the time is over. How far the last ones part tells the error of the finest; where the last
+/// two part by more than a share of the error that is wanted (without one, a hundredth of a body),
+/// prediction ends: poses are compared until then, and means over time (energy, momentum, height,
+/// strain) all along.
 /// A deformable counts as one body, however many particles it has (trajectory.h).
 #pragma once
 
@@ -20,9 +22,12 @@ namespace plumb::study {
 struct ReferenceOptions {
     std::string collider = "auto";
     double seconds = 60;         ///< that making the references may take, about
-    std::uint32_t substeps = 0;  ///< of the finer one, to a step of the scene; 0: as many as the
-                                 ///< time allows
-    Stop stop;                   ///< asked between steps
+    std::uint32_t substeps = 0;  ///< of the finest, to a step of the scene; 0: as many as the time
+                                 ///< allows, or `error` asks for
+    double error = 0;  ///< of runs that will be compared; references that are known to a seventh of
+                       ///< it are fine enough. 0: as fine as the time allows
+    std::string metric = "";  ///< what `error` is of; "": the subject's first
+    Stop stop = {};           ///< asked between steps
 };
 
 /// Why there is no reference.

@@ -25,7 +25,10 @@ struct Choice {
 class Tuner {
 public:
     Tuner(const Subject& subject, const ColliderLibrary& colliders, const TuneOptions& options)
-        : subject_(subject), colliders_(colliders), options_(options) {
+        : subject_(subject),
+          colliders_(colliders),
+          options_(options),
+          allowed_(options.error - subject.metrics.front().reference_error) {
         const Plan plan = make_plan(build_world(subject.scene));
         has_joints_ = plan.runs(Effect::joints);
         sweeps_ = plan.runs(Effect::contacts) || (has_joints_ && !plan.runs(Effect::joint_trees));
@@ -40,12 +43,7 @@ public:
         if (has_joints_) first = likelier_of(first, joints_otherwise(first));
         sweeps_ |= first.joints == "iterate";
         Choice best = refine(first, &Choice::substeps);
-        Choice finer = first;
-        finer.substeps = 4;
-        for (finer.step_share = 0.25;
-             !reaches(best) && options_.error > 0 && may_run() && finer.step_share > kFinestStep;
-             finer.step_share /= 4)
-            best = better_of(best, refine(finer, &Choice::substeps));
+        best = with_finer_steps(first, best);
         if (!reaches(best) && options_.error > 0) {
             Choice exact = best;
             exact.is_double = true;
@@ -119,8 +117,7 @@ private:
     }
 
     bool reaches(const Choice& c) {
-        return (options_.error <= 0 || error_of(c) <= options_.error) &&
-               cost_of(c) <= options_.time;
+        return (options_.error <= 0 || error_of(c) <= allowed_) && cost_of(c) <= options_.time;
     }
 
     /// Of two choices the one that reaches what is wanted; of two that do, the cheaper, or the more
@@ -147,7 +144,7 @@ private:
             const double finer = std::log(double(last.*knob) / before.*knob);
             const double order = std::clamp(falls / finer, 0.5, 4.0);
             if (std::isfinite(falls))
-                factor = std::pow(error_of(last) / (kAim * options_.error), 1 / order);
+                factor = std::pow(error_of(last) / (kAim * allowed_), 1 / order);
         } else {
             factor = kAim * options_.time / cost_of(last);
         }
@@ -175,10 +172,29 @@ private:
             error_of(next);
             best = better_of(best, next);
             before = last, last = next;
-            if (reaches(last) && error_of(last) > kNearEnough * options_.error) break;
+            if (reaches(last) && error_of(last) > kNearEnough * allowed_) break;
             const double apart =
                 double(std::max(last.*knob, before.*knob)) / std::min(last.*knob, before.*knob);
             if (reaches(last) != reaches(before) && apart < kCloseEnough) break;
+        }
+        return best;
+    }
+
+    /// Shorter steps, until they reach what is wanted. Where they do not help, joints are solved
+    /// the other way: in simultaneous impacts the two may converge to different motions.
+    Choice with_finer_steps(const Choice& start, Choice best) {
+        Choice finer = start;
+        finer.substeps = 4, finer.step_share = 0.25;
+        bool was_other = !has_joints_;
+        while (!reaches(best) && options_.error > 0 && may_run() &&
+               finer.step_share > kFinestStep) {
+            const double before = error_of(best);
+            best = better_of(best, refine(finer, &Choice::substeps));
+            const bool helps = error_of(best) <= kStalls * before;
+            if (helps || was_other)
+                finer.step_share /= 4;
+            else
+                finer = joints_otherwise(finer), was_other = true;
         }
         return best;
     }
@@ -237,6 +253,7 @@ private:
     const Subject& subject_;
     const ColliderLibrary& colliders_;
     const TuneOptions& options_;
+    double allowed_;  ///< error against the reference
     bool has_joints_ = false, solves_trees_ = false;
     bool sweeps_ = false;  ///< whether iterations change anything
     std::string collider_;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The cheapest settings that reach an error, found with few runs.
+/// The cheapest settings that reach an error, found with few runs. What the reference itself may be
+/// off counts as error of each run.
 ///
 /// The error of a run falls as a power of the substeps. Two runs give the power, the next go where
 /// it foretells the wanted error; then what does the same work in another way is tried: double
