@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace plumb::study {
 namespace {
@@ -20,7 +21,8 @@ namespace {
 constexpr int kMoments = 200;                ///< of a trajectory, about
 constexpr std::uint32_t kCoarsest = 4;       ///< times dt: the longest step that is compared
 constexpr std::uint32_t kFinest = 4096;      ///< substeps to one of the scene's steps, at most
-constexpr std::uint32_t kDetections = 8;     ///< to one of the scene's steps
+constexpr std::uint32_t kDetections = 8;     ///< to one of the scene's steps, at least
+constexpr std::uint32_t kToDetection = 4;    ///< substeps, at least where that leaves as many
 constexpr int kFewest = 2 * int(kCoarsest);  ///< steps of a scene
 constexpr std::uint32_t kFirst = 4;          ///< substeps of the coarsest reference
 constexpr double kPatience = 4;      ///< times the seconds that were asked for, after which it ends
@@ -30,11 +32,13 @@ constexpr double kKnownWell = 0.15;  ///< share of a wanted error that a referen
 using Clock = std::chrono::steady_clock;
 using Shared = std::shared_ptr<const Trajectory>;
 
-/// The scene at so many substeps to each of its own steps, in double.
+/// The scene at so many substeps to each of its own steps, in double. Detections get closer
+/// together as substeps do: else all references would share what their interval costs in exactness.
 Scene refined(const Scene& scene, std::uint32_t substeps) {
     Scene fine = scene;
     Settings& s = fine.settings;
-    const std::uint32_t detections = std::min(kDetections, substeps);
+    const std::uint32_t detections =
+        std::max(std::min(kDetections, substeps), substeps / kToDetection);
     s.precision = Precision::double_;
     s.leapfrog_start = true;
     s.dt /= detections;
@@ -106,15 +110,6 @@ void check_length(const Scene& scene, const World& world) {
                          "must be at least " + std::to_string(kFewest) + " steps to be measured");
 }
 
-/// How long two runs stay together: index of the last moment of that.
-std::size_t together(const Trajectory& a, const Trajectory& b, double distance) {
-    std::size_t last = 0;
-    while (last + 1 < std::min(a.moments.size(), b.moments.size()) &&
-           largest_distance(a.moments[last + 1], b.moments[last + 1]) < distance)
-        ++last;
-    return last;
-}
-
 Metric pose_metric(const Shared& reference, double horizon) {
     return largest("pose", "m",
                    "largest distance of a body, or of a deformable's particles (rms), from where "
@@ -156,12 +151,13 @@ private:
 
 /// Error of the finest of three runs, each twice as fine as the one before, by how far the finest
 /// is from the second, and the second from the coarsest. Where the error falls as a power of the
-/// substeps, the first distance is as many times the error as the power of two less one says; it is
-/// never taken to be less than the distance, nor to fall more slowly than as the root.
+/// substeps, the first distance is as many times the error as the power of two less one says. The
+/// error is never taken to be less than that distance, to fall more slowly than as the root, nor
+/// more quickly than in proportion: two runs may be close by chance.
 double error_of_finest(double to_second, double second_to_coarsest) {
     const double falls =
         to_second > 0 ? std::max(second_to_coarsest / to_second, std::numbers::sqrt2) : 2;
-    return to_second * std::max(1.0, 1 / (falls - 1));
+    return std::max({to_second, to_second / (falls - 1), 0.5 * second_to_coarsest});
 }
 
 /// Root of the mean square over time of how far two runs' quantities are apart.
@@ -173,14 +169,6 @@ double apart(const Trajectory& a, const Trajectory& b, double Moment::*quantity)
         square += d * d / static_cast<double>(count - 1);
     }
     return std::sqrt(square);
-}
-
-/// Largest distance of two runs' poses, up to and with one of their moments.
-double apart(const Trajectory& a, const Trajectory& b, std::size_t last) {
-    double most = 0;
-    for (std::size_t i = 0; i <= std::min({last, a.moments.size() - 1, b.moments.size() - 1}); ++i)
-        most = std::max(most, largest_distance(a.moments[i], b.moments[i]));
-    return most;
 }
 
 /// The last references of a run.
@@ -198,11 +186,19 @@ struct References {
                     scale};
     }
 
-    Metric pose(double interval, std::size_t last) const {
-        Metric m = pose_metric(finest, static_cast<double>(last) * interval);
-        m.reference_error =
-            error_of_finest(apart(*finest, *second, last), apart(*second, *coarsest, last));
-        return m;
+    /// Error of the finest one's poses up to each of its moments.
+    std::vector<double> pose_errors() const {
+        const std::size_t count =
+            std::min({finest->moments.size(), second->moments.size(), coarsest->moments.size()});
+        std::vector<double> errors;
+        double first = 0, last = 0, most = 0;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Moment& middle = second->moments[i];
+            first = std::max(first, largest_distance(finest->moments[i], middle));
+            last = std::max(last, largest_distance(middle, coarsest->moments[i]));
+            errors.push_back(most = std::max(most, error_of_finest(first, last)));
+        }
+        return errors;
     }
 };
 
@@ -216,12 +212,17 @@ double turnover(const Trajectory& t) {
 /// What can be measured against the references, and until when.
 void put_metrics(Subject& s, const References& references, double parted, bool deforms) {
     const Trajectory& finest = *references.finest;
-    const std::size_t last = together(finest, *references.second, parted);
+    const std::vector<double> errors = references.pose_errors();
+    const std::size_t known =
+        static_cast<std::size_t>(std::ranges::upper_bound(errors, parted) - errors.begin());
     s.metrics.clear();
-    if (last > 0) s.metrics.push_back(references.pose(finest.interval, last));
-    s.horizon = last > 0 && last + 1 < finest.moments.size()
-                    ? static_cast<double>(last) * finest.interval
-                    : 0;
+    s.horizon = 0;
+    if (known > 1) {
+        const double horizon = static_cast<double>(known - 1) * finest.interval;
+        s.metrics.push_back(pose_metric(references.finest, horizon));
+        s.metrics.front().reference_error = errors[known - 1];
+        if (known < finest.moments.size()) s.horizon = horizon;
+    }
     s.metrics.push_back(references.mean("height", "m", "error of the mean height, rms over time",
                                         {mean_height, &Moment::height}));
     s.metrics.push_back(

@@ -2,10 +2,9 @@
 /// A subject of any scene: it is measured against runs of itself that are far finer.
 ///
 /// References are made, each twice as fine as the one before, until the finest is known well enough
-/// or the time is over. How far the last ones part tells the error of the finest; where the last
-/// two part by more than a share of the error that is wanted (without one, a hundredth of a body),
-/// prediction ends: poses are compared until then, and means over time (energy, momentum, height,
-/// strain) all along.
+/// or the time is over. How far the last three part tells the error of the finest; where it is more
+/// than a share of the error that is wanted (without one, a hundredth of a body), prediction ends:
+/// poses are compared until then, and means over time (energy, momentum, height, strain) all along.
 /// A deformable counts as one body, however many particles it has (trajectory.h).
 #pragma once
 
