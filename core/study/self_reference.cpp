@@ -25,12 +25,25 @@ constexpr std::uint32_t kDetections = 8;     ///< to one of the scene's steps, a
 constexpr std::uint32_t kToDetection = 4;    ///< substeps, at least where that leaves as many
 constexpr int kFewest = 2 * int(kCoarsest);  ///< steps of a scene
 constexpr std::uint32_t kFirst = 4;          ///< substeps of the coarsest reference
+constexpr std::uint32_t kIterations = 4;     ///< of either kind in the coarsest one, at least
+constexpr double kDearer = 2.9;        ///< times a reference that the next one costs: twice the
+                                       ///< substeps, and the root of two of the iterations
+constexpr double kAhead = 4;           ///< times as far as prediction went, the next reference runs
+constexpr double kForFirst = 1. / 16;  ///< of the seconds, that the coarsest one may take
 constexpr double kPatience = 4;      ///< times the seconds that were asked for, after which it ends
 constexpr double kParted = 0.01;     ///< share of a body's radius at which prediction ends
 constexpr double kKnownWell = 0.15;  ///< share of a wanted error that a reference may have
 
 using Clock = std::chrono::steady_clock;
 using Shared = std::shared_ptr<const Trajectory>;
+
+/// Iterations of a reference, for what a scene's settings ask for. They grow as the root of its
+/// substeps: an impact is over within a substep or two, and what its iterations leave out would be
+/// the same in all references, however short their substeps.
+std::uint32_t refined_iterations(std::uint32_t asked, std::uint32_t substeps) {
+    const double finer = std::max(1.0, static_cast<double>(substeps) / kFirst);
+    return static_cast<std::uint32_t>(std::lround(std::max(kIterations, asked) * std::sqrt(finer)));
+}
 
 /// The scene at so many substeps to each of its own steps, in double. Detections get closer
 /// together as substeps do: else all references would share what their interval costs in exactness.
@@ -43,8 +56,8 @@ Scene refined(const Scene& scene, std::uint32_t substeps) {
     s.leapfrog_start = true;
     s.dt /= detections;
     s.substeps = substeps / detections;
-    s.velocity_iterations = std::max(2u, s.velocity_iterations);
-    s.position_iterations = std::max(2u, s.position_iterations);
+    s.velocity_iterations = refined_iterations(s.velocity_iterations, substeps);
+    s.position_iterations = refined_iterations(s.position_iterations, substeps);
     return fine;
 }
 
@@ -53,21 +66,30 @@ double interval_of(const Settings& s) {
     return step * std::max(1.0, std::floor(s.duration / step / kMoments));
 }
 
-Trajectory recorded(const Scene& scene, double interval, double duration,
+/// How far a reference goes: for so long [s of the scene], or until its time is up.
+struct Length {
+    double duration = 0;
+    Clock::time_point until = Clock::time_point::max();
+};
+
+Trajectory recorded(const Scene& scene, double interval, const Length& length,
                     const ColliderLibrary& colliders, const ReferenceOptions& options,
                     Clock::time_point deadline) {
     const ErrorsOnly quiet;
     Simulation simulation(scene, colliders, options.collider);
     Trajectory t{interval, {moment_of(simulation.world())}};
-    const auto steps = static_cast<std::uint64_t>(std::llround(duration / scene.settings.dt));
+    const auto steps =
+        static_cast<std::uint64_t>(std::llround(length.duration / scene.settings.dt));
     for (std::uint64_t i = 0; i < steps; ++i) {
         if (options.stop && options.stop())
             throw NoReference(NoReference::stopped, "the references were not finished");
-        if (Clock::now() > deadline)
+        const Clock::time_point now = Clock::now();
+        if (now > deadline)
             throw NoReference(NoReference::out_of_time,
                               "scene \"" + scene.name +
                                   "\" takes longer than the budget leaves for its references; "
                                   "give it more, or a shorter duration");
+        if (now > length.until && t.moments.size() > kFewest) break;
         const StepReport report = simulation.step();
         if (report.collider_unusable) throw ColliderError(report.message);
         if (!report.finite)
@@ -221,7 +243,8 @@ void put_metrics(Subject& s, const References& references, double parted, bool d
         const double horizon = static_cast<double>(known - 1) * finest.interval;
         s.metrics.push_back(pose_metric(references.finest, horizon));
         s.metrics.front().reference_error = errors[known - 1];
-        if (known < finest.moments.size()) s.horizon = horizon;
+        // what is known of one that was not run to the end, is so until where that ends
+        if (horizon + finest.interval <= s.scene.settings.duration) s.horizon = horizon;
     }
     s.metrics.push_back(references.mean("height", "m", "error of the mean height, rms over time",
                                         {mean_height, &Moment::height}));
@@ -255,8 +278,11 @@ Subject self_referenced(const Scene& scene, const std::string& name,
     const auto began = Clock::now();
     const auto spent = [&] { return std::chrono::duration<double>(Clock::now() - began).count(); };
     const double patience = options.substeps > 0 ? 1e9 : kPatience * options.seconds;
-    const Clock::time_point deadline = began + std::chrono::duration_cast<Clock::duration>(
-                                                   std::chrono::duration<double>(patience));
+    const auto after = [&](double seconds) {
+        return began +
+               std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+    };
+    const Clock::time_point deadline = after(patience);
     const double interval = interval_of(scene.settings);
     const double parted =
         options.error > 0 ? kKnownWell * options.error : kParted * size_of(start.world());
@@ -266,16 +292,25 @@ Subject self_referenced(const Scene& scene, const std::string& name,
     s.title = scene.description.empty() ? scene.name : scene.description;
     s.scene = scene;
     References references;
+    // poses are wanted for as long as they can be predicted, and no longer
+    const bool follows_prediction = options.substeps == 0 && options.error > 0 &&
+                                    (options.metric.empty() || options.metric == "pose");
+    Length length{scene.settings.duration};
+    if (follows_prediction) length.until = after(kForFirst * options.seconds);
     for (std::uint32_t n = options.substeps > 0 ? options.substeps / 4 : kFirst;; n *= 2) {
-        const double before = spent();
-        references = {std::make_shared<const Trajectory>(recorded(refined(scene, n), interval,
-                                                                  scene.settings.duration,
-                                                                  colliders, options, deadline)),
+        const double before = spent(), went = length.duration;
+        references = {std::make_shared<const Trajectory>(recorded(
+                          refined(scene, n), interval, length, colliders, options, deadline)),
                       references.finest, references.second};
+        const double took = spent() - before;
+        if (follows_prediction && !references.second)
+            length = Length{static_cast<double>(references.finest->moments.size() - 1) * interval};
         if (!references.coarsest) continue;
         put_metrics(s, references, parted, !start.world().deformables.empty());
         s.reference_substeps = n;
-        const double next = 2 * (spent() - before);
+        if (follows_prediction && s.metrics.front().name == "pose" && s.horizon > 0)
+            length.duration = std::min(scene.settings.duration, kAhead * s.horizon);
+        const double next = kDearer * took * length.duration / went;
         if (options.substeps > 0
                 ? n >= options.substeps
                 : n >= kFinest || spent() + next > options.seconds || are_known_well(s, options))

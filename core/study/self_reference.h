@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// A subject of any scene: it is measured against runs of itself that are far finer.
 ///
-/// References are made, each twice as fine as the one before, until the finest is known well enough
-/// or the time is over. How far the last three part tells the error of the finest; where it is more
-/// than a share of the error that is wanted (without one, a hundredth of a body), prediction ends:
-/// poses are compared until then, and means over time (energy, momentum, height, strain) all along.
-/// A deformable counts as one body, however many particles it has (trajectory.h).
+/// References are made, each with twice the substeps of the one before and more iterations, until
+/// the finest is known well enough or the time is over. How far the last three part tells the error
+/// of the finest; where it is more than a share of the error that is wanted (without one, a
+/// hundredth of a body), prediction ends: poses are compared until then, and means over time
+/// (energy, momentum, height, strain) all along. A deformable counts as one body, however many
+/// particles it has (trajectory.h).
+///
+/// Where poses are wanted to an error, finer references run no farther than prediction may go.
 #pragma once
 
 #include "host/collider_library.h"
