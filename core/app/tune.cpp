@@ -115,8 +115,9 @@ void print_reference(const study::Subject& subject) {
                    metric.reference_error, metric.unit);
     if (metric.name == "pose" && subject.horizon > 0)
         logger()->warn(
-            "poses are compared until {:.3g} of {:.3g} s, where prediction ends: ask for a larger "
-            "error, or give more time, to have them compared for longer",
+            "poses are compared for {:.3g} s, as long as they can be predicted, and runs take "
+            "{:.3g} "
+            "s: ask for a larger error, or give more time, to have them compared for longer",
             subject.horizon, subject.scene.settings.duration);
 }
 

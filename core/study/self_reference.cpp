@@ -13,6 +13,7 @@
 #include <chrono>
 #include <cmath>
 #include <numbers>
+#include <sstream>
 #include <vector>
 
 namespace plumb::study {
@@ -269,6 +270,16 @@ bool are_known_well(const Subject& s, const ReferenceOptions& options) {
     return options.error > 0;  // needs none
 }
 
+/// What the finest reference is.
+std::string sentence(const Subject& s, const Settings& whole) {
+    std::ostringstream text;
+    text << "a run of " << s.reference_substeps << " substeps to each step of " << whole.dt
+         << " s, in double";
+    if (s.scene.settings.duration < whole.duration - 0.5 * whole.dt)
+        text << ", of the first " << s.scene.settings.duration << " of " << whole.duration << " s";
+    return text.str();
+}
+
 }  // namespace
 
 Subject self_referenced(const Scene& scene, const std::string& name,
@@ -316,9 +327,11 @@ Subject self_referenced(const Scene& scene, const std::string& name,
                 : n >= kFinest || spent() + next > options.seconds || are_known_well(s, options))
             break;
     }
-    s.reference = "a run of " + std::to_string(s.reference_substeps) +
-                  " substeps to each step of " + std::to_string(scene.settings.dt) +
-                  " s, in double";
+    if (follows_prediction)
+        s.scene.settings.duration =
+            std::min(scene.settings.duration,
+                     static_cast<double>(references.finest->moments.size() - 1) * interval);
+    s.reference = sentence(s, scene.settings);
     for (Metric& gauge : gauges_of(start.plan(), start.world()))
         s.metrics.push_back(std::move(gauge));
     return s;

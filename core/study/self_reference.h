@@ -8,7 +8,8 @@
 /// (energy, momentum, height, strain) all along. A deformable counts as one body, however many
 /// particles it has (trajectory.h).
 ///
-/// Where poses are wanted to an error, finer references run no farther than prediction may go.
+/// Where poses are wanted to an error, finer references run no farther than prediction may go, and
+/// the subject's scene is as long as the finest of them.
 #pragma once
 
 #include "host/collider_library.h"

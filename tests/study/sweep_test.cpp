@@ -234,6 +234,21 @@ TEST(SelfReference, EndsWhereItIsKnownWell) {
     }
 }
 
+/// Rods that whirl for a minute part from any reference long before: neither references nor runs
+/// go on for much longer than poses can be compared.
+TEST(SelfReference, RunsNoFartherThanPredictionGoes) {
+    Scene scene = whip();
+    scene.settings.duration = 60;
+    const Subject s = self_referenced(scene, "whip", colliders(), {.seconds = 2, .error = 1e-3});
+    EXPECT_GT(s.horizon, 0);
+    EXPECT_LE(s.horizon, s.scene.settings.duration);
+    EXPECT_LT(s.scene.settings.duration, 60);
+    EXPECT_NE(s.reference.find("of the first"), std::string::npos) << s.reference;
+    const Outcome outcome =
+        run_point(s, point_at("whip", "leapfrog_start=true"), colliders(), true, {});
+    EXPECT_EQ(outcome.status, study::Status::done) << outcome.note;
+}
+
 /// A ball in a held sheet: what deforms has its share in poses and figures of its own, and finer
 /// runs are nearer.
 TEST(SelfReference, TellsTheErrorOfWhatDeforms) {
