@@ -67,7 +67,8 @@ void print_trials(const study::Subject& subject, const study::TuneResult& result
         else
             std::fprintf(stderr, "%12s %14s  ", std::string(name_of(t.outcome.status)).c_str(),
                          "-");
-        std::fprintf(stderr, "%s\n", t.point.settings_text().c_str());
+        std::fprintf(stderr, "%s on %s\n", t.point.settings_text().c_str(),
+                     t.point.collider.c_str());
     }
 }
 

@@ -46,6 +46,24 @@ constexpr std::array kVariants{
     Variant{"joints by iterations", "joints=iterate", Effect::joint_trees},
 };
 
+/// The one of those named that must not share a process with a collider, or null.
+const std::string* conflict_of(const ColliderLibrary& library,
+                               const std::vector<std::string>& names,
+                               const ColliderInfo& collider) {
+    for (const std::string& name : names)
+        if (conflicting(*library.find(name).table, *collider.table)) return &name;
+    return nullptr;
+}
+
+bool can_do(const ColliderLibrary& library, const ColliderInfo& collider, const Scene& scene) {
+    try {
+        library.check_abilities(collider, scene);
+        return true;
+    } catch (const ColliderError&) {
+        return false;
+    }
+}
+
 /// Writes the points of a subject, curve by curve.
 class Planner {
 public:
@@ -90,42 +108,16 @@ private:
     /// The one that most curves run on, then those that can do the scene, too; where nothing
     /// touches, one is as good as any.
     void choose_colliders(const ColliderLibrary& library) {
-        if (!choice_.colliders.empty()) {
-            for (const std::string& name : choice_.colliders) {
-                const ColliderInfo& collider = library.find(name);
-                library.check_abilities(collider, subject_.scene);
-                if (const std::string* other = conflict_of(library, collider))
-                    throw ColliderError("collider \"" + name +
-                                        "\" must not share a process with \"" + *other +
-                                        "\": sweep them one by one");
-                colliders_.push_back(name);
-            }
-        } else {
-            colliders_ = {library.choose(subject_.scene).collider->name};
-            for (const ColliderInfo& c : library.all())
-                if (c.table && c.name != colliders_.front() && may_join(library, c))
-                    colliders_.push_back(c.name);
+        if (choice_.colliders.empty()) colliders_ = able_colliders(subject_.scene, library);
+        for (const std::string& name : choice_.colliders) {
+            const ColliderInfo& collider = library.find(name);
+            library.check_abilities(collider, subject_.scene);
+            if (const std::string* other = conflict_of(library, colliders_, collider))
+                throw ColliderError("collider \"" + name + "\" must not share a process with \"" +
+                                    *other + "\": sweep them one by one");
+            colliders_.push_back(name);
         }
         if (!plan_.runs(Effect::contacts)) colliders_.resize(1);
-    }
-
-    /// The one of those chosen already that must not share a process with a collider, or null.
-    const std::string* conflict_of(const ColliderLibrary& library,
-                                   const ColliderInfo& collider) const {
-        for (const std::string& name : colliders_)
-            if (conflicting(*library.find(name).table, *collider.table)) return &name;
-        return nullptr;
-    }
-
-    /// Whether a collider can do the scene, and may share a process with those chosen already.
-    bool may_join(const ColliderLibrary& library, const ColliderInfo& collider) const {
-        if (conflict_of(library, collider)) return false;
-        try {
-            library.check_abilities(collider, subject_.scene);
-            return true;
-        } catch (const ColliderError&) {
-            return false;
-        }
     }
 
     /// A point for each rung of a ladder; `more`: settings beside the one that makes the curve.
@@ -178,6 +170,15 @@ private:
 std::vector<std::string> curve_names() {
     std::vector<std::string> names{"pbd", "paper", kOneSubstep, "joints as trees", "raw contacts"};
     for (const Variant& v : kVariants) names.emplace_back(v.name);
+    return names;
+}
+
+std::vector<std::string> able_colliders(const Scene& scene, const ColliderLibrary& library) {
+    std::vector<std::string> names{library.choose(scene).collider->name};
+    for (const ColliderInfo& c : library.all())
+        if (c.table && c.name != names.front() && !conflict_of(library, names, c) &&
+            can_do(library, c, scene))
+            names.push_back(c.name);
     return names;
 }
 

@@ -26,6 +26,10 @@ std::vector<std::string> curve_names();
 std::vector<Point> points_of(const Subject& subject, const SweepChoice& choice,
                              const ColliderLibrary& colliders);
 
+/// The colliders that can do a scene and may share a process, the cheapest first. Throws
+/// ColliderError where there is none.
+std::vector<std::string> able_colliders(const Scene& scene, const ColliderLibrary& colliders);
+
 /// A subject's settings with a point's applied. Throws SceneError.
 Settings settings_at(const Subject& subject, const Point& point);
 

@@ -17,7 +17,9 @@ struct Choice {
     std::uint32_t substeps = 8, iterations = 1;
     double step_share = 1;  ///< of the scene's dt
     bool is_double = false;
-    std::string joints;  ///< "" as the scene says
+    std::string joints;    ///< "" as the scene says
+    std::string collider;  ///< by name
+    bool raw = false;      ///< contacts as the collider's package has them
 
     bool operator==(const Choice&) const = default;
 };
@@ -33,13 +35,15 @@ public:
         has_joints_ = plan.runs(Effect::joints);
         sweeps_ = plan.runs(Effect::contacts) || (has_joints_ && !plan.runs(Effect::joint_trees));
         solves_trees_ = plan.runs(Effect::joint_trees);
-        collider_ = options.collider == "auto" ? colliders.choose(subject.scene).collider->name
-                                               : options.collider;
+        touches_ = plan.runs(Effect::contacts);
+        able_ = options.collider == "auto" ? able_colliders(subject.scene, colliders)
+                                           : std::vector{options.collider};
     }
 
     TuneResult run() {
-        colliders_.check_abilities(colliders_.find(collider_), subject_.scene);
+        colliders_.check_abilities(colliders_.find(able_.front()), subject_.scene);
         Choice first;
+        first.collider = able_.front();
         if (has_joints_) first = likelier_of(first, joints_otherwise(first));
         sweeps_ |= first.joints == "iterate";
         Choice best = refine(first, &Choice::substeps);
@@ -49,7 +53,9 @@ public:
             exact.is_double = true;
             best = better_of(best, exact);
         }
+        best = with_other_contacts(best);
         if (sweeps_) best = better_of(best, many_iterations(best));
+        best = undivided(best);
         for (const bool coarser : {true, false}) best = walk(best, coarser);
         if (has_joints_) best = better_of(best, joints_otherwise(best));
         best = better_of(best, with_iterations(best));
@@ -78,8 +84,8 @@ private:
                 .precision = c.is_double ? "double" : "single",
                 .ladder = Ladder::substeps,
                 .value = static_cast<double>(c.substeps),
-                .collider = collider_,
-                .contacts = "shared",
+                .collider = c.collider,
+                .contacts = c.raw ? "raw" : "shared",
                 .settings = {}};
         if (c.step_share != 1)
             p.settings.push_back("dt=" + number_text(c.step_share * subject_.scene.settings.dt));
@@ -89,6 +95,7 @@ private:
         for (const char* pass : {"velocity_iterations=", "position_iterations="})
             p.settings.push_back(pass + std::to_string(c.iterations));
         if (!c.joints.empty()) p.settings.push_back("joints=" + c.joints);
+        if (c.raw) p.settings.push_back("contacts=raw");
         return p;
     }
 
@@ -224,6 +231,39 @@ private:
         return refine(single, &Choice::iterations);
     }
 
+    /// The same with the contacts of the collider's package, and with other colliders, where
+    /// detections cost much of the time.
+    Choice with_other_contacts(Choice best) {
+        if (!touches_ || of_detections(best) < kMuch * cost_of(best)) return best;
+        Choice raw = best;
+        raw.raw = true;
+        best = better_of(best, raw);
+        for (const std::string& name : able_) {
+            Choice other = best;
+            other.collider = name;
+            best = better_of(best, other);
+        }
+        return best;
+    }
+
+    /// Each substep a step of its own, with a detection and a single iteration, where that may be
+    /// cheaper.
+    Choice undivided(const Choice& best) {
+        if (best.substeps == 1 || !sweeps_) return best;
+        const double detections = of_detections(best), solver = cost_of(best) - detections;
+        if (best.substeps * detections + solver / best.iterations > cost_of(best)) return best;
+        Choice next = best;
+        next.step_share /= best.substeps;
+        next.substeps = next.iterations = 1;
+        return better_of(best, next);
+    }
+
+    /// Cost of the collider's calls [µs/s].
+    double of_detections(const Choice& c) {
+        const Trial* t = trial(c);
+        return t && t->is_done() ? t->outcome.cost.total - t->outcome.cost.solver : 0;
+    }
+
     Choice joints_otherwise(Choice c) const {
         c.joints = !c.joints.empty() ? "" : solves_trees_ ? "iterate" : "tree";
         return c;
@@ -247,6 +287,7 @@ private:
     static constexpr double kNearEnough = 0.7;
     static constexpr double kFarthest = 4, kCloseEnough = 1.4;  ///< of what is refined, as a factor
     static constexpr double kStalls = 0.85, kFinestStep = 1.0 / 100;
+    static constexpr double kMuch = 0.25;  ///< share of the time, of detections
     static constexpr int kRefinements = 4;
     static constexpr std::uint32_t kManyIterations = 10;  ///< of an undivided step, tried first
 
@@ -255,9 +296,10 @@ private:
     const TuneOptions& options_;
     double allowed_;  ///< error against the reference
     bool has_joints_ = false, solves_trees_ = false;
-    bool sweeps_ = false;  ///< whether iterations change anything
-    std::string collider_;
-    std::vector<Choice> choices_;  ///< [trial]
+    bool sweeps_ = false;            ///< whether iterations change anything
+    bool touches_ = false;           ///< whether there are contacts
+    std::vector<std::string> able_;  ///< colliders that may be chosen, the likeliest first
+    std::vector<Choice> choices_;    ///< [trial]
     TuneResult result_;
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };

@@ -4,8 +4,9 @@
 ///
 /// The error of a run falls as a power of the substeps. Two runs give the power, the next go where
 /// it foretells the wanted error; then what does the same work in another way is tried: double
-/// precision where single stops, fewer detections or more, the other way of solving joints, a
-/// single substep with many iterations. The best is run once more to verify it.
+/// precision where single stops, raw contacts and other colliders where detection costs much, fewer
+/// detections or more, the other way of solving joints, a single substep with many iterations. The
+/// best is run once more to verify it.
 #pragma once
 
 #include "host/collider_library.h"
@@ -23,7 +24,7 @@ struct TuneOptions {
     double error = 0;  ///< wanted, in the unit of the subject's first metric; 0: the least within
                        ///< `time`
     double time = std::numeric_limits<double>::infinity();  ///< CPU allowed [µs/s]
-    std::string collider = "auto";
+    std::string collider = "auto";  ///< one by name, or any that can do the scene
     std::uint32_t most_runs = 15;
     double seconds = std::numeric_limits<double>::infinity();  ///< for all runs but the last [s]
     Stop stop;

@@ -328,6 +328,35 @@ TEST(Tune, HoldsAgainstAFinerReference) {
     }
 }
 
+/// Detection takes nearly all of the time of a heap of tori: raw contacts are tried there, and
+/// other colliders unless one is asked for.
+TEST(Tune, TriesOtherContactsWhereDetectionCostsMuch) {
+    Scene heap;
+    heap.settings.duration = 0.1;
+    add_ground(heap);
+    for (int i = 0; i < 4; ++i) {
+        Geometry ring;
+        ring.kind = ShapeKind::torus;
+        ring.radius = 0.2, ring.tube_radius = 0.05;
+        add_body(heap, ring, {0.1 * i, 0.06 + 0.12 * i, 0});
+    }
+    const Subject subject = self_referenced(heap, "heap", colliders(), {.error = 0.05});
+    for (const bool asked : {false, true}) {
+        TuneOptions options;
+        options.error = 0.05;
+        if (asked) options.collider = "ode";
+        const TuneResult result = tune(subject, colliders(), options);
+        ASSERT_TRUE(result.best);
+        EXPECT_LE(result.best->error(), options.error);
+        EXPECT_LE(result.trials.size() + 1, 15u);
+        const auto is_raw = [](const Trial& t) { return t.point.contacts == "raw"; };
+        const auto is_on_ode = [](const Trial& t) { return t.point.collider == "ode"; };
+        EXPECT_TRUE(std::ranges::any_of(result.trials, is_raw));
+        EXPECT_TRUE(std::ranges::any_of(result.trials, is_on_ode));
+        EXPECT_EQ(std::ranges::all_of(result.trials, is_on_ode), asked);
+    }
+}
+
 TEST(Tune, SaysWhereItDoesNotGetThere) {
     TuneOptions options;
     options.error = 1e-300;
