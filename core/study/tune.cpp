@@ -234,7 +234,7 @@ private:
     /// The same with the contacts of the collider's package, and with other colliders, where
     /// detections cost much of the time.
     Choice with_other_contacts(Choice best) {
-        if (!touches_ || of_detections(best) < kMuch * cost_of(best)) return best;
+        if (!touches_ || of_detections(best) < options_.detections * cost_of(best)) return best;
         Choice raw = best;
         raw.raw = true;
         best = better_of(best, raw);
@@ -287,7 +287,6 @@ private:
     static constexpr double kNearEnough = 0.7;
     static constexpr double kFarthest = 4, kCloseEnough = 1.4;  ///< of what is refined, as a factor
     static constexpr double kStalls = 0.85, kFinestStep = 1.0 / 100;
-    static constexpr double kMuch = 0.25;  ///< share of the time, of detections
     static constexpr int kRefinements = 4;
     static constexpr std::uint32_t kManyIterations = 10;  ///< of an undivided step, tried first
 

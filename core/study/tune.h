@@ -25,6 +25,8 @@ struct TuneOptions {
                        ///< `time`
     double time = std::numeric_limits<double>::infinity();  ///< CPU allowed [µs/s]
     std::string collider = "auto";  ///< one by name, or any that can do the scene
+    double detections = 0.25;       ///< share of the time that they must take, for raw contacts and
+                                    ///< other colliders to be tried
     std::uint32_t most_runs = 15;
     double seconds = std::numeric_limits<double>::infinity();  ///< for all runs but the last [s]
     Stop stop;
