@@ -26,8 +26,8 @@ std::vector<std::string> curve_names();
 std::vector<Point> points_of(const Subject& subject, const SweepChoice& choice,
                              const ColliderLibrary& colliders);
 
-/// The colliders that can do a scene and may share a process, the cheapest first. Throws
-/// ColliderError where there is none.
+/// The cheapest collider that can do a scene, then the others that can and may share a process with
+/// it. Throws ColliderError where there is none.
 std::vector<std::string> able_colliders(const Scene& scene, const ColliderLibrary& colliders);
 
 /// A subject's settings with a point's applied. Throws SceneError.
