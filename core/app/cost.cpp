@@ -8,6 +8,7 @@
 #include "app/usage.h"
 #include "app/verbs.h"
 #include "host/log.h"
+#include "output/error.h"
 #include "scene/error.h"
 #include "scene/nearest.h"
 #include "study/cases.h"
@@ -167,6 +168,10 @@ int measure(const Options& o) {
     if (shard.number > table.rows.size())
         throw UsageError("--shard " + o.shard + ": there are only " +
                          std::to_string(table.rows.size()) + " points");
+    for (const std::string& name : o.colliders)
+        if (std::none_of(table.rows.begin(), table.rows.end(),
+                         [&](const study::Row& r) { return r.point.collider == name; }))
+            logger()->warn("--colliders {}: left out, since nothing touches", name);
     study::Journal journal(o.out, table);
 
     Progress progress(table.rows.size(), o.quiet);
@@ -191,6 +196,9 @@ int cost(const Options& o) {
     if (o.list) return list_cases();
     check(o);
     if (o.merge.empty()) return measure(o);
+    const bool is_part = std::find(o.merge.begin(), o.merge.end(), o.out) != o.merge.end();
+    if (!is_part && study::plan_in(o.out))
+        throw OutputError(o.out, "holds another sweep; name another folder");
     return finish(o, study::merged(o.merge), {});
 }
 

@@ -72,6 +72,33 @@ void print_trials(const study::Subject& subject, const study::TuneResult& result
     }
 }
 
+/// Behind a number.
+std::string unit_of(const study::Metric& metric) {
+    return metric.unit.empty() ? "" : " " + metric.unit;
+}
+
+/// How long poses are compared, where that is not all along.
+std::string until(const study::Subject& subject) {
+    if (subject.metrics.front().name != "pose" || subject.horizon <= 0) return "";
+    char text[60];
+    std::snprintf(text, sizeof text, " in the first %.3g s", subject.horizon);
+    return text;
+}
+
+/// What the error is against, and how well that is known.
+void print_reference(const study::Subject& subject) {
+    if (subject.reference_substeps == 0) return;
+    const study::Metric& metric = subject.metrics.front();
+    logger()->info("against {}, which is itself known to {:.2g}{}; that counts as error",
+                   subject.reference, metric.reference_error, unit_of(metric));
+    if (metric.name == "pose" && subject.horizon > 0)
+        logger()->warn(
+            "poses are compared for {:.3g} s, as long as they can be predicted, and runs take "
+            "{:.3g} "
+            "s: ask for a larger error, or give more time, to have them compared for longer",
+            subject.horizon, subject.scene.settings.duration);
+}
+
 /// Says why there are no such settings, and returns the exit code.
 int not_reached(const Options& o, const study::Subject& subject, const study::TuneResult& result) {
     if (interrupted()) return kInterrupted;
@@ -86,7 +113,7 @@ int not_reached(const Options& o, const study::Subject& subject, const study::Tu
         if (!exact || t.error() < exact->error()) exact = &t;
         if (!cheap || t.outcome.cost.total < cheap->outcome.cost.total) cheap = &t;
     }
-    const char* unit = subject.metrics.front().unit.c_str();
+    const std::string unit = unit_of(subject.metrics.front());
     if (!exact && result.ran_out) {
         logger()->error("{}no run ended", over);
         return kUsage;
@@ -100,26 +127,13 @@ int not_reached(const Options& o, const study::Subject& subject, const study::Tu
     if (o.time > 0)
         logger()->error(
             "{}no settings were found within {:g} µs a simulated second that reach it; the "
-            "cheapest took {:.0f} µs, the most exact left {:.3g} {}",
+            "cheapest took {:.0f} µs, the most exact left {:.3g}{}",
             over, o.time, cheap->outcome.cost.total, exact->error(), unit);
     else
-        logger()->error("{}no settings were found that reach it; the least error was {:.3g} {}",
+        logger()->error("{}no settings were found that reach it; the least error was {:.3g}{}",
                         over, exact->error(), unit);
+    print_reference(subject);
     return kUsage;
-}
-
-/// What the error is against, and how well that is known.
-void print_reference(const study::Subject& subject) {
-    if (subject.reference_substeps == 0) return;
-    const study::Metric& metric = subject.metrics.front();
-    logger()->info("against {}, which is itself known to {:.2g} {}", subject.reference,
-                   metric.reference_error, metric.unit);
-    if (metric.name == "pose" && subject.horizon > 0)
-        logger()->warn(
-            "poses are compared for {:.3g} s, as long as they can be predicted, and runs take "
-            "{:.3g} "
-            "s: ask for a larger error, or give more time, to have them compared for longer",
-            subject.horizon, subject.scene.settings.duration);
 }
 
 int tune(const Options& o) {
@@ -162,10 +176,12 @@ int tune(const Options& o) {
         std::printf("%s%s\n", json_line(best.point.settings[i]).c_str(),
                     i + 1 < best.point.settings.size() ? "," : "");
     std::printf("}\n");
-    logger()->info("{}: {} is {:.3g} {} at {:.0f} µs of CPU a simulated second, on {}, in {} runs",
-                   subject.name, subject.metrics.front().what, best.error(),
-                   subject.metrics.front().unit, best.outcome.cost.total, best.point.collider,
-                   result.trials.size() + 1);
+    const study::Metric& metric = subject.metrics.front();
+    logger()->info("{}: {} is {:.3g}{}{} at {:.0f} µs of CPU a simulated second, in {} runs",
+                   subject.name, metric.what, best.error(), unit_of(metric), until(subject),
+                   best.outcome.cost.total, result.trials.size() + 1);
+    logger()->info("add these to the scene's settings, and run it with --collider {}",
+                   best.point.collider);
     print_reference(subject);
     return kDone;
 }

@@ -7,7 +7,10 @@
 #include "scene/error.h"
 #include "study/sweep_plan.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <memory>
 
 namespace plumb::study {
@@ -27,6 +30,20 @@ std::vector<std::unique_ptr<Judge>> judges_of(const Subject& subject) {
 /// caches is not what its settings cost [µs].
 constexpr double kShort = 2000;
 
+/// The share of a stretch of time in which this process ran: the rest went to others.
+class RunningShare {
+public:
+    double so_far() const {
+        const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - wall_;
+        const double cpu = static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC;
+        return wall.count() > 0 ? std::min(cpu / wall.count(), 1.0) : 1;
+    }
+
+private:
+    std::chrono::steady_clock::time_point wall_ = std::chrono::steady_clock::now();
+    std::clock_t cpu_ = std::clock();
+};
+
 Outcome ended(Status status, std::string note) { return {status, std::move(note), {}, {}}; }
 
 Outcome made(const Subject& subject, Simulation& simulation, bool judged, const Stop& stop) {
@@ -35,8 +52,9 @@ Outcome made(const Subject& subject, Simulation& simulation, bool judged, const 
     std::vector<std::unique_ptr<Judge>> judges;
     if (judged) judges = judges_of(subject);
     std::uint64_t total = 0, solver = 0;
+    const RunningShare running;
     const auto cost = [&](double simulated) -> Cost {
-        const double per_second = simulated > 0 ? 1e-3 / simulated : 0;
+        const double per_second = simulated > 0 ? 1e-3 * running.so_far() / simulated : 0;
         return {static_cast<double>(total) * per_second, static_cast<double>(solver) * per_second};
     };
     const auto diverged = [&](std::string note, double simulated) -> Outcome {

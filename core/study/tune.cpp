@@ -31,9 +31,11 @@ public:
           colliders_(colliders),
           options_(options),
           allowed_(options.error - subject.metrics.front().reference_error) {
-        const Plan plan = make_plan(build_world(subject.scene));
+        const World world = build_world(subject.scene);
+        const Plan plan = make_plan(world);
         has_joints_ = plan.runs(Effect::joints);
-        sweeps_ = plan.runs(Effect::contacts) || (has_joints_ && !plan.runs(Effect::joint_trees));
+        sweeps_ = plan.runs(Effect::contacts) || world.particles.size() > 0 ||
+                  (has_joints_ && !plan.runs(Effect::joint_trees));
         solves_trees_ = plan.runs(Effect::joint_trees);
         touches_ = plan.runs(Effect::contacts);
         able_ = options.collider == "auto" ? able_colliders(subject.scene, colliders)
@@ -58,7 +60,7 @@ public:
         best = undivided(best);
         for (const bool coarser : {true, false}) best = walk(best, coarser);
         if (has_joints_) best = better_of(best, joints_otherwise(best));
-        best = better_of(best, with_iterations(best));
+        if (sweeps_ && best.substeps > 1) best = better_of(best, with_iterations(best));
         verify(best);
         return std::move(result_);
     }
@@ -193,7 +195,7 @@ private:
         Choice finer = start;
         finer.substeps = 4, finer.step_share = 0.25;
         bool was_other = !has_joints_;
-        while (!reaches(best) && options_.error > 0 && may_run() &&
+        while (options_.error > 0 && error_of(best) > allowed_ && may_run() &&
                finer.step_share > kFinestStep) {
             const double before = error_of(best);
             best = better_of(best, refine(finer, &Choice::substeps));
@@ -270,7 +272,7 @@ private:
     }
 
     static Choice with_iterations(Choice c) {
-        c.substeps = std::max(1u, c.substeps / 2);
+        c.substeps /= 2;
         c.iterations *= 2;
         return c;
     }
