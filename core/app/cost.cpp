@@ -171,7 +171,8 @@ int measure(const Options& o) {
     for (const std::string& name : o.colliders)
         if (std::none_of(table.rows.begin(), table.rows.end(),
                          [&](const study::Row& r) { return r.point.collider == name; }))
-            logger()->warn("--colliders {}: left out, since nothing touches", name);
+            logger()->warn("--colliders {}: left out, since no curve of this sweep calls for it",
+                           name);
     study::Journal journal(o.out, table);
 
     Progress progress(table.rows.size(), o.quiet);

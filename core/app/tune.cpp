@@ -77,9 +77,14 @@ std::string unit_of(const study::Metric& metric) {
     return metric.unit.empty() ? "" : " " + metric.unit;
 }
 
-/// How long poses are compared, where that is not all along.
+/// Whether poses are compared for as long as they can be predicted, and not all along.
+bool has_horizon(const study::Subject& subject) {
+    return subject.metrics.front().name == "pose" && subject.horizon > 0;
+}
+
+/// How long they are compared then, behind an error.
 std::string until(const study::Subject& subject) {
-    if (subject.metrics.front().name != "pose" || subject.horizon <= 0) return "";
+    if (!has_horizon(subject)) return "";
     char text[60];
     std::snprintf(text, sizeof text, " in the first %.3g s", subject.horizon);
     return text;
@@ -91,7 +96,7 @@ void print_reference(const study::Subject& subject) {
     const study::Metric& metric = subject.metrics.front();
     logger()->info("against {}, which is itself known to {:.2g}{}; that counts as error",
                    subject.reference, metric.reference_error, unit_of(metric));
-    if (metric.name == "pose" && subject.horizon > 0)
+    if (has_horizon(subject))
         logger()->warn(
             "poses are compared for {:.3g} s, as long as they can be predicted, and runs take "
             "{:.3g} "

@@ -24,8 +24,7 @@ struct Outcome {
 /// Runs the subject at a point's settings over its whole duration. `judged`: whether its errors are
 /// wanted; without, the run does nothing but step. Only time within Simulation::step counts, less
 /// what other processes took of it; a run of less than two milliseconds is made again for it, with
-/// warm caches. What a scene or a collider
-/// refuses becomes an outcome.
+/// warm caches. What a scene or a collider refuses becomes an outcome.
 Outcome run_point(const Subject& subject, const Point& point, const ColliderLibrary& colliders,
                   bool judged, const Stop& stop);
 
