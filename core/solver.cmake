@@ -6,9 +6,9 @@ set(PLUMB_CORE_SOURCES
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/filter_reachability.cpp effects/plan.cpp
-  contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_room.cpp contacts/detect.cpp
+  contacts/bend.cpp contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_room.cpp contacts/detect.cpp
   contacts/detect_particles.cpp contacts/follow_contacts.cpp contacts/impacts.cpp contacts/match_contacts.cpp contacts/reuse_contacts.cpp
-  contacts/rims.cpp contacts/still_ground.cpp contacts/surface_detector.cpp
+  contacts/ground_touch.cpp contacts/rims.cpp contacts/still_ground.cpp contacts/surface_detector.cpp
   solve/elastic_system.cpp
   step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/integrate.cpp step/island_choice.cpp step/island_group.cpp
   step/island_solver.cpp step/joint_state.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp

@@ -85,7 +85,6 @@ Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& 
 void find_rims(World& world) {
     ContactTable& c = world.contacts;
     c.rims.assign(c.found.size(), {});
-    c.bend.assign(c.found.size(), Vector3d::Zero());
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Contact& contact = c.found[i];
         if (!is_sharp(contact)) continue;
@@ -96,32 +95,25 @@ void find_rims(World& world) {
     }
 }
 
-void forget_rims(World& world) {
-    world.contacts.rims.clear();
-    world.contacts.bend.clear();
-}
+void forget_rims(World& world) { world.contacts.rims.clear(); }
 
-void foresee_rims(World& world, double h) {
-    ContactTable& c = world.contacts;
+Vector3d bend_at_rim(const World& world, std::size_t contact, double h) {
+    const ContactTable& c = world.contacts;
     const Bodies& b = world.bodies;
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const ContactRim& at = c.rims[i];
-        if (at.rim.radius == 0) continue;
-        const double sign = at.body == c.found[i].a ? 1 : -1;
-        const Vector3d n = -sign * to_eigen(c.found[i].normal), w = b.angular_velocity[at.body];
-        const Quaterniond& q = b.orientation[at.body];
-        const Vector3d point = in_body(b, at.body, c.point[i]);
-        const Vector3d now = arm_at(at, q, n, point),
-                       middle = arm_at(at, turned(q, 0.5 * h * w), n, point),
-                       end = arm_at(at, turned(q, h * w), n, point);
-        // what falls flat would go on on the other side, but stops
-        c.bend[i].setZero();
-        if ((end - now).squaredNorm() > 2 * at.rim.radius * at.rim.radius) continue;
-        // along the normal how far it comes by the end, across it how fast it is in the middle
-        const Vector3d across = w.cross(middle - now);
-        const double along = n.dot(end - now) / h - n.dot(w.cross(now));
-        c.bend[i] = sign * (across + (along - n.dot(across)) * n);
-    }
+    const ContactRim& at = c.rims[contact];
+    const double sign = at.body == c.found[contact].a ? 1 : -1;
+    const Vector3d n = -sign * to_eigen(c.found[contact].normal), w = b.angular_velocity[at.body];
+    const Quaterniond& q = b.orientation[at.body];
+    const Vector3d point = in_body(b, at.body, c.point[contact]);
+    const Vector3d now = arm_at(at, q, n, point),
+                   middle = arm_at(at, turned(q, 0.5 * h * w), n, point),
+                   end = arm_at(at, turned(q, h * w), n, point);
+    // what falls flat would go on on the other side, but stops
+    if ((end - now).squaredNorm() > 2 * at.rim.radius * at.rim.radius) return Vector3d::Zero();
+    // along the normal how far it comes by the end, across it how fast it is in the middle
+    const Vector3d across = w.cross(middle - now);
+    const double along = n.dot(end - now) / h - n.dot(w.cross(now));
+    return sign * (across + (along - n.dot(across)) * n);
 }
 
 void follow_rims(World& world) {

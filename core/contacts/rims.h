@@ -10,20 +10,19 @@
 
 namespace plumb {
 
-/// The rims on which the contacts lie at the poses now, into ContactTable::rims; and no bend yet.
+/// The rims on which the contacts lie at the poses now, into ContactTable::rims.
 void find_rims(World& world);
 
-/// Empties those tables: where contacts run on no rims.
+/// Empties that table: where contacts run on no rims.
 void forget_rims(World& world);
 
 /// The point of a rim that is farthest along the unit vector `direction`, both in the body's frame;
 /// `otherwise` where the rim's plane is across it.
 Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& otherwise);
 
-/// What the coming substep of length h [s] adds to the velocities at rims, into
-/// ContactTable::bend. Bodies move from one middle of a substep to the next (a leapfrog), and what
-/// rolls does so without a loss where contacts ask for the velocities of those middles.
-void foresee_rims(World& world, double h);
+/// What the coming substep of length h [s] adds to the velocity of a contact that is on a rim, a's
+/// less b's [m/s].
+Vector3d bend_at_rim(const World& world, std::size_t contact, double h);
 
 /// Moves the points of contacts on rims to where the rims are deepest now.
 void follow_rims(World& world);

@@ -5,11 +5,13 @@
 /// motion.
 ///
 /// Velocities belong to the middle between two substeps, positions to their ends: of energy that is
-/// kept, the sum of both swings by ½ h F·v about what is put together half a substep back. Neither
-/// sum may rise above where the larger stood: what has swung down may come back, and no more.
+/// kept, the sum of both swings by ½ h F·v about what is put together half a substep back. The
+/// latter may not rise, nor the former by more than a little above it. Where a body swings, its
+/// substeps lose and gain by turns: it may regain what it lost in the last seconds, of which
+/// impacts do not count, up to a small share of what it has.
 #pragma once
 
-#include "world/world.h"
+#include "contacts/ground_touch.h"
 
 #include <cstdint>
 #include <vector>
@@ -18,9 +20,8 @@ namespace plumb {
 
 class StillGround {
 public:
-    /// Before forces are added: which bodies touch nothing but what is fixed, do not bounce and
-    /// hang on no joint; and what they have.
-    void note(const World& world, double h);
+    /// Before forces are added: what those have that touch nothing but what is fixed.
+    void note(const World& world, const GroundTouch& ground, double h);
 
     /// After the move: takes back what they gained.
     void take_back(World& world, double h) const;
@@ -31,7 +32,6 @@ private:
         double energy;  ///< the larger sum, less the potential energy [J]
         Vector3d position;
     };
-    std::vector<std::uint8_t> touches_;  ///< [body] Touch
     std::vector<Had> had_;
 };
 

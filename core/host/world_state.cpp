@@ -29,6 +29,7 @@ void each_number_of_bodies(Io& io, B& b) {
                              &b.velocity_now, &b.angular_velocity_now, &b.velocity_before,
                              &b.angular_velocity_before, &b.angular_momentum, &b.turn_change})
             vector(io, (*column)[i]);
+        io(b.lost_to_ground[i]);
         auto& m = b.world_inverse_inertia[i];
         io(m.xx), io(m.yy), io(m.zz), io(m.xy), io(m.xz), io(m.yz);
     }

@@ -235,12 +235,12 @@ private:
                               [&](const ContactPlace& at) { visit(at.contact, at.row, at.lane); });
     }
 
-    /// Velocities at rims are those over the whole substep.
+    /// Velocities at contacts are those over the whole substep.
     void bend(const ContactTable& c) {
         if (c.bend.empty()) return;
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
-            if (c.rims[contact].rim.radius == 0) return;
+            if (c.bend[contact].isZero(0)) return;
             NormalRow<Real, W>& row = rows.normals[k];
             row.velocity[lane] +=
                 static_cast<Real>(to_eigen(c.found[contact].normal).dot(c.bend[contact]));

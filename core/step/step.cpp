@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/step.h"
 
-#include "contacts/rims.h"
+#include "contacts/bend.h"
 #include "step/substep_time.h"
 
 #include <cmath>
@@ -38,8 +38,6 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     };
 
     const double dt = world.settings.dt, h = dt / world.settings.substeps;
-    // to the paper's letter, velocities are those of a substep's start
-    const bool foresees = plan.runs(Effect::rims) && world.settings.shared_push;
     const bool divides = plan.runs(Effect::divided_trees);
     const bool watches = plan.runs(Effect::still_ground);
     ContactSums* sums = stepper.sums ? &*stepper.sums : nullptr;
@@ -71,7 +69,10 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::joints, [&] { count_turns(world, stepper.revolute); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_restitution(world, first); });
-        if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.note(world, h); });
+        if (plan.runs(Effect::contacts)) timed(Stage::begin, [&] { stepper.ground.find(world); });
+        if (watches)
+            timed(Stage::still_ground,
+                  [&] { stepper.still_ground.note(world, stepper.ground, h); });
         timed(Stage::integrate, [&] {
             const SubstepTime time = substep_time(world, h);
             integrate_velocities(world, plan, stepper.motion, time, time.push());
@@ -80,7 +81,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::air_drag))
             timed(Stage::air_drag,
                   [&] { stepper.air.blow(world, stepper.workers, substep_time(world, h).push()); });
-        if (foresees) timed(Stage::begin, [&] { foresee_rims(world, h); });
+        if (plan.runs(Effect::contacts))
+            timed(Stage::begin, [&] { foresee_bend(world, stepper.ground, plan, h); });
         if (first) timed(Stage::schedule, [&] { solver.load(world); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.solve_impacts(world, h, sums); });

@@ -63,6 +63,7 @@ struct Stepper {
     DividedTrees divided;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
+    GroundTouch ground;
     StillGround still_ground;
     std::optional<ContactSums> sums;  ///< of the last step, where someone wants them
     Ledger ledger;                    ///< of the last step

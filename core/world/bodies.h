@@ -39,6 +39,9 @@ struct Bodies {
     std::vector<MotionScript>
         script;  ///< of kinematic bodies: where the centre of mass and principal axes are
 
+    std::vector<double>
+        lost_to_ground;  ///< what a body lost on fixed ground and may regain (still_ground.h) [J]
+
     // The substep's own columns.
     std::vector<std::int32_t> row;                          ///< row in the solver's velocity table
     std::vector<Symmetric3<double>> world_inverse_inertia;  ///< at the start of the substep

@@ -116,6 +116,7 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.geometry, row.geometry), visit(b.bounding_radius, row.bounding_radius);
     visit(b.material, row.material), visit(b.group, row.group), visit(b.mask, row.mask);
     visit(b.script, row.script);
+    visit(b.lost_to_ground, 0);
     visit(b.row, 0);
     visit(b.world_inverse_inertia, Symmetric3<double>{});
     visit(b.angular_momentum, Vector3d(Vector3d::Zero()));

@@ -60,12 +60,12 @@ struct ContactTable {
     std::vector<Contact> found;  ///< as the collider reported them, at the start of the step
     std::vector<ContactMemory> memory;
     std::vector<ContactTrack> track;  ///< only with more than one substep
-    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none; this and the
-                                      ///< next only where shapes have rims
-    std::vector<Vector3d> bend;       ///< mean velocity over the substep less that at its start,
-                                      ///< of points on rims [m/s]
-    std::vector<double> gap;          ///< at the start of the substep [m]
-    std::vector<Vector3d> point;      ///< where it acts at the start of the substep [m]
+    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none; only where shapes
+                                      ///< have rims
+    std::vector<Vector3d> bend;   ///< mean velocity over the substep less that at its start [m/s];
+                                  ///< empty with the paper's push, and before the first substep
+    std::vector<double> gap;      ///< at the start of the substep [m]
+    std::vector<Vector3d> point;  ///< where it acts at the start of the substep [m]
     std::vector<Restitution> restitution;  ///< of the substep; this and the next only where some
                                            ///< pair bounces
     std::vector<double> restitution_velocity;  ///< separating speed that it asks for [m/s]

@@ -131,7 +131,8 @@ TEST(ContactSums, BalanceMomentumWhateverSolves) {
                 Simulation simulation(s, colliders(), "reference");
                 const auto ball = static_cast<std::uint32_t>(s.bodies.size()) - 1;
                 SCOPED_TRACE(std::string(required) + std::to_string(islands) + (warm ? "w" : ""));
-                expect_balance(simulation, ball, 60,
+                // what shock propagation adds does not act below: there the ball must be on top
+                expect_balance(simulation, ball, *required ? 30 : 60,
                                1e-6 * 20 * simulation.world().bodies.mass[ball]);
             }
 }
