@@ -77,6 +77,14 @@ inline void joint_errors(T (&c)[6], const JointGeometry<T>& joint, const JointPr
     for (int k = 0; k < 6; ++k) c[k] = c[k] - joint.lag[k];
 }
 
+/// The part of an old error that is left for later steps, where one may close it by `most` [m],
+/// [rad]: from 0 to 1.
+template <class T>
+inline T deferred_fraction(const T& squared, const T& most) {
+    const T size = sqrt(squared);
+    return select_greater(size, most, T(1) - most / max(size, T(1e-300)), T(0));
+}
+
 /// What impulses along the rows do to the bodies. `apart`: p_a − p_b at the preview poses [m].
 template <class T>
 inline void joint_axes(JointRows<T>& rows, const JointGeometry<T>& joint, const Velocity<T>& a,

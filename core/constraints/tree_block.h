@@ -19,14 +19,6 @@
 
 namespace plumb {
 
-/// The part of an old error that is left for later steps, where one may close it by `most` [m],
-/// [rad]: from 0 to 1.
-template <class T>
-inline T deferred_fraction(const T& squared, const T& most) {
-    const T size = sqrt(squared);
-    return select_greater(size, most, T(1) - most / max(size, T(1e-300)), T(0));
-}
-
 /// M̂ = [a b; bᵀ d] over (v, ω), and the right-hand side (f, t).
 template <class T>
 struct BodyBlock {

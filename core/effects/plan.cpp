@@ -110,7 +110,8 @@ Wish exact_islands(const World& w) {
     if (std::count(w.settings.require.begin(), w.settings.require.end(), "shock_propagation") > 0)
         return {false, "shock propagation carries all that touches"};
     return {true, "up to " + std::to_string(most) +
-                      " bodies that touch are solved as one system (exact_islands)"};
+                      " bodies that touch are solved as one system, with their joints "
+                      "(exact_islands)"};
 }
 Wish gyroscopic(const World& w) {
     return counted(count_bodies(w, [&](std::size_t i) { return !w.bodies.isotropic[i]; }),

@@ -35,9 +35,6 @@ constexpr double kCalm = 5;
 /// brakes the swing: it must be small against the way of a part.
 constexpr double kFiner = 0.01;
 
-/// An arm of less than this share of the body's radius of gyration counts as if it were as long.
-constexpr double kShort = 0.05;
-
 /// Rounds in which rates are corrected, and a turn that is as good as none [rad].
 constexpr int kMostRounds = 8;
 constexpr double kSameTurn = 1e-10;
@@ -50,25 +47,6 @@ Vector3d pushed_rate(const Bodies& b, std::uint32_t body, const Vector3d& change
     const Vector3d momentum =
         back * b.angular_momentum[body] + b.inertia[body].cwiseProduct(back * change);
     return q * middle_rate<double>(momentum, b.inertia[body], b.inverse_inertia[body], h);
-}
-
-/// How fast what a joint sees of a body turns: the arm, and the axes that it keeps [rad/s].
-double angular_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
-                    const Placement& frame) {
-    if (body == kNoIndex) return 0;
-    const Vector3d& w = b.angular_velocity[body];
-    // an arm that is short against the body's radius of gyration turns it next to nothing
-    const double gyration = std::sqrt(b.inertia[body].maxCoeff() * b.inverse_mass[body]);
-    const double reach = std::max(frame.position.norm(), kShort * gyration);
-    double rate = 0;
-    if (reach > 0) rate = w.cross(b.orientation[body] * frame.position).norm() / reach;
-    const int free = free_turns(joint);
-    if (free == 3) return rate;
-    if (free != 1) return std::max(rate, w.norm());
-    int axis = 0;
-    while (joint.locked[kTurnX + axis]) ++axis;
-    const Vector3d along = b.orientation[body] * (frame.rotation * Vector3d::Unit(axis));
-    return std::max(rate, w.cross(along).norm());
 }
 
 /// Of the joints that turn most [rad/s].

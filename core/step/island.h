@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: MIT
-/// One island as its solver sees it: the bodies that move, and the points at which they touch one
-/// another or what is immovable. Double precision, whatever the rows have.
+/// One island as its solver sees it: the bodies that move, the points at which they touch one
+/// another or what is immovable, and the rows of their joints. Double precision, whatever the rows
+/// of sweeps have.
 ///
 /// Six numbers describe what acts at a point: impulses along the normal and two tangents, then
 /// torques about them, over the point's length ℓ; and velocities likewise, those of turning times ℓ
 /// (constraints/contact_cone.h).
 #pragma once
 
+#include "constraints/axis_drive.h"
 #include "constraints/contact_cone.h"
 #include "math/symmetric.h"
 #include "math/types.h"
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 
@@ -41,12 +44,60 @@ struct IslandPoint {
     Vector6d impulse;  ///< [N s]
 };
 
+/// A row that a joint takes away (constraints/joint_rows.h), or all that drives one of its axes
+/// (constraints/axis_drive.h).
+struct IslandRow {
+    std::uint32_t a, b;   ///< bodies of the island, or kImmovable
+    Vector6d on_a, on_b;  ///< (force, torque) of an impulse of 1; its rate is on · (v, ω)
+    double mass;          ///< effective [kg], [kg m²]
+    double length;        ///< that makes a velocity of the rate: 1, or [m]
+    double moving = 0;    ///< rate of what is immovable and moves by itself
+    double wanted = 0, softness = 0;  ///< of a row that is taken away: rate − wanted + softness λ
+                                      ///< is 0 [m/s], [1/kg], or of turning
+    double most = 0;  ///< more than such a row bears unless others contradict it [N s], [N m s]
+    const AxisDrive* drive = nullptr;  ///< else the force law of the axis
+    double impulse = 0;                ///< λ [N s], [N m s]
+};
+
 /// What a solver reads and improves. Velocities are (v, ω) and follow the impulses.
 struct Island {
     std::span<const IslandBody> bodies;
     std::span<Vector6d> velocity;  ///< [body]
     std::span<IslandPoint> points;
+    std::span<IslandRow> rows;
 };
+
+/// What the island's bodies contribute to the rate of a row if they move by `v`.
+inline double rate_of(const IslandRow& row, std::span<const Vector6d> v) {
+    double rate = 0;
+    if (row.a != kImmovable) rate += row.on_a.dot(v[row.a]);
+    if (row.b != kImmovable) rate += row.on_b.dot(v[row.b]);
+    return rate;
+}
+
+/// Adds a row's impulse to the sums (force, torque) of its bodies.
+inline void add_impulse(const IslandRow& row, double impulse, std::span<Vector6d> sums) {
+    if (row.a != kImmovable) sums[row.a] += impulse * row.on_a;
+    if (row.b != kImmovable) sums[row.b] += impulse * row.on_b;
+}
+
+/// The impulse by which a row that gives way by 1/stiffness answers a rate of the island's bodies,
+/// and how that falls with the rate.
+struct RowAnswer {
+    double impulse, slope;
+};
+inline RowAnswer answer_of(const IslandRow& row, double rate, double stiffness) {
+    if (!row.drive) {
+        const double slope = stiffness / (1 + stiffness * row.softness);
+        const double impulse =
+            row.impulse + slope * (row.wanted - rate - row.softness * row.impulse);
+        if (std::abs(impulse) > row.most) return {std::copysign(row.most, impulse), 0};
+        return {impulse, slope};
+    }
+    const AxisAnswer met = answer_of(*row.drive, rate + row.moving, row.impulse, 1 / stiffness);
+    const double slope = met.is_step ? stiffness : met.slope / (1 + met.slope / stiffness);
+    return {met.impulse, slope};
+}
 
 /// Velocities at a point, of bodies that move by `v`; those of turning are 0 where nothing resists
 /// it.

@@ -2,7 +2,9 @@
 #include "step/island_choice.h"
 
 #include "constraints/contact.h"
+#include "constraints/joint_lever.h"
 #include "contacts/contact_measures.h"
+#include "step/joint_state.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,6 +32,12 @@ constexpr double kJam = 0.0025, kStuck = 0.25;
 /// What rests has been pulled on for a substep already; what is hardly faster counts as resting.
 constexpr double kPulled = 1.05;
 
+/// How far joints may turn within a substep [rad], and the square of h ω of what they pull.
+constexpr double kFarTurn = 0.2, kHardPull = 1;
+
+/// An arm that is none [m].
+constexpr double kNoArm = 1e-15;
+
 /// Length of a substep [s].
 double substep_of(const Settings& settings) { return settings.dt / settings.substeps; }
 
@@ -42,6 +50,30 @@ double calm_speed(const World& world, double radius, double pull) {
 double stuck_share(const Settings& s) {
     const double left = 1 - push_out_share(s.stiffness, substep_of(s));
     return 1 - kStuck * (1 - std::pow(left, s.substeps));
+}
+
+/// What a joint bore along its axes in the substep before, on its a [N s].
+Vector3d impulse_on_a(const World& world, const Joint& joint) {
+    const Vector3d along(joint.rows[kAlongX], joint.rows[kAlongY], joint.rows[kAlongZ]);
+    if (joint.is_plain_ball()) return along;
+    const JointPose pose = joint_pose(world.bodies, joint);
+    if (joint.length > 0) return along[0] * (pose.point_a - pose.point_b).normalized();
+    return pose.axes_b * along;
+}
+
+/// Whether levers of the start of a substep will do for a joint until its end. What pushes a body
+/// at its lever swings nothing.
+bool is_gentle(const World& world, const Joint& joint, double h) {
+    const Bodies& b = world.bodies;
+    const Vector3d impulse = impulse_on_a(world, joint);
+    const auto see = [&](std::uint32_t body, const Placement& frame, double sign) {
+        if (body == kNoIndex || b.motion[body] != Motion::dynamic) return true;
+        if (h * angular_rate(b, joint, body, frame) > kFarTurn) return false;
+        const Vector3d arm = b.orientation[body] * frame.position;
+        const double pull = std::max(0.0, sign * impulse.dot(arm) / std::max(arm.norm(), kNoArm));
+        return lever_load<double>(pull, 0, arm, b.world_inverse_inertia[body], h) <= kHardPull;
+    };
+    return see(joint.a, joint.frame_a, 1) && see(joint.b, joint.frame_b, -1);
 }
 
 }  // namespace
@@ -60,31 +92,58 @@ Vector3d relative_velocity(const World& world, std::uint32_t contact) {
 const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs) {
     stuck_share_ = stuck_share(world.settings);
     jammed_.clear();
-    found_.find(pairs, pairs.empty() ? 0 : world.dynamic_count);
+    links_.clear();
+    if (!pairs.empty()) find_links(world);
+    found_.find(pairs, links_, pairs.empty() ? 0 : world.dynamic_count);
     if (pairs.empty()) return found_;
-    mark_jointed(world);
+    rule_out(world);
     bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     return found_;
 }
 
-void IslandChoice::mark_jointed(const World& world) {
-    jointed_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+void IslandChoice::find_links(const World& world) {
+    const auto row_of = [&](std::uint32_t body) {
+        return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
+    };
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+        const Joint& joint = world.joints.joints[i];
+        if (!joint.broken) links_.push_back({row_of(joint.a), row_of(joint.b), i, 1});
+    }
+}
+
+/// Marks bodies that others have to solve.
+void IslandChoice::rule_out(const World& world) {
+    ruled_out_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     const auto mark = [&](std::uint32_t body) {
         if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
-            jointed_[world.bodies.row[body]] = 1;
+            ruled_out_[world.bodies.row[body]] = 1;
     };
-    for (const Joint& joint : world.joints.joints) mark(joint.a), mark(joint.b);
+    const auto mark_joint = [&](std::uint32_t joint) {
+        mark(world.joints.joints[joint].a), mark(world.joints.joints[joint].b);
+    };
     world.each_body_among_particles(mark);
+    const double h = substep_of(world.settings);
+    const bool iterated = world.settings.joints == JointMethod::iterate;
+    for (const BodyPair& link : links_)
+        if (iterated || !is_gentle(world, world.joints.joints[link.first], h))
+            mark_joint(link.first);
+    for (const JointCoupling& c : world.joints.couplings)
+        mark_joint(c.joint_a), mark_joint(c.joint_b);
+    for (const JointDrive& drive : world.joints.drives)
+        if (drive.kind == DriveKind::motor && drive.spec.motor.mode == MotorMode::velocity &&
+            !std::isfinite(drive.spec.motor.greatest))
+            mark_joint(drive.joint);
 }
 
 bool IslandChoice::is_exact(const World& world, const ContactIsland& island,
                             const std::vector<BodyPair>& pairs) {
     const std::uint32_t n = island.last_body - island.first_body;
-    if (n == 1 &&
+    const bool jointed = island.first_link < island.last_link;
+    if (n == 1 && !jointed &&
         !is_slow(world, world.contacts.found[pairs[found_.pairs()[island.first_pair]].first]))
         return false;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
-        if (jointed_[found_.bodies()[i]]) return false;
+        if (ruled_out_[found_.bodies()[i]]) return false;
     upset_.clear();
     if (n <= world.settings.exact_islands) {
         find_upset(world, island, pairs);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
 /// Which islands are solved exactly, and what becomes of those that are no longer.
 ///
-/// An island is solved exactly where no joint holds its bodies, it has at most
-/// Settings::exact_islands of them, and, unless it is very small, it is calm: what flies and
-/// tumbles needs no exact forces, and they would cost most there. Sweeps are enough for a body that
-/// rolls or slides on what is immovable; one that hardly moves shall not creep.
+/// An island is solved exactly where it has at most Settings::exact_islands bodies and, unless it
+/// is very small, is calm: what flies and tumbles needs no exact forces, and they would cost most
+/// there. Sweeps are enough for a body that rolls or slides on what is immovable; one that hardly
+/// moves shall not creep.
+///
+/// Joints hold an island together as contacts do, and are solved with it. Left to others are
+/// islands with couplings, with motors that nothing can stop, with joints that turn far within a
+/// substep or pull so hard that levers have to turn with them (constraints/joint_lever.h).
 #pragma once
 
 #include "schedule/contact_islands.h"
@@ -25,6 +29,9 @@ public:
     /// Once a step, before the others: finds the islands that pairs make.
     const ContactIslands& find(const World& world, const std::vector<BodyPair>& pairs);
 
+    /// The joint of a link of the islands.
+    std::uint32_t joint_of(std::uint32_t link) const { return links_[link].first; }
+
     bool is_exact(const World& world, const ContactIsland& island,
                   const std::vector<BodyPair>& pairs);
 
@@ -44,7 +51,8 @@ public:
     const std::vector<std::uint32_t>& jammed() const { return jammed_; }
 
 private:
-    void mark_jointed(const World& world);
+    void find_links(const World& world);
+    void rule_out(const World& world);
     bool is_slow(const World& world, const Contact& contact) const;
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
@@ -57,11 +65,12 @@ private:
                      const std::vector<BodyPair>& pairs);
 
     ContactIslands found_;
-    double stuck_share_ = 1;             ///< of an overlap, from which it counts as left as it was
-    std::vector<std::uint8_t> jointed_;  // [dynamic row]
-    std::vector<double> bears_;          // [dynamic row], see goes_on [N s]
-    std::vector<std::uint8_t> weighed_;  // [body of an island]
-    std::vector<BodyPair> upset_;        // of an island: what is jammed or too deep
+    double stuck_share_ = 1;               ///< of an overlap, from which it counts as left
+    std::vector<BodyPair> links_;          // of joints, and which
+    std::vector<std::uint8_t> ruled_out_;  // [dynamic row]
+    std::vector<double> bears_;            // [dynamic row], see goes_on [N s]
+    std::vector<std::uint8_t> weighed_;    // [body of an island]
+    std::vector<BodyPair> upset_;          // of an island: what is jammed or too deep
     std::vector<std::uint32_t> jammed_;
 };
 

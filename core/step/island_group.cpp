@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 namespace {
@@ -19,6 +20,12 @@ constexpr double kThrust = 100, kBlow = 10;
 /// An overlap that sticks is left as it is from when the contact bears more than this share of the
 /// most it may: each substep's push would only wind up the stress that locks them.
 constexpr double kLocked = 0.1;
+
+/// A joint may bear so many times more: levers and toggles multiply what they bear.
+constexpr double kLever = 100;
+
+/// How often an island is solved until its joints are closed.
+constexpr int kCloses = 8;
 
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
@@ -43,10 +50,27 @@ double closing_velocity(double gap, double h, const PushOut& push_out) {
     return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
 }
 
+double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
+    double twice = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        twice += velocity[i].dot(momentum(bodies[i], velocity[i]));
+    return 0.5 * twice;
+}
+
+/// Of a driven axis, as far as its bounds or the substep before tell.
+double greatest_impulse(const IslandRow& row) {
+    double most = std::abs(row.impulse);
+    for (int i = 0; i < row.drive->n; ++i)
+        for (const double bound : {row.drive->rows[i].lowest, row.drive->rows[i].highest})
+            if (std::isfinite(bound)) most = std::max(most, std::abs(bound));
+    return most;
+}
+
 }  // namespace
 
-IslandGroup::IslandGroup(const Plan& plan, Workers& workers)
+IslandGroup::IslandGroup(const Plan& plan, Workers& workers, std::vector<std::uint8_t>& in_island)
     : workers_(workers),
+      in_island_(in_island),
       has_friction_(plan.runs(Effect::friction)),
       resists_rolling_(plan.runs(Effect::turning_friction)),
       solvers_(workers.count()) {}
@@ -55,7 +79,8 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers)
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0;
-    bodies_.clear(), points_.clear(), locked_.clear(), contacts_.clear();
+    bodies_.clear(), points_.clear(), locked_.clear(), contacts_.clear(), joints_.clear();
+    std::fill(in_island_.begin(), in_island_.end(), 0);
     const ContactIslands& found = choice_.find(world, pairs);
     if (pairs.empty()) return;
     taken_.assign(pairs.size(), 0);
@@ -81,26 +106,36 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     const std::uint32_t n = island.last_body - island.first_body;
     member.first_body = static_cast<std::uint32_t>(bodies_.size());
     member.first_point = static_cast<std::uint32_t>(points_.size());
+    member.first_joint = joints_.size();
     bodies_.resize(bodies_.size() + n);
 
     pattern_.clear();
+    const auto place = [&](std::uint32_t body) {
+        if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic) return kImmovable;
+        const std::uint32_t here = found.index_in_island(world.bodies.row[body]);
+        bodies_[member.first_body + here].body = body;
+        return here;
+    };
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const std::uint32_t at = found.pairs()[i];
         const BodyPair& pair = pairs[at];
         taken_[at] = 1;
-        const auto place = [&](std::int32_t row, std::uint32_t body) {
-            if (row >= world.dynamic_count) return kImmovable;
-            const std::uint32_t here = found.index_in_island(row);
-            bodies_[member.first_body + here].body = body;
-            return here;
-        };
         const Contact& first = world.contacts.found[pair.first];
-        const std::uint32_t a = place(pair.row_a, first.a), b = place(pair.row_b, first.b);
+        const std::uint32_t a = place(first.a), b = place(first.b);
         if (a != kImmovable && b != kImmovable) pattern_.emplace_back(a, b);
         for (std::uint32_t k = 0; k < pair.count; ++k) add_point(world, pair.first + k, a, b);
     }
+    for (std::uint32_t i = island.first_link; i < island.last_link; ++i) {
+        const std::uint32_t index = choice_.joint_of(found.links()[i]);
+        const Joint& joint = world.joints.joints[index];
+        const std::uint32_t a = place(joint.a), b = place(joint.b);
+        if (a != kImmovable && b != kImmovable) pattern_.emplace_back(a, b);
+        joints_.add(world, index, a, b);
+        in_island_[index] = 1;
+    }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
+    member.last_joint = joints_.size();
     if (member.system.rows() == n && member.pattern == pattern_) return;
     member.pattern = pattern_;
     member.system.analyse(n, pattern_);
@@ -174,24 +209,35 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
         start_[i] << world.bodies.velocity[body], world.bodies.angular_velocity[body];
         velocity_[i] = start_[i];
     }
+    joints_.begin(world, substep_time(world, h));
+    if (!world.settings.warm_start) forget_impulses();
+    apply_impulses();
     std::uint32_t clamped = 0;
     for (std::size_t i = 0; i < count_; ++i) {
         Member& member = members_[i];
+        joints_.ask(member.first_joint, member.last_joint, velocities_of(member));
         member.speed = speed_of(world, member, h, push_out);
         const double most = strongest(world, member, h);
+        const double thrust = thrust_of(world, member, h);
+        for (IslandRow& row : joints_.rows(member.first_joint, member.last_joint)) {
+            row.most = kLever * most * row.length;
+            if (row.softness == 0 && thrust > 0)
+                row.softness =
+                    world.settings.joint_tolerance / (h * thrust * row.length * row.length);
+        }
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
             ask(world, k, h, push_out, kCreep * member.speed);
             clamped += -world.contacts.gap[contacts_[k]] > push_out.most;
         }
     }
-    apply_impulses();
     return clamped;
 }
 
-/// How fast contacts approach or part if nothing pushes, or how fast an overlap shall go.
+/// How fast contacts approach or part, and joints open, if nothing pushes, or how fast an overlap
+/// shall go [m/s].
 double IslandGroup::speed_of(const World& world, const Member& member, double h,
-                             const PushOut& push_out) const {
+                             const PushOut& push_out) {
     const ContactTable& c = world.contacts;
     double speed = 0;
     for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
@@ -200,17 +246,35 @@ double IslandGroup::speed_of(const World& world, const Member& member, double h,
         const double normal = to_eigen(contact.normal).dot(relative_velocity(world, contacts_[k]));
         speed = std::max({speed, std::abs(normal), closing_velocity(overlap, h, push_out)});
     }
+    const std::span<const Vector6d> start(start_.data() + member.first_body,
+                                          member.last_body - member.first_body);
+    for (const IslandRow& row : joints_.rows(member.first_joint, member.last_joint)) {
+        IslandRow bare = row;
+        bare.impulse = 0, bare.most = std::numeric_limits<double>::infinity();
+        const double asked = answer_of(bare, rate_of(row, start), row.mass).impulse;
+        speed = std::max(speed, row.length * std::abs(asked) / row.mass);
+    }
     return speed;
 }
 
-/// More than any contact bears that can be satisfied [N s].
-double IslandGroup::strongest(const World& world, const Member& member, double h) const {
-    double mass = 0, weight = 0;
+/// The most that its bodies' weight and speed give an island in a substep [N s].
+double IslandGroup::thrust_of(const World& world, const Member& member, double h) const {
+    double thrust = 0;
+    for (std::uint32_t i = member.first_body; i < member.last_body; ++i)
+        thrust += bodies_[i].mass * std::max(h * pull_on(world, bodies_[i].body), member.speed);
+    return thrust;
+}
+
+/// More than any contact bears that can be satisfied [N s]; motors push as hard as they can.
+double IslandGroup::strongest(const World& world, const Member& member, double h) {
+    double mass = 0, weight = 0, driven = 0;
     for (std::uint32_t i = member.first_body; i < member.last_body; ++i) {
         mass += bodies_[i].mass;
         weight += bodies_[i].mass * pull_on(world, bodies_[i].body);
     }
-    return kThrust * weight * h + kBlow * mass * member.speed;
+    for (const IslandRow& row : joints_.rows(member.first_joint, member.last_joint))
+        if (row.drive) driven += greatest_impulse(row) / row.length;
+    return kThrust * weight * h + kBlow * mass * member.speed + kBlow * driven;
 }
 
 /// What the substep asks of a point; velocities below `least` [m/s] are asked for as 0.
@@ -250,7 +314,11 @@ void IslandGroup::ask(const World& world, std::size_t k, double h, const PushOut
     p.wanted.head<3>() = across - p.frame.transpose() * moving;
     p.wanted[0] += normal;
     if (p.cone.turns()) p.wanted.tail<3>() = -p.length * (p.frame.transpose() * turning);
-    if (!s.warm_start) p.impulse.setZero();
+}
+
+void IslandGroup::forget_impulses() {
+    for (IslandPoint& p : points_) p.impulse.setZero();
+    for (IslandRow& row : joints_.rows(0, joints_.size())) row.impulse = 0;
 }
 
 /// The impulses that the substep starts from, to the velocities.
@@ -261,6 +329,8 @@ void IslandGroup::apply_impulses() {
         const std::span<Vector6d> sums(force_.data() + m.first_body, m.last_body - m.first_body);
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
             add_impulse(points_[k], points_[k].impulse, sums);
+        for (const IslandRow& row : joints_.rows(m.first_joint, m.last_joint))
+            add_impulse(row, row.impulse, sums);
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         velocity_[i] += response(bodies_[i], force_[i]);
@@ -270,20 +340,43 @@ Island IslandGroup::island_of(const Member& m) {
     const std::size_t bodies = m.last_body - m.first_body, points = m.last_point - m.first_point;
     return {{bodies_.data() + m.first_body, bodies},
             {velocity_.data() + m.first_body, bodies},
-            {points_.data() + m.first_point, points}};
+            {points_.data() + m.first_point, points},
+            joints_.rows(m.first_joint, m.last_joint)};
 }
 
-std::uint32_t IslandGroup::solve() {
-    workers_.run([this](std::uint32_t worker) {
-        for (std::size_t i = worker; i < count_; i += workers_.count()) {
-            Member& member = members_[i];
-            member.solved =
-                solvers_[worker].solve(island_of(member), member.system, member.speed).solved;
-        }
+std::span<const Vector6d> IslandGroup::velocities_of(const Member& m) const {
+    return {velocity_.data() + m.first_body, m.last_body - m.first_body};
+}
+
+void IslandGroup::solve(const World& world, StepReport& report) {
+    workers_.run([&](std::uint32_t worker) {
+        for (std::size_t i = worker; i < count_; i += workers_.count())
+            solve(solvers_[worker], world.settings.joint_tolerance, members_[i]);
     });
-    return static_cast<std::uint32_t>(
-        std::count_if(members_.begin(), members_.begin() + static_cast<std::ptrdiff_t>(count_),
-                      [](const Member& member) { return !member.solved; }));
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Member& member = members_[i];
+        report.unsolved_islands += !member.solved;
+        if (member.open > world.settings.joint_tolerance)
+            report.open_trees.push_back({joints_.joint(member.first_joint), member.open});
+    }
+}
+
+/// Joints are not linear: what a solution leaves open of them is asked for again. One that does not
+/// close them must add no energy.
+void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
+    const Island island = island_of(m);
+    const auto ask = [&] { m.open = joints_.ask(m.first_joint, m.last_joint, island.velocity); };
+    for (int i = 0; i < kCloses; ++i) {
+        m.solved = solver.solve(island, m.system, m.speed).solved;
+        ask();
+        if (!(m.open > tolerance) || (!m.solved && i > 0)) break;
+    }
+    if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;
+    const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
+    if (kinetic_energy(island.bodies, island.velocity) <= kinetic_energy(island.bodies, start))
+        return;
+    solver.sweep_anew(island, ask);
+    ask();
 }
 
 void IslandGroup::take_changes(Bodies& bodies) const {
@@ -300,6 +393,13 @@ void IslandGroup::add_impulses(ContactSums& sums) const {
     for (std::size_t k = 0; k < points_.size(); ++k) {
         const IslandPoint& p = points_[k];
         sums.add(contacts_[k], p.impulse[0], p.frame.rightCols<2>() * p.impulse.segment<2>(1));
+    }
+}
+
+void IslandGroup::store_impulses(JointTable& joints) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Member& m = members_[i];
+        joints_.store_impulses(m.first_joint, m.last_joint, velocities_of(m), joints);
     }
 }
 

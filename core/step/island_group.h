@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: MIT
 /// The islands that are solved exactly: from the world's tables to the solver's, and back.
 ///
-/// Their contacts are taken out of the sweeps.
+/// Their contacts are taken out of the sweeps, and their joints out of the trees and iterations.
 #pragma once
 
 #include "constraints/contact.h"
 #include "contacts/contact_sums.h"
 #include "effects/plan.h"
+#include "effects/report.h"
 #include "schedule/workers.h"
 #include "step/island_choice.h"
+#include "step/island_joints.h"
 #include "step/island_solver.h"
 #include "world/world.h"
 
@@ -18,7 +20,8 @@ namespace plumb {
 
 class IslandGroup {
 public:
-    IslandGroup(const Plan& plan, Workers& workers);
+    /// `in_island` [joint]: which joints are solved here, written once a step.
+    IslandGroup(const Plan& plan, Workers& workers, std::vector<std::uint8_t>& in_island);
 
     /// Once a step: takes the pairs of its islands out of `pairs`, and the impulses that their
     /// contacts remember.
@@ -31,8 +34,8 @@ public:
     /// Returns how many contacts overlap deeper than what is pushed out.
     std::uint32_t begin(const World& world, double h, const PushOut& push_out);
 
-    /// Returns how many islands still miss the law of contact.
-    std::uint32_t solve();
+    /// Reports the islands that still miss their laws, and joints that are open.
+    void solve(const World& world, StepReport& report);
 
     /// Adds what the substep changed to the bodies' velocities.
     void take_changes(Bodies& bodies) const;
@@ -40,15 +43,18 @@ public:
     /// Adds what the contacts bear in this substep.
     void add_impulses(ContactSums& sums) const;
 
+    /// Once a substep, impulses of joints; once a step, those of contacts.
+    void store_impulses(JointTable& joints) const;
     void store_impulses(ContactTable& contacts) const;
 
 private:
     struct Member {
-        std::uint32_t first_body, last_body, first_point, last_point;
-        double speed;  // at which its contacts would approach in this substep [m/s]
+        std::uint32_t first_body, last_body, first_point, last_point, first_joint, last_joint;
+        double speed;  // at which its contacts and joints would part in this substep [m/s]
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
         bool solved;
+        double open;  // the worst joint [m], [rad]
     };
     void take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
@@ -56,15 +62,19 @@ private:
     void take_memory(const World& world);
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
-    double speed_of(const World& world, const Member& member, double h,
-                    const PushOut& push_out) const;
-    double strongest(const World& world, const Member& member, double h) const;
+    void solve(IslandSolver& solver, double tolerance, Member& member);
+    double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
+    double strongest(const World& world, const Member& member, double h);
+    double thrust_of(const World& world, const Member& member, double h) const;
     void ask(const World& world, std::size_t point, double h, const PushOut& push_out,
              double least);
+    void forget_impulses();
     void apply_impulses();
     Island island_of(const Member& member);
+    std::span<const Vector6d> velocities_of(const Member& member) const;
 
     Workers& workers_;
+    std::vector<std::uint8_t>& in_island_;
     bool has_friction_, resists_rolling_;
     IslandChoice choice_;
     std::vector<std::uint8_t> taken_;  // [pair]
@@ -76,7 +86,8 @@ private:
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
     std::vector<IslandPoint> points_;
-    std::vector<std::uint8_t> locked_;     // [point] whether it is pushed out no more
+    std::vector<std::uint8_t> locked_;  // [point] whether it is pushed out no more
+    IslandJoints joints_;
     std::vector<std::uint32_t> contacts_;  // [point] in the contact table
     std::vector<IslandSolver> solvers_;    // [worker]
 };

@@ -21,6 +21,12 @@ constexpr double kSolved = 1e-6;
 constexpr double kSoftnessShare = 0.3;
 constexpr double kSoftest = 1, kHard = 1e-6, kHardest = 1e-11;
 
+/// γ of what a joint takes away: it is never let go, so that no search is needed for it.
+constexpr double kJoint = 1e-7;
+
+/// γ of what drives a joint need not be more than this.
+constexpr double kGentle = 1e-3;
+
 /// By which γ grows where Newton's method did not end, and shrinks where a round leaves more than
 /// this share of the residual: heavy bodies on light ones, and the slowest modes of a large heap,
 /// feel a soft contact for many rounds. Near the end it is γ's lower bound that shrinks.
@@ -40,7 +46,7 @@ constexpr std::uint32_t kEnoughFactorisations = 60;
 constexpr double kFast = 2, kClear = 100;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kNewtonSteps = 20, kLineSteps = 20, kSweepsAnew = 5;
+constexpr int kNewtonSteps = 20, kLineSteps = 20;
 
 /// [r]ₓ: what multiplies ω to give r × ω.
 Matrix3d skew(const Vector3d& r) {
@@ -55,6 +61,18 @@ Matrix6d mass_matrix(const IslandBody& b) {
     const Symmetric3<double>& i = b.inertia;
     m.bottomRightCorner<3, 3>() << i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz;
     return m;
+}
+
+/// Between the bounds of what holds an axis [N s], [N m s]: an error must not take it from one to
+/// the other.
+double span_of(const AxisDrive& drive) {
+    double span = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < drive.n; ++i) {
+        const DriveRow& row = drive.rows[i];
+        if (!(row.softness > 0) && row.highest > row.lowest)
+            span = std::min(span, row.highest - row.lowest);
+    }
+    return span;
 }
 
 }  // namespace
@@ -72,7 +90,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     report.residual = residual();
     const bool may_stand = report.residual > kFar * speed && most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
-    if (report.residual > speed) start_anew();
+    if (report.residual > speed) sweep_anew(island, [] {});
     report.solved = report.residual <= kSolved * speed;
     return report;
 }
@@ -83,6 +101,8 @@ bool IslandSolver::stands(IslandReport& report, double speed) {
     kept_velocity_.assign(island_.velocity.begin(), island_.velocity.end());
     kept_impulse_.clear();
     for (const IslandPoint& p : island_.points) kept_impulse_.push_back(p.impulse);
+    kept_row_impulse_.clear();
+    for (const IslandRow& row : island_.rows) kept_row_impulse_.push_back(row.impulse);
     const double residual_before = report.residual;
 
     shifts_ = false;
@@ -95,6 +115,8 @@ bool IslandSolver::stands(IslandReport& report, double speed) {
     std::copy(kept_velocity_.begin(), kept_velocity_.end(), island_.velocity.begin());
     for (std::size_t k = 0; k < kept_impulse_.size(); ++k)
         island_.points[k].impulse = kept_impulse_[k];
+    for (std::size_t k = 0; k < kept_row_impulse_.size(); ++k)
+        island_.rows[k].impulse = kept_row_impulse_[k];
     report.residual = residual_before;
     return false;
 }
@@ -112,7 +134,7 @@ void IslandSolver::improve(IslandReport& report, double speed) {
     };
     for (int round = 0; goes_on(round); ++round) {
         const double before = report.residual;
-        begin_round(softness(share * before, hard));
+        begin_round(softness(share * before, hard), before);
         const bool found = minimise(kExact * before, report.factorisations);
         if (found)
             take_impulses();
@@ -128,13 +150,12 @@ void IslandSolver::improve(IslandReport& report, double speed) {
     }
 }
 
-/// Where nothing was found: sweeps from impulses of 0, which can make no more of it than there is.
-void IslandSolver::start_anew() {
+void IslandSolver::forget_impulses() {
     for (IslandPoint& p : island_.points) {
         push(p, -p.impulse);
         p.impulse.setZero();
     }
-    for (int i = 0; i < kSweepsAnew; ++i) sweep_both_ways();
+    for (IslandRow& row : island_.rows) push(row, -row.impulse);
 }
 
 /// γ for an error of so much velocity [m/s], and no less than `hard` where masses are alike. What a
@@ -143,6 +164,8 @@ double IslandSolver::softness(double error, double hard) const {
     double strongest = 0, lightest = island_.bodies[0].mass, heaviest = lightest;
     for (const IslandPoint& p : island_.points)
         strongest = std::max(strongest, p.impulse[0] / p.mass);
+    for (const IslandRow& row : island_.rows)
+        strongest = std::max(strongest, std::abs(row.impulse) / row.mass * row.length);
     for (const IslandBody& b : island_.bodies) {
         lightest = std::min(lightest, b.mass);
         heaviest = std::max(heaviest, b.mass);
@@ -174,6 +197,11 @@ double IslandSolver::residual() const {
         const Vector6d off = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
         worst = std::max(worst, off.cwiseAbs().maxCoeff() / p.mass);
     }
+    for (const IslandRow& row : island_.rows) {
+        const double rate = rate_of(row, island_.velocity);
+        const double off = answer_of(row, rate, row.mass).impulse - row.impulse;
+        worst = std::max(worst, std::abs(off) / row.mass * row.length);
+    }
     return worst;
 }
 
@@ -197,26 +225,43 @@ void IslandSolver::sweep_both_ways() {
     sweep(false);
 }
 
-/// One projected Gauss–Seidel sweep: of each point the normal first, then the rest within its
-/// bounds.
-void IslandSolver::sweep(bool forwards) {
-    const std::size_t n = island_.points.size();
-    for (std::size_t k = 0; k < n; ++k) {
-        IslandPoint& p = island_.points[forwards ? k : n - 1 - k];
-        Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
-        Vector6d more = Vector6d::Zero();
-        more[0] = std::clamp(p.mass_normal * lack[0], -p.impulse[0], p.cone.most - p.impulse[0]);
-        p.impulse[0] += more[0];
-        push(p, more);
-        lack = p.wanted - velocity_of(p, island_.velocity);
-        lack[0] = 0;
-        more = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
-        p.impulse += more;
-        push(p, more);
-    }
+/// The same of a row, which remembers it.
+void IslandSolver::push(IslandRow& row, double impulse) {
+    row.impulse += impulse;
+    const auto push_body = [&](std::uint32_t i, const Vector6d& on) {
+        if (i != kImmovable) island_.velocity[i] += response(island_.bodies[i], impulse * on);
+    };
+    push_body(row.a, row.on_a);
+    push_body(row.b, row.on_b);
 }
 
-void IslandSolver::begin_round(double softness) {
+/// One projected Gauss–Seidel sweep.
+void IslandSolver::sweep(bool forwards) {
+    const auto each = [forwards](auto& all, auto&& visit) {
+        const std::size_t n = all.size();
+        for (std::size_t k = 0; k < n; ++k) visit(all[forwards ? k : n - 1 - k]);
+    };
+    each(island_.rows, [&](IslandRow& row) {
+        push(row, answer_of(row, rate_of(row, island_.velocity), row.mass).impulse - row.impulse);
+    });
+    each(island_.points, [&](IslandPoint& p) { sweep(p); });
+}
+
+/// The normal first, then the rest within its bounds.
+void IslandSolver::sweep(IslandPoint& p) {
+    Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
+    Vector6d more = Vector6d::Zero();
+    more[0] = std::clamp(p.mass_normal * lack[0], -p.impulse[0], p.cone.most - p.impulse[0]);
+    p.impulse[0] += more[0];
+    push(p, more);
+    lack = p.wanted - velocity_of(p, island_.velocity);
+    lack[0] = 0;
+    more = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
+    p.impulse += more;
+    push(p, more);
+}
+
+void IslandSolver::begin_round(double softness, double error) {
     change_.assign(island_.bodies.size(), Vector6d::Zero());
     work_.resize(island_.points.size());
     for (std::size_t k = 0; k < work_.size(); ++k) {
@@ -226,6 +271,14 @@ void IslandSolver::begin_round(double softness) {
         Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
         if (shifts_) lack[0] -= slip_shift(p.impulse, lack, creep_, p.cone);
         w.z = p.impulse + w.stiffness * lack;
+    }
+    row_work_.clear();
+    for (const IslandRow& row : island_.rows) {
+        const double hardest = row.mass / (row.drive ? softness : kJoint);
+        double gentle = hardest;
+        if (row.drive)
+            gentle = std::max(span_of(*row.drive) * row.length / error, row.mass / kGentle);
+        row_work_.push_back({std::min(hardest, gentle), rate_of(row, island_.velocity), 0});
     }
 }
 
@@ -245,9 +298,12 @@ bool IslandSolver::minimise(double enough, std::uint32_t& factorisations) {
         if (!(decrease > 0)) return true;
         for (std::size_t k = 0; k < work_.size(); ++k)
             work_[k].direction = velocity_of(island_.points[k], direction_);
+        for (std::size_t k = 0; k < row_work_.size(); ++k)
+            row_work_[k].direction = rate_of(island_.rows[k], direction_);
         const double step = step_length(decrease);
         for (std::size_t b = 0; b < direction_.size(); ++b) change_[b] += step * direction_[b];
         for (PointWork& w : work_) w.z -= (step * w.stiffness) * w.direction;
+        for (RowWork& w : row_work_) w.rate += step * w.direction;
     }
     return false;
 }
@@ -262,6 +318,11 @@ double IslandSolver::find_downhill() {
         const IslandPoint& p = island_.points[k];
         add_impulse(p, nearest_on_cone(work_[k].z, p.cone).impulse - p.impulse, downhill_);
     }
+    for (std::size_t k = 0; k < row_work_.size(); ++k) {
+        const IslandRow& row = island_.rows[k];
+        const RowWork& w = row_work_[k];
+        add_impulse(row, answer_of(row, w.rate, w.stiffness).impulse - row.impulse, downhill_);
+    }
     double off = 0;
     for (std::size_t b = 0; b < downhill_.size(); ++b) {
         const IslandBody& body = island_.bodies[b];
@@ -270,7 +331,8 @@ double IslandSolver::find_downhill() {
     return std::sqrt(off);
 }
 
-/// Second derivatives, block by block: M, and of each point [E, −[r]ₓ]ᵀ K [E, −[r]ₓ].
+/// Second derivatives, block by block: M, of each point [E, −[r]ₓ]ᵀ K [E, −[r]ₓ], and of each row
+/// on k onᵀ.
 void IslandSolver::assemble() {
     system_->clear();
     for (std::size_t b = 0; b < island_.bodies.size(); ++b)
@@ -306,6 +368,16 @@ void IslandSolver::assemble() {
         if (p.b != kImmovable) system_->add(p.b, block(rb, rb, 1));
         if (p.a != kImmovable && p.b != kImmovable) system_->add(p.a, p.b, block(ra, rb, -1));
     }
+    for (std::size_t k = 0; k < row_work_.size(); ++k) {
+        const IslandRow& row = island_.rows[k];
+        const double slope = answer_of(row, row_work_[k].rate, row_work_[k].stiffness).slope;
+        if (slope == 0) continue;
+        const Vector6d on_a = slope * row.on_a, on_b = slope * row.on_b;
+        if (row.a != kImmovable) system_->add(row.a, on_a * row.on_a.transpose());
+        if (row.b != kImmovable) system_->add(row.b, on_b * row.on_b.transpose());
+        if (row.a != kImmovable && row.b != kImmovable)
+            system_->add(row.a, row.b, on_a * row.on_b.transpose());
+    }
 }
 
 /// Derivative of what is minimised along the direction; rises with the step.
@@ -318,6 +390,12 @@ double IslandSolver::slope(double step) const {
         const IslandPoint& p = island_.points[k];
         const Vector6d z = w.z - (step * w.stiffness) * w.direction;
         sum -= (nearest_on_cone(z, p.cone).impulse - p.impulse).dot(w.direction);
+    }
+    for (std::size_t k = 0; k < row_work_.size(); ++k) {
+        const RowWork& w = row_work_[k];
+        const IslandRow& row = island_.rows[k];
+        const RowAnswer answer = answer_of(row, w.rate + step * w.direction, w.stiffness);
+        sum -= (answer.impulse - row.impulse) * w.direction;
     }
     return sum;
 }
@@ -349,6 +427,11 @@ void IslandSolver::take_impulses() {
         const Vector6d more = nearest_on_cone(work_[k].z, p.cone).impulse - p.impulse;
         p.impulse += more;
         push(p, more);
+    }
+    for (std::size_t k = 0; k < row_work_.size(); ++k) {
+        IslandRow& row = island_.rows[k];
+        const RowWork& w = row_work_[k];
+        push(row, answer_of(row, w.rate, w.stiffness).impulse - row.impulse);
     }
 }
 

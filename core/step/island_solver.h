@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Solves the contacts of one island until the law of contact holds, whatever its shape.
+/// Solves the contacts and joints of one island until their laws hold, whatever its shape.
 ///
 /// Sweeps leave an error that dies away the more slowly the taller a structure is: a tower of n
 /// boxes bends by an error that takes n⁴ sweeps. Here all contacts are solved as one system. With
@@ -11,7 +11,8 @@
 /// is made of 6 × 6 blocks on the graph of the island. γ is how soft a contact is against its
 /// bodies. The next round starts from the impulses of this one, so that nothing is left of γ in the
 /// end (the proximal point method), and corrects the normal velocity of what slides (de Saxcé's
-/// shift). What may stand is first solved without that shift: if it sticks, it is right.
+/// shift). What may stand is first solved without that shift: if it sticks, it is right. Rows of
+/// joints, with the force laws of what drives them, are terms of the same sum.
 ///
 /// Sources: convex contact of Anitescu (2006) and Castro et al. (2022), proximal rounds after
 /// Rockafellar (1976), the shift as a fixed point after Acary and Cadoux (2013).
@@ -38,23 +39,41 @@ public:
     /// what may be missed.
     IslandReport solve(const Island& island, BlockCholesky& system, double speed);
 
+    /// Where nothing was found: sweeps, until `ask` has been called so often. Begun from impulses
+    /// of 0, they can make no more of it than there is.
+    template <class Ask>
+    void sweep_anew(const Island& island, Ask ask) {
+        island_ = island;
+        forget_impulses();
+        for (int i = 0; i < kSweepsAnew; ++i) ask(), sweep_both_ways();
+    }
+
 private:
+    static constexpr int kSweepsAnew = 5;
+
     struct PointWork {
         double stiffness;    ///< m/γ [kg]
         Vector6d z;          ///< λ₀ + m/γ (w − u) at the velocities now
         Vector6d direction;  ///< of u, along which the line is searched
+    };
+    struct RowWork {
+        double stiffness;  ///< m/γ [kg], [kg m²]
+        double rate;       ///< at the velocities now
+        double direction;  ///< of the rate
     };
 
     bool stands(IslandReport& report, double speed);
     void improve(IslandReport& report, double speed);
     double most_shift() const;
     double residual() const;
-    void start_anew();
+    void forget_impulses();
     double softness(double error, double hard) const;
     void sweep_both_ways();
     void sweep(bool forwards);
     void push(const IslandPoint& p, const Vector6d& impulse);
-    void begin_round(double softness);
+    void push(IslandRow& row, double impulse);
+    void sweep(IslandPoint& p);
+    void begin_round(double softness, double error);
     bool minimise(double enough, std::uint32_t& factorisations);
     double find_downhill();
     void assemble();
@@ -64,12 +83,14 @@ private:
 
     Island island_;
     BlockCholesky* system_ = nullptr;
-    double creep_ = 0;             ///< slip that is not shifted away [m/s]
-    bool shifts_ = true;           ///< whether what slides is shifted (de Saxcé)
-    std::vector<PointWork> work_;  // [point]
+    double creep_ = 0;               ///< slip that is not shifted away [m/s]
+    bool shifts_ = true;             ///< whether what slides is shifted (de Saxcé)
+    std::vector<PointWork> work_;    // [point]
+    std::vector<RowWork> row_work_;  // [row]
     std::vector<Vector6d> change_, downhill_, direction_;  // [body]
     std::vector<Vector6d> kept_velocity_;                  // [body]
     std::vector<Vector6d> kept_impulse_;                   // [point]
+    std::vector<double> kept_row_impulse_;                 // [row]
 };
 
 }  // namespace plumb

@@ -17,9 +17,11 @@ namespace plumb {
 template <class Real, int W>
 class JointSolver final : public ConstraintGroup<Real> {
 public:
-    /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another.
-    JointSolver(const World& world, const std::vector<std::uint8_t>& elsewhere, Workers& workers)
-        : kernels_(joint_kernels<Real, W>()), workers_(workers) {
+    /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another; `in_island`
+    /// [joint]: the same in this step.
+    JointSolver(const World& world, const std::vector<std::uint8_t>& elsewhere,
+                const std::vector<std::uint8_t>& in_island, Workers& workers)
+        : kernels_(joint_kernels<Real, W>()), in_island_(in_island), workers_(workers) {
         lay_out(world, elsewhere);
     }
 
@@ -33,6 +35,12 @@ public:
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
         const auto& joints = world.joints.joints;
+        for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
+            BallFrames<W>& frames = frames_[balls_.index(i)];
+            frames.used[balls_.lane(i)] = !in_island_[ball_joints_[i]];
+            frames.load[balls_.lane(i)] =
+                load_of(joints[ball_joints_[i]], kAlongX, JointSolve::iterations);
+        }
         kernels_.begin_balls(balls_.data(), frames_.data(), states_of(world.bodies), h,
                              frames_.size());
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
@@ -58,23 +66,28 @@ public:
     void end_substep(World& world) override {
         JointTable& table = world.joints;
         for (const std::uint32_t i : driven_)
-            table.drives[i].impulse_before = table.drives[i].impulse;
+            if (!in_island_[table.drives[i].joint])
+                table.drives[i].impulse_before = table.drives[i].impulse;
         for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
+            if (in_island_[ball_joints_[i]]) continue;
             Joint& joint = table.joints[ball_joints_[i]];
             auto& rows = joint.rows;
             joint.rows_before = rows;
             const std::uint32_t lane = balls_.lane(i);
             for (int k = 0; k < 3; ++k) rows[k] = double(balls_.block(i).impulse[k][lane]);
-            frames_[balls_.index(i)].load[lane] = load_of(joint, kAlongX, JointSolve::iterations);
         }
         for (std::size_t i = 0; i < block_joints_.size(); ++i) {
+            if (in_island_[block_joints_[i]]) continue;
             Joint& joint = table.joints[block_joints_[i]];
             joint.rows_before = joint.rows;
             for (int k = 0; k < 6; ++k)
                 joint.rows[k] = double(blocks_.block(i).lambda[k][blocks_.lane(i)]);
         }
-        for (std::size_t i = 0; i < driven_.size(); ++i)
-            table.drives[driven_[i]].impulse = double(drives_.block(i).lambda[drives_.lane(i)]);
+        for (std::size_t i = 0; i < driven_.size(); ++i) {
+            JointDrive& drive = table.drives[driven_[i]];
+            if (!in_island_[drive.joint])
+                drive.impulse = double(drives_.block(i).lambda[drives_.lane(i)]);
+        }
         couplings_.store_impulses(table);
     }
 
@@ -120,13 +133,11 @@ private:
         for (int k = 0; k < 3; ++k) to[k][lane] = static_cast<Real>(v[k]);
     }
 
-    /// Where the balls' points are on their bodies, and what they bore.
+    /// Where the balls' points are on their bodies.
     void place_ball(const Joint& joint, std::size_t item) {
         BallFrames<W>& frames = frames_[balls_.index(item)];
         const std::uint32_t lane = balls_.lane(item);
-        frames.used[lane] = 1;
         frames.held[lane] = joint.b == kNoIndex;
-        frames.load[lane] = load_of(joint, kAlongX, JointSolve::iterations);
         frames.body_a[lane] = joint.a;
         frames.body_b[lane] = joint.b == kNoIndex ? joint.a : joint.b;
         for (int k = 0; k < 3; ++k) {
@@ -136,6 +147,7 @@ private:
     }
 
     void fill_block(const World& world, const Joint& joint, std::size_t item, double h) {
+        const bool in_island = in_island_[block_joints_[item]] != 0;
         JointBlock<Real, W>& block = blocks_.block(item);
         const std::uint32_t lane = blocks_.lane(item);
         const JointGeometry<double> g =
@@ -147,7 +159,7 @@ private:
             put(block.e[k], lane, g.e[k]), put(block.u[k], lane, g.u[k]),
                 put(block.w[k], lane, g.w[k]);
         for (std::uint32_t k = 0; k < kJointAxes; ++k) {
-            block.lock[k][lane] = static_cast<Real>(g.lock[k]);
+            block.lock[k][lane] = static_cast<Real>(in_island ? 0 : g.lock[k]);
             block.softness[k][lane] = static_cast<Real>(g.softness[k]);
             block.lag[k][lane] = static_cast<Real>(g.lag[k]);
             block.lambda[k][lane] = 0;
@@ -191,13 +203,15 @@ private:
         put(block.turn_a, lane, q.turn_a), put(block.turn_b, lane, q.turn_b);
         block.bias[lane] = static_cast<Real>(row.bias);
         block.softness[lane] = static_cast<Real>(row.softness);
-        block.mass[lane] = static_cast<Real>(k > 0 && !joint.broken ? 1 / (k + row.softness) : 0);
+        const bool acts = k > 0 && !joint.broken && !in_island_[drive.joint];
+        block.mass[lane] = static_cast<Real>(acts ? 1 / (k + row.softness) : 0);
         block.lowest[lane] = static_cast<Real>(row.lowest);
         block.highest[lane] = static_cast<Real>(row.highest);
         block.lambda[lane] = 0;
     }
 
     const JointKernels<Real, W>& kernels_;
+    const std::vector<std::uint8_t>& in_island_;
     Workers& workers_;
     std::vector<std::uint32_t> ball_joints_, block_joints_;  ///< index into JointTable::joints
     std::vector<std::uint32_t> driven_;                      ///< index into JointTable::drives

@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "step/joint_state.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumb {
 namespace {
 
 constexpr double kWholeTurn = 6.283185307179586;
+
+/// An arm of less than this share of the body's radius of gyration counts as if it were as long.
+constexpr double kShort = 0.05;
 
 /// The axis of the one rotation that a joint leaves free, kJointAxes where there is none or more.
 std::uint32_t single_turn(const Joint& joint) {
@@ -66,6 +70,24 @@ double joint_rate(const Bodies& b, const Joint& joint, const JointCoordinate& q)
 }
 double joint_rate_before(const Bodies& b, const Joint& joint, const JointCoordinate& q) {
     return rate_of(b.velocity_now, b.angular_velocity_now, joint, q);
+}
+
+double angular_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
+                    const Placement& frame) {
+    if (body == kNoIndex) return 0;
+    const Vector3d& w = b.angular_velocity[body];
+    // an arm that is short against the body's radius of gyration turns it next to nothing
+    const double gyration = std::sqrt(b.inertia[body].maxCoeff() * b.inverse_mass[body]);
+    const double reach = std::max(frame.position.norm(), kShort * gyration);
+    double rate = 0;
+    if (reach > 0) rate = w.cross(b.orientation[body] * frame.position).norm() / reach;
+    const int free = free_turns(joint);
+    if (free == 3) return rate;
+    if (free != 1) return std::max(rate, w.norm());
+    int axis = 0;
+    while (joint.locked[kTurnX + axis]) ++axis;
+    const Vector3d along = b.orientation[body] * (frame.rotation * Vector3d::Unit(axis));
+    return std::max(rate, w.cross(along).norm());
 }
 
 JointLoad joint_load(const World& world, std::uint32_t index) {

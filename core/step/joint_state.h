@@ -23,6 +23,11 @@ double joint_rate(const Bodies& bodies, const Joint& joint, const JointCoordinat
 /// And how fast it did before forces acted in this substep.
 double joint_rate_before(const Bodies& bodies, const Joint& joint, const JointCoordinate& q);
 
+/// How fast what a joint sees of a body turns: the arm, and the axes that it keeps [rad/s].
+/// `frame`: the joint's on the body.
+double angular_rate(const Bodies& bodies, const Joint& joint, std::uint32_t body,
+                    const Placement& frame);
+
 /// Force at the joint's point of a and torque on a, from b; world frame [N], [N m]. Motors,
 /// springs, limits and friction of the joint are part of it. The mean of the last two substeps:
 /// iterations run forwards and backwards in turn, and so does what they have not settled.

@@ -15,8 +15,10 @@ namespace plumb {
 template <class Real, int W>
 class JointTreeGroup final : public ConstraintGroup<Real> {
 public:
-    JointTreeGroup(const World& world, const JointForest& forest, Workers& workers)
-        : workers_(workers) {
+    /// `in_island` [joint]: in this step, whether an exact island has it.
+    JointTreeGroup(const World& world, const JointForest& forest,
+                   const std::vector<std::uint8_t>& in_island, Workers& workers)
+        : in_island_(in_island), workers_(workers) {
         for (const JointForest& share : share_out_trees(forest, workers.count()))
             trees_.emplace_back(world, share, world.settings.joint_tolerance);
     }
@@ -28,8 +30,7 @@ public:
                double h) override {
         workers_.run([&](std::uint32_t worker) {
             if (worker >= trees_.size()) return;
-            if (leave_out_divided(world, trees_[worker]))
-                trees_[worker].load_impulses(world.joints);
+            if (leave_to_others(world, trees_[worker])) trees_[worker].load_impulses(world.joints);
             trees_[worker].begin(world, substep_time(world, h));
         });
     }
@@ -42,7 +43,7 @@ public:
 
     void end_substep(World& world) override {
         for (TreeSolver<W>& trees : trees_) {
-            leave_out_divided(world, trees);  // with those that had to be divided after all
+            leave_to_others(world, trees);  // with those that had to be divided after all
             trees.store_impulses(world.joints);
         }
     }
@@ -54,11 +55,13 @@ public:
     }
 
 private:
-    static bool leave_out_divided(const World& world, TreeSolver<W>& trees) {
-        return trees.leave_out(
-            [&](std::uint32_t joint) { return world.joints.joints[joint].pace.is_divided(); });
+    bool leave_to_others(const World& world, TreeSolver<W>& trees) const {
+        return trees.leave_out([&](std::uint32_t joint) {
+            return in_island_[joint] || world.joints.joints[joint].pace.is_divided();
+        });
     }
 
+    const std::vector<std::uint8_t>& in_island_;
     Workers& workers_;
     std::deque<TreeSolver<W>> trees_;  ///< [worker], or fewer
 };

@@ -65,10 +65,11 @@ public:
           shocks_(plan.runs(Effect::shock_propagation)),
           has_impacts_(plan.runs(Effect::impacts)),
           warm_start_(settings_.warm_start && !shocks_),
+          in_island_(world.joints.size(), 0),
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         make_groups(world, plan);
         if (shocks_) shock_.emplace(plan, workers);
-        if (plan.runs(Effect::exact_islands)) islands_.emplace(plan, workers);
+        if (plan.runs(Effect::exact_islands)) islands_.emplace(plan, workers, in_island_);
     }
 
     void load(const World& world) override {
@@ -168,7 +169,9 @@ public:
         for (const auto& group : groups_) group->report(report);
     }
 
-    std::uint32_t solve_islands() override { return islands_->solve(); }
+    void solve_islands(const World& world, StepReport& report) override {
+        islands_->solve(world, report);
+    }
 
     /// One iteration from the ground up in which the lower body of each pair is immovable
     /// (Guendelman et al.).
@@ -205,6 +208,7 @@ public:
             const auto share = share_of(*group, ledger, Stage::joints);
             group->end_substep(world);
         }
+        if (islands_) islands_->store_impulses(world.joints);
     }
 
     void end_step(World& world) override {
@@ -231,11 +235,11 @@ private:
             const JointForest forest = grows ? find_forest(world) : JointForest();
             add<JointSolver<Real, W>>(
                 world, grows ? forest.in_tree : std::vector<std::uint8_t>(world.joints.size(), 0),
-                workers_);
+                in_island_, workers_);
             if (grows && is_narrow(forest))
-                trees_ = add<JointTreeGroup<Real, 1>>(world, forest, workers_);
+                trees_ = add<JointTreeGroup<Real, 1>>(world, forest, in_island_, workers_);
             else if (grows)
-                trees_ = add<JointTreeGroup<Real, W>>(world, forest, workers_);
+                trees_ = add<JointTreeGroup<Real, W>>(world, forest, in_island_, workers_);
         }
         if (plan.runs(Effect::exact_deformables))
             add<ExactDeformableGroup<Real>>(world, workers_);
@@ -277,6 +281,7 @@ private:
     bool warm_start_;
     VelocityTable<Real> table_;
     PassSettings<Real> pass_{};
+    std::vector<std::uint8_t> in_island_;  ///< [joint] whether an exact island has it in this step
     std::vector<std::unique_ptr<Group>> groups_;  ///< in the order of an iteration
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;

@@ -34,8 +34,8 @@ public:
     virtual void solve_velocities() = 0;
     /// Tells the report of what could not be solved.
     virtual void solve_positions(StepReport& report, Ledger& ledger) = 0;
-    /// The islands that are solved exactly. Returns how many still miss the law of contact.
-    virtual std::uint32_t solve_islands() = 0;
+    /// Islands that are solved exactly (step/island_group.h); the same.
+    virtual void solve_islands(const World& world, StepReport& report) = 0;
     virtual void propagate_shock() = 0;
     /// After all of these: adds what contacts bear in this substep, besides its impacts.
     virtual void add_impulses(ContactSums& sums) = 0;

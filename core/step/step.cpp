@@ -91,7 +91,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
         timed(Stage::positions, [&] { solver.solve_positions(report, ledger); });
         if (plan.runs(Effect::exact_islands))
-            timed(Stage::islands, [&] { report.unsolved_islands += solver.solve_islands(); });
+            timed(Stage::islands, [&] { solver.solve_islands(world, report); });
         if (plan.runs(Effect::shock_propagation))
             timed(Stage::shock, [&] { solver.propagate_shock(); });
         if (sums) timed(Stage::remember, [&] { solver.add_impulses(*sums); });

@@ -101,6 +101,11 @@ void TreeNodes::begin(const World& world, const SubstepTime& time, const Vector3
     }
 }
 
+void TreeNodes::rest_left_out() {
+    for (Node& node : nodes_)
+        if (progress_.is_left_out(node.node)) node.own = {{kZero, kZero}};
+}
+
 void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& time) {
     const Bodies& b = world.bodies;
     const Joint& joint = world.joints.joints[node.joint];
@@ -108,23 +113,8 @@ void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& t
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, time);
-    defer(node, h_ * world.settings.recovery_speed);
+    defer_errors(node.deferred, node.geometry, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, time);
-}
-
-/// What is to be closed of old errors in this substep is bounded, as old overlap is. What a
-/// compliant row has stretched is no error.
-void TreeNodes::defer(Node& node, double most) {
-    double c[6];
-    joint_errors<double>(c, node.geometry, JointPreview<double>(node.geometry));
-    double squared[2] = {0, 0};
-    const auto is_stiff = [&](int k) {
-        return node.geometry.lock[k] > 0 && !(node.geometry.softness[k] > 0);
-    };
-    for (int k = 0; k < 6; ++k)
-        if (is_stiff(k)) squared[k / 3] += c[k] * c[k];
-    for (int k = 0; k < 6; ++k)
-        node.deferred[k] = is_stiff(k) ? c[k] * deferred_fraction<double>(squared[k / 3], most) : 0;
 }
 
 void TreeNodes::forget(std::uint32_t index) {

@@ -27,6 +27,8 @@ public:
     void load_impulses(const JointTable& joints);
     void begin(const World& world, const SubstepTime& time, const Vector3d& lift);
 
+    void rest_left_out();
+
     /// Whether anything drives a joint.
     bool is_driven() const { return driven_; }
 
@@ -120,7 +122,6 @@ private:
 
     static void add_axes(const World& world, Node& node);
     void begin_joint(const World& world, Node& node, const SubstepTime& time);
-    void defer(Node& node, double most);
     Velocity<double> velocity_beyond(const Node& node) const;
     void find_rows(Node& node);
     double violation_of(const Node& node) const;

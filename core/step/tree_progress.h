@@ -45,6 +45,9 @@ public:
         }
         return back;
     }
+    bool leaves_any_out() const {
+        return std::find(left_out_.begin(), left_out_.end(), 1) != left_out_.end();
+    }
     bool is_left_out(std::uint32_t node) const { return left_out_[tree_[node]] != 0; }
 
     /// Returns whether any tree is to be solved.

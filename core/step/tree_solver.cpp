@@ -91,6 +91,16 @@ void TreeSolver<W>::load_impulses(const JointTable& joints) {
     nodes_.load_impulses(joints);
 }
 
+/// Others change the velocities of trees that are left out.
+template <int W>
+void TreeSolver<W>::rest_left_out() {
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane)
+            if (balls.used[lane] > 0 && progress_.is_left_out(balls.node[lane]))
+                for (auto& own : balls.own) own[lane] = 0;
+    nodes_.rest_left_out();
+}
+
 template <int W>
 void TreeSolver<W>::take_velocities(Bodies& bodies) const {
     for (const TreeBalls<N>& balls : balls_)

@@ -40,6 +40,7 @@ public:
         kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h_,
                        {lift[0], lift[1], lift[2]}, h_ * world.settings.recovery_speed);
         nodes_.begin(world, time, lift);
+        if (progress_.leaves_any_out()) rest_left_out();
     }
 
     /// Trees that are advanced by themselves are not solved; `is_left_out(joint)`. Returns whether
@@ -111,6 +112,7 @@ private:
     template <class Real>
     void give(const BodyRows<Real>& rows);
 
+    void rest_left_out();
     bool search();
     void turn_levers_to_the_end();
     void forget();

@@ -40,7 +40,7 @@ TEST(ContactIslands, AreWhatHangsTogetherThroughDynamicBodies) {
             if (a != b) pairs.push_back({a, b, i, 1});
         }
         ContactIslands islands;
-        islands.find(pairs, kDynamic);
+        islands.find(pairs, {}, kDynamic);
 
         const std::vector<std::int32_t> least = least_rows(pairs);
         std::map<std::int32_t, std::size_t> bodies, of_pairs;
@@ -69,6 +69,42 @@ TEST(ContactIslands, AreWhatHangsTogetherThroughDynamicBodies) {
             }
             for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
                 const BodyPair& p = pairs[islands.pairs()[i]];
+                EXPECT_EQ(least[p.row_a < kDynamic ? p.row_a : p.row_b], first);
+            }
+        }
+    }
+}
+
+TEST(ContactIslands, LinksHoldWhatTouchesTogether) {
+    for (std::uint32_t seed = 1; seed <= 30; ++seed) {
+        Random random(seed);
+        std::vector<BodyPair> pairs, links;
+        for (std::uint32_t i = 0; i < 2 * seed; ++i) {
+            const auto a = static_cast<std::int32_t>(random.below(kDynamic + 5));
+            const auto b = static_cast<std::int32_t>(random.below(kDynamic + 5));
+            if (a != b) (i % 3 == 0 ? links : pairs).push_back({a, b, i, 1});
+        }
+        std::vector<BodyPair> all = pairs;
+        all.insert(all.end(), links.begin(), links.end());
+        const std::vector<std::int32_t> least = least_rows(all);
+        std::map<std::int32_t, std::size_t> touching, of_links;
+        for (const BodyPair& p : pairs)
+            for (const std::int32_t row : {p.row_a, p.row_b})
+                if (row < kDynamic) touching[least[row]] = 1;
+        for (const BodyPair& p : links) {
+            const std::int32_t row = p.row_a < kDynamic ? p.row_a : p.row_b;
+            if (row < kDynamic && touching.count(least[row])) ++of_links[least[row]];
+        }
+        ContactIslands islands;
+        islands.find(pairs, links, kDynamic);
+        ASSERT_EQ(islands.islands().size(), touching.size()) << "what touches nothing is no island";
+        for (const ContactIsland& island : islands.islands()) {
+            const std::int32_t first = islands.bodies()[island.first_body];
+            EXPECT_EQ(island.last_body - island.first_body,
+                      std::count(least.begin(), least.end(), first));
+            EXPECT_EQ(island.last_link - island.first_link, of_links[first]);
+            for (std::uint32_t i = island.first_link; i < island.last_link; ++i) {
+                const BodyPair& p = links[islands.links()[i]];
                 EXPECT_EQ(least[p.row_a < kDynamic ? p.row_a : p.row_b], first);
             }
         }

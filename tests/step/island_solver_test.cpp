@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Islands against the law of contact: a pile of rods in a tray, whose contacts are found anew, a
-/// little beside where they were, before each substep.
+/// little beside where they were, before each substep. And rows of joints against sums of momentum.
 #include "step/island_solver.h"
 #include "support/random.h"
 
@@ -55,7 +55,7 @@ struct RodPile {
         velocity.resize(bodies.size());
     }
 
-    Island island() { return {bodies, velocity, points}; }
+    Island island() { return {bodies, velocity, points, {}}; }
 
     /// Gravity, and the impulses of the substep before, at arms moved by up to `shift` [m].
     void begin(Random& random, double shift) {
@@ -128,6 +128,81 @@ TEST(IslandSolver, HoldsRodsWhoseContactsShiftALittle) {
             if (p.b == kImmovable) borne += (p.frame * p.impulse.head<3>()).y();
         EXPECT_NEAR(borne / (kMass * kSpeed * static_cast<double>(pile.bodies.size())), 1, 1e-6);
     }
+}
+
+/// Balls in a row along x, each held to the next by a rod, and what drives the last against the
+/// world.
+struct Train {
+    std::vector<IslandBody> bodies;
+    std::vector<IslandRow> rows;
+    std::vector<IslandPoint> points;
+    std::vector<Vector6d> velocity;
+    AxisDrive drive;
+    BlockCholesky system;
+
+    explicit Train(std::uint32_t count) : velocity(count, Vector6d::Zero()) {
+        BlockCholesky::Pattern pairs;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            IslandBody& body = bodies.emplace_back();
+            body.body = i, body.mass = i + 1.0;
+            body.inertia = body.inverse_inertia = {1, 1, 1, 0, 0, 0};
+            if (i > 0) add_row(i, i - 1), pairs.emplace_back(i, i - 1);
+        }
+        add_row(count - 1, kImmovable);
+        rows.back().drive = &drive;
+        system.analyse(count, pairs);
+    }
+    double mass() const { return 0.5 * double(bodies.size() * (bodies.size() + 1)); }
+    Island island() { return {bodies, velocity, points, rows}; }
+
+private:
+    void add_row(std::uint32_t a, std::uint32_t b) {
+        IslandRow& row = rows.emplace_back();
+        row.a = a, row.b = b, row.length = 1, row.most = 1e6;
+        row.on_a << 1, 0, 0, 0, 0, 0;
+        row.on_b = -row.on_a;
+        row.mass = 1 / (1 / bodies[a].mass + (b == kImmovable ? 0 : 1 / bodies[b].mass));
+    }
+};
+
+TEST(IslandSolver, RowsShareMomentumAsAllMassesTogether) {
+    for (const std::uint32_t count : {2u, 5u, 40u}) {
+        Train train(count);
+        train.velocity[0][0] = 3;
+        IslandSolver solver;
+        EXPECT_TRUE(solver.solve(train.island(), train.system, 3).solved);
+        for (const Vector6d& v : train.velocity) EXPECT_NEAR(v[0], 3 / train.mass(), 1e-6);
+    }
+}
+
+/// Friction that is strong enough stops the train and bears what it had; one that is too weak bears
+/// its bound, and no more.
+TEST(IslandSolver, DrivesHoldUpToTheirBounds) {
+    constexpr std::uint32_t count = 12;
+    for (const double share : {0.1, 0.9, 1.1, 50.0}) {
+        Train train(count);
+        const double momentum = 2 * train.mass();
+        train.drive.add({0, 0, -share * momentum, share * momentum});
+        for (Vector6d& v : train.velocity) v[0] = 2;
+        IslandSolver solver;
+        EXPECT_TRUE(solver.solve(train.island(), train.system, 2).solved) << share;
+        EXPECT_NEAR(train.rows.back().impulse, -std::min(share, 1.0) * momentum, 1e-6 * momentum);
+        for (const Vector6d& v : train.velocity)
+            EXPECT_NEAR(v[0], 2 * (1 - std::min(share, 1.0)), 1e-5) << share;
+    }
+}
+
+/// Two rods between the same balls that ask for different things: bounded, and the mean of both.
+TEST(IslandSolver, RowsThatContradictEachOtherMeetInTheMiddle) {
+    Train train(2);
+    train.rows.push_back(train.rows[0]);
+    train.rows[0].wanted = 1e-3, train.rows[2].wanted = -1e-3;
+    for (IslandRow& row : train.rows) row.softness = row.drive ? 0 : 1e-4;
+    IslandSolver solver;
+    solver.solve(train.island(), train.system, 1);
+    EXPECT_NEAR(train.velocity[0][0], 0, 1e-6);
+    EXPECT_NEAR(train.velocity[1][0], 0, 1e-6);
+    EXPECT_LT(std::abs(train.rows[0].impulse), 11) << "1e-3/1e-4";
 }
 
 }  // namespace
