@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace plumb {
 namespace {
@@ -33,7 +34,10 @@ constexpr double kJam = 0.0025, kStuck = 0.25;
 constexpr double kPulled = 1.05;
 
 /// How far joints may turn within a substep [rad], and the square of h ω of what they pull.
-constexpr double kFarTurn = 0.2, kHardPull = 1;
+constexpr double kFarTurn = 0.2, kHardPull = 2;
+
+/// A motor is boundless that lifts so many times the weight of the bodies that it drives.
+constexpr double kBoundless = 3e4;
 
 /// An arm that is none [m].
 constexpr double kNoArm = 1e-15;
@@ -52,6 +56,22 @@ double stuck_share(const Settings& s) {
     return 1 - kStuck * (1 - std::pow(left, s.substeps));
 }
 
+/// Whether nothing that weighs as much as a motor's own bodies can stop it.
+bool is_boundless(const World& world, const JointDrive& drive) {
+    const JointMotor& motor = drive.spec.motor;
+    if (drive.kind != DriveKind::motor || motor.mode != MotorMode::velocity) return false;
+    if (!std::isfinite(motor.greatest)) return true;
+    const Bodies& b = world.bodies;
+    const Joint& joint = world.joints.joints[drive.joint];
+    double weight = 0, lever = drive.axis < kTurnX ? 1 : 0;
+    for (const std::uint32_t body : {joint.a, joint.b}) {
+        if (body == kNoIndex || b.motion[body] != Motion::dynamic) continue;
+        weight += b.mass[body] * pull_on(world, body);
+        if (drive.axis >= kTurnX) lever = std::max(lever, b.bounding_radius[body]);
+    }
+    return weight * lever > 0 && motor.greatest > kBoundless * weight * lever;
+}
+
 /// What a joint bore along its axes in the substep before, on its a [N s].
 Vector3d impulse_on_a(const World& world, const Joint& joint) {
     const Vector3d along(joint.rows[kAlongX], joint.rows[kAlongY], joint.rows[kAlongZ]);
@@ -61,17 +81,36 @@ Vector3d impulse_on_a(const World& world, const Joint& joint) {
     return pose.axes_b * along;
 }
 
-/// Whether levers of the start of a substep will do for a joint until its end. What pushes a body
-/// at its lever swings nothing.
+/// The square of h ω of a body that a joint pulls at its lever; what pushes it there swings
+/// nothing, nor what a joint does not let turn. `impulse`: on the body; `frame`: of the joint on
+/// the body.
+double pull_load(const World& world, const Joint& joint, std::uint32_t body, const Placement& frame,
+                 Vector3d impulse, double h) {
+    const Bodies& b = world.bodies;
+    const int free = free_turns(joint);
+    if (free == 0) return 0;
+    Vector3d arm = b.orientation[body] * frame.position;
+    Symmetric3<double> inverse_inertia = b.world_inverse_inertia[body];
+    if (free == 1) {
+        int axis = 0;
+        while (joint.locked[kTurnX + axis]) ++axis;
+        const Vector3d about = b.orientation[body] * (frame.rotation * Vector3d::Unit(axis));
+        const double turns = about.dot(Vector3d(inverse_inertia * about));
+        arm -= about.dot(arm) * about, impulse -= about.dot(impulse) * about;
+        return h * turns * std::max(0.0, impulse.dot(arm));
+    }
+    const double pull = std::max(0.0, impulse.dot(arm) / std::max(arm.norm(), kNoArm));
+    return lever_load<double>(pull, 0, arm, inverse_inertia, h);
+}
+
+/// Whether levers of the start of a substep will do for a joint until its end.
 bool is_gentle(const World& world, const Joint& joint, double h) {
     const Bodies& b = world.bodies;
     const Vector3d impulse = impulse_on_a(world, joint);
     const auto see = [&](std::uint32_t body, const Placement& frame, double sign) {
-        if (body == kNoIndex || b.motion[body] != Motion::dynamic) return true;
-        if (h * angular_rate(b, joint, body, frame) > kFarTurn) return false;
-        const Vector3d arm = b.orientation[body] * frame.position;
-        const double pull = std::max(0.0, sign * impulse.dot(arm) / std::max(arm.norm(), kNoArm));
-        return lever_load<double>(pull, 0, arm, b.world_inverse_inertia[body], h) <= kHardPull;
+        return body == kNoIndex || b.motion[body] != Motion::dynamic ||
+               (h * angular_rate(b, joint, body, frame) <= kFarTurn &&
+                pull_load(world, joint, body, frame, sign * impulse, h) <= kHardPull);
     };
     return see(joint.a, joint.frame_a, 1) && see(joint.b, joint.frame_b, -1);
 }
@@ -111,9 +150,25 @@ void IslandChoice::find_links(const World& world) {
     }
 }
 
+/// Called for one link after another: whether those before tie its bodies together already. What is
+/// immovable is one body.
+bool IslandChoice::closes_loop(const BodyPair& link) {
+    const auto root = [this](std::int32_t row) {
+        auto at = static_cast<std::size_t>(row);
+        at = std::min(at, tied_.size() - 1);
+        while (tied_[at] != at) at = tied_[at] = tied_[tied_[at]];
+        return at;
+    };
+    const std::size_t a = root(link.row_a), b = root(link.row_b);
+    tied_[a] = b;
+    return a == b;
+}
+
 /// Marks bodies that others have to solve.
 void IslandChoice::rule_out(const World& world) {
     ruled_out_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+    tied_.resize(static_cast<std::size_t>(world.dynamic_count) + 1);
+    std::iota(tied_.begin(), tied_.end(), std::size_t{0});
     const auto mark = [&](std::uint32_t body) {
         if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
             ruled_out_[world.bodies.row[body]] = 1;
@@ -124,15 +179,16 @@ void IslandChoice::rule_out(const World& world) {
     world.each_body_among_particles(mark);
     const double h = substep_of(world.settings);
     const bool iterated = world.settings.joints == JointMethod::iterate;
-    for (const BodyPair& link : links_)
-        if (iterated || !is_gentle(world, world.joints.joints[link.first], h))
+    for (const BodyPair& link : links_) {
+        const Joint& joint = world.joints.joints[link.first];
+        if (iterated || joint.island_rest.steps > 0 || closes_loop(link) ||
+            !is_gentle(world, joint, h))
             mark_joint(link.first);
+    }
     for (const JointCoupling& c : world.joints.couplings)
         mark_joint(c.joint_a), mark_joint(c.joint_b);
     for (const JointDrive& drive : world.joints.drives)
-        if (drive.kind == DriveKind::motor && drive.spec.motor.mode == MotorMode::velocity &&
-            !std::isfinite(drive.spec.motor.greatest))
-            mark_joint(drive.joint);
+        if (is_boundless(world, drive)) mark_joint(drive.joint);
 }
 
 bool IslandChoice::is_exact(const World& world, const ContactIsland& island,

@@ -7,8 +7,9 @@
 /// moves shall not creep.
 ///
 /// Joints hold an island together as contacts do, and are solved with it. Left to others are
-/// islands with couplings, with motors that nothing can stop, with joints that turn far within a
-/// substep or pull so hard that levers have to turn with them (constraints/joint_lever.h).
+/// islands with couplings, with joints that close a loop, with motors that nothing can stop, with
+/// joints that turn far within a substep or pull so hard that levers have to turn with them
+/// (constraints/joint_lever.h), and for a while those whose joints could not be closed.
 #pragma once
 
 #include "schedule/contact_islands.h"
@@ -52,6 +53,7 @@ public:
 
 private:
     void find_links(const World& world);
+    bool closes_loop(const BodyPair& link);
     void rule_out(const World& world);
     bool is_slow(const World& world, const Contact& contact) const;
     bool is_calm(const World& world, const ContactIsland& island,
@@ -67,6 +69,7 @@ private:
     ContactIslands found_;
     double stuck_share_ = 1;               ///< of an overlap, from which it counts as left
     std::vector<BodyPair> links_;          // of joints, and which
+    std::vector<std::size_t> tied_;        // [dynamic row, then the ground] see closes_loop
     std::vector<std::uint8_t> ruled_out_;  // [dynamic row]
     std::vector<double> bears_;            // [dynamic row], see goes_on [N s]
     std::vector<std::uint8_t> weighed_;    // [body of an island]

@@ -27,6 +27,11 @@ constexpr double kLever = 100;
 /// How often an island is solved until its joints are closed.
 constexpr int kCloses = 8;
 
+/// An island whose joints stay open by so many tolerances is given up for this long [s], twice as
+/// long with each time that it fails again.
+constexpr double kAjar = 100, kRest = 0.1;
+constexpr std::uint32_t kMostMisses = 8;
+
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
 
@@ -107,6 +112,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.first_body = static_cast<std::uint32_t>(bodies_.size());
     member.first_point = static_cast<std::uint32_t>(points_.size());
     member.first_joint = joints_.size();
+    member.given_up = false;
     bodies_.resize(bodies_.size() + n);
 
     pattern_.clear();
@@ -372,9 +378,12 @@ void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
         if (!(m.open > tolerance) || (!m.solved && i > 0)) break;
     }
     if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;
+    m.given_up |= !(m.open <= kAjar * tolerance);
     const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
     if (kinetic_energy(island.bodies, island.velocity) <= kinetic_energy(island.bodies, start))
         return;
+    m.given_up = true;
+    std::copy(start.begin(), start.end(), island.velocity.begin());
     solver.sweep_anew(island, ask);
     ask();
 }
@@ -401,6 +410,19 @@ void IslandGroup::store_impulses(JointTable& joints) const {
         const Member& m = members_[i];
         joints_.store_impulses(m.first_joint, m.last_joint, velocities_of(m), joints);
     }
+}
+
+void IslandGroup::rest_joints(const Settings& settings, JointTable& joints) const {
+    for (Joint& joint : joints.joints)
+        if (joint.island_rest.steps > 0) --joint.island_rest.steps;
+    for (std::size_t i = 0; i < count_; ++i)
+        for (std::uint32_t k = members_[i].first_joint; k < members_[i].last_joint; ++k) {
+            IslandRest& rest = joints.joints[joints_.joint(k)].island_rest;
+            rest.misses = members_[i].given_up ? std::min(rest.misses + 1, kMostMisses) : 0;
+            if (rest.misses > 0)
+                rest.steps = static_cast<std::uint32_t>(
+                    std::ceil(kRest * std::exp2(rest.misses) / settings.dt));
+        }
 }
 
 void IslandGroup::store_impulses(ContactTable& contacts) const {

@@ -47,6 +47,9 @@ public:
     void store_impulses(JointTable& joints) const;
     void store_impulses(ContactTable& contacts) const;
 
+    /// Once a step: which joints are left to others for a while.
+    void rest_joints(const Settings& settings, JointTable& joints) const;
+
 private:
     struct Member {
         std::uint32_t first_body, last_body, first_point, last_point, first_joint, last_joint;
@@ -54,7 +57,8 @@ private:
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
         bool solved;
-        double open;  // the worst joint [m], [rad]
+        double open;    // the worst joint [m], [rad]
+        bool given_up;  // in this step, its joints could not be closed
     };
     void take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);

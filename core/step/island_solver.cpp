@@ -90,7 +90,10 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     report.residual = residual();
     const bool may_stand = report.residual > kFar * speed && most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
-    if (report.residual > speed) sweep_anew(island, [] {});
+    if (report.residual > speed) {
+        take_back_impulses();
+        sweep_anew(island, [] {});
+    }
     report.solved = report.residual <= kSolved * speed;
     return report;
 }
@@ -150,11 +153,8 @@ void IslandSolver::improve(IslandReport& report, double speed) {
     }
 }
 
-void IslandSolver::forget_impulses() {
-    for (IslandPoint& p : island_.points) {
-        push(p, -p.impulse);
-        p.impulse.setZero();
-    }
+void IslandSolver::take_back_impulses() {
+    for (const IslandPoint& p : island_.points) push(p, -p.impulse);
     for (IslandRow& row : island_.rows) push(row, -row.impulse);
 }
 

@@ -39,12 +39,13 @@ public:
     /// what may be missed.
     IslandReport solve(const Island& island, BlockCholesky& system, double speed);
 
-    /// Where nothing was found: sweeps, until `ask` has been called so often. Begun from impulses
-    /// of 0, they can make no more of it than there is.
+    /// Where nothing was found: sweeps from impulses of 0, which can make no more of it than there
+    /// is. `ask()` comes before each.
     template <class Ask>
     void sweep_anew(const Island& island, Ask ask) {
         island_ = island;
-        forget_impulses();
+        for (IslandPoint& p : island_.points) p.impulse.setZero();
+        for (IslandRow& row : island_.rows) row.impulse = 0;
         for (int i = 0; i < kSweepsAnew; ++i) ask(), sweep_both_ways();
     }
 
@@ -66,7 +67,7 @@ private:
     void improve(IslandReport& report, double speed);
     double most_shift() const;
     double residual() const;
-    void forget_impulses();
+    void take_back_impulses();
     double softness(double error, double hard) const;
     void sweep_both_ways();
     void sweep(bool forwards);

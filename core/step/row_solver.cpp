@@ -213,7 +213,9 @@ public:
 
     void end_step(World& world) override {
         for (const auto& group : groups_) group->end_step(world);
-        if (islands_) islands_->store_impulses(world.contacts);
+        if (!islands_) return;
+        islands_->store_impulses(world.contacts);
+        islands_->rest_joints(settings_, world.joints);
     }
 
 private:

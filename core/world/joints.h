@@ -33,6 +33,13 @@ struct TreePace {
     bool is_divided() const { return parts > 0 || before > 1; }
 };
 
+/// For how long a joint is left out of the islands that are solved exactly, since one that held it
+/// was not: what contradicts itself is left to sweeps, and tried again ever more seldom.
+struct IslandRest {
+    std::uint32_t steps = 0;   ///< that are left
+    std::uint32_t misses = 0;  ///< without a success between them
+};
+
 struct Joint {
     std::uint32_t id = 0;  ///< what the joint is called as long as it lives; grows along the table
     JointKind kind = JointKind::ball;
@@ -50,6 +57,7 @@ struct Joint {
                                             ///< plain ball along the world's axes
     std::array<double, kJointAxes> rows_before{};  ///< and of the one before it
     TreePace pace;
+    IslandRest island_rest;
 
     /// Of a row that is taken away [m/N], [rad/(N m)].
     double compliance_of(std::uint32_t axis) const {
