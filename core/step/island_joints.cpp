@@ -2,6 +2,7 @@
 #include "step/island_joints.h"
 
 #include "step/drive_state.h"
+#include "step/driven_axes.h"
 #include "step/joint_geometry.h"
 
 #include <algorithm>
@@ -33,18 +34,9 @@ void IslandJoints::add(const World& world, std::uint32_t joint, std::uint32_t a,
     Member& m = joints_.emplace_back();
     m.joint = joint, m.a = a, m.b = b;
     m.first_axis = static_cast<std::uint32_t>(axes_.size());
-    const auto& drives = world.joints.drives;  // by joint, then axis
-    const auto before = [](const JointDrive& d, std::uint32_t i) { return d.joint < i; };
-    const auto found = std::lower_bound(drives.begin(), drives.end(), joint, before);
-    auto at = static_cast<std::uint32_t>(found - drives.begin());
-    while (at < drives.size() && drives[at].joint == joint) {
-        Axis& axis = axes_.emplace_back();
-        axis.first = at;
-        while (at < drives.size() && drives[at].joint == joint &&
-               drives[at].axis == drives[axis.first].axis)
-            ++at;
-        axis.last = at;
-    }
+    each_driven_axis(world.joints, joint, [&](std::uint32_t first, std::uint32_t last) {
+        axes_.push_back({first, last, {}});
+    });
     m.last_axis = static_cast<std::uint32_t>(axes_.size());
 }
 

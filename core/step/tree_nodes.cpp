@@ -3,6 +3,7 @@
 
 #include "constraints/tension_rows.h"
 #include "math/rotation.h"
+#include "step/driven_axes.h"
 #include "step/joint_geometry.h"
 
 #include <algorithm>
@@ -63,19 +64,10 @@ TreeNodes::TreeNodes(const World& world, const JointForest& forest,
     }
 }
 
-/// Drives are sorted by joint, then axis.
 void TreeNodes::add_axes(const World& world, Node& node) {
-    const auto& drives = world.joints.drives;
-    const auto before = [](const JointDrive& d, std::uint32_t joint) { return d.joint < joint; };
-    const auto found = std::lower_bound(drives.begin(), drives.end(), node.joint, before);
-    auto at = static_cast<std::uint32_t>(found - drives.begin());
-    while (at < drives.size() && drives[at].joint == node.joint) {
-        const std::uint32_t first = at;
-        while (at < drives.size() && drives[at].joint == node.joint &&
-               drives[at].axis == drives[first].axis)
-            ++at;
-        node.axes.emplace_back(world.joints, first, at);
-    }
+    each_driven_axis(world.joints, node.joint, [&](std::uint32_t first, std::uint32_t last) {
+        node.axes.emplace_back(world.joints, first, last);
+    });
 }
 
 void TreeNodes::load_impulses(const JointTable& joints) {
