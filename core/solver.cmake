@@ -26,6 +26,8 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND PLUMB_CORE_SOURCES "${PLUMB_KERNEL_OBJECT}")
 endif()
 
+# The rows of a substep are one great unit of inlined formulas, which other files only make slower to compile.
+set_source_files_properties(step/row_solver.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 add_library(plumb_core STATIC ${PLUMB_CORE_SOURCES})
 add_library(plumb::core ALIAS plumb_core)
 set_target_properties(plumb_core PROPERTIES EXPORT_NAME core)

@@ -29,7 +29,7 @@
 namespace plumb::app {
 namespace {
 
-struct Options {
+struct CompareArguments {
     RunOptions run;
     std::vector<std::string> colliders;
     std::string drive, answer_only, json, page;
@@ -44,7 +44,7 @@ std::string listed(const std::vector<std::string>& names) {
 }
 
 /// What the command line alone can tell.
-void check(const Options& o) {
+void check(const CompareArguments& o) {
     const std::string ending = std::filesystem::path(o.page).extension().string();
     if (!o.page.empty() && ending != ".html")
         throw UsageError("--out " + o.page + ": a comparison is written to a .html file");
@@ -93,7 +93,7 @@ struct Prepared {
     Sources sources;
     std::size_t driver;
 
-    explicit Prepared(const Options& o)
+    explicit Prepared(const CompareArguments& o)
         : run(driven_by(o)),
           scene(load_scene(run)),
           colliders(run.plugin_path),
@@ -103,14 +103,14 @@ struct Prepared {
               std::find(o.colliders.begin(), o.colliders.end(), run.collider) -
               o.colliders.begin())) {}
 
-    static RunOptions driven_by(const Options& o) {
+    static RunOptions driven_by(const CompareArguments& o) {
         RunOptions run = o.run;
         run.collider = o.drive.empty() ? o.colliders.front() : o.drive;
         return run;
     }
 };
 
-study::ComparisonResult compared(const Options& o, Prepared& p, std::uint64_t steps) {
+study::ComparisonResult compared(const CompareArguments& o, Prepared& p, std::uint64_t steps) {
     Progress progress(steps, o.quiet);
     return study::compare_colliders(
         {p.scene, p.sources.all, p.sources.own_process, p.driver, o.every, o.judge_raw},
@@ -120,7 +120,8 @@ study::ComparisonResult compared(const Options& o, Prepared& p, std::uint64_t st
         });
 }
 
-std::optional<study::FreeRuns> run_freely(const Options& o, Prepared& p, std::uint64_t steps) {
+std::optional<study::FreeRuns> run_freely(const CompareArguments& o, Prepared& p,
+                                          std::uint64_t steps) {
     if (!o.free_run || interrupted()) return std::nullopt;
     Progress progress(steps, o.quiet);
     return study::free_runs(p.scene, p.colliders, p.sources.all, p.sources.own_process,
@@ -154,7 +155,7 @@ int exit_code(const study::ComparisonResult& result, const study::FreeRuns* runs
     return result.agrees() ? kDone : kDiffer;
 }
 
-int compare(const Options& o) {
+int compare(const CompareArguments& o) {
     check(o);
     Prepared p(o);
     std::optional<WholeFile> json_file = opened(o.json), page_file = opened(o.page);
@@ -181,7 +182,7 @@ int compare(const Options& o) {
 }  // namespace
 
 Verb add_compare(CLI::App& command) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<CompareArguments>();
     add_scene_options_but_collider(command, o->run);
     command
         .add_option("--colliders", o->colliders,

@@ -31,7 +31,7 @@ namespace {
 /// Of the budget, what the references of scenes without a formula may take.
 constexpr double kForReferences = 0.25;
 
-struct Options {
+struct CostArguments {
     std::vector<std::string> subjects, colliders, curves, merge;
     std::string out, plugin_path, budget = "5m", shard = "1/1", metric;
     std::uint32_t repeats = 5, reference = 0;
@@ -55,7 +55,7 @@ Shard shard_of(const std::string& text) {
     return s;
 }
 
-void check(const Options& o) {
+void check(const CostArguments& o) {
     if (o.out.empty()) throw UsageError("--out is required; name a folder for the report");
     if (!o.merge.empty() && !o.subjects.empty())
         throw UsageError("--merge takes its cases from the folders; name none beside it");
@@ -77,7 +77,7 @@ int list_cases() {
     return kDone;
 }
 
-std::vector<study::Subject> subjects_of(const Options& o, const ColliderLibrary& colliders,
+std::vector<study::Subject> subjects_of(const CostArguments& o, const ColliderLibrary& colliders,
                                         double seconds) {
     std::vector<std::string> names = o.subjects;
     if (names.empty())
@@ -131,7 +131,7 @@ void print_findings(const study::StudyTable& table, const Shard& shard) {
 }
 
 /// Writes what came of it, and tells it.
-int finish(const Options& o, const study::StudyTable& table, const Shard& shard) {
+int finish(const CostArguments& o, const study::StudyTable& table, const Shard& shard) {
     const std::vector<std::string> remarks = write_study(table, o.out);
     print_findings(table, shard);
     for (const std::string& remark : remarks) logger()->warn(remark);
@@ -155,7 +155,7 @@ int finish(const Options& o, const study::StudyTable& table, const Shard& shard)
     return kUsage;
 }
 
-int measure(const Options& o) {
+int measure(const CostArguments& o) {
     const auto start = std::chrono::steady_clock::now();
     const double budget = seconds_of(o.budget, "--budget");
     const Shard shard = shard_of(o.shard);
@@ -193,7 +193,7 @@ int measure(const Options& o) {
     return finish(o, table, shard);
 }
 
-int cost(const Options& o) {
+int cost(const CostArguments& o) {
     if (o.list) return list_cases();
     check(o);
     if (o.merge.empty()) return measure(o);
@@ -206,7 +206,7 @@ int cost(const Options& o) {
 }  // namespace
 
 Verb add_cost(CLI::App& command) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<CostArguments>();
     command
         .add_option("subjects", o->subjects,
                     "cases by name (--list), scenes by file; all cases unless named")

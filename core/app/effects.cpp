@@ -26,7 +26,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::uint64_t kTrialSteps = 50;
 
-struct Options {
+struct EffectsArguments {
     RunOptions run;
     bool no_run = false, ablate = false;
     std::uint64_t steps = kTrialSteps;
@@ -128,7 +128,7 @@ void print_stages(const Json& j) {
                 j["booked"]["ms"].get<double>(), 100 * j["booked"]["share_of_step"].get<double>());
 }
 
-void print(const Json& j, const Options& o) {
+void print(const Json& j, const EffectsArguments& o) {
     if (o.ablate)
         print_ablation(j["effects"]);
     else
@@ -148,7 +148,7 @@ void print(const Json& j, const Options& o) {
 
 // ---- the verb
 
-int tell(const Options& o) {
+int tell(const EffectsArguments& o) {
     if (o.no_run && o.ablate)
         throw UsageError("--ablate measures runs, and --no-run makes none; leave one of them out");
     const Scene scene = load_scene(o.run);
@@ -181,7 +181,7 @@ int tell(const Options& o) {
 }  // namespace
 
 Verb add_effects(CLI::App& command) {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<EffectsArguments>();
     add_scene_options(command, options->run);
     command.add_flag("--no-run", options->no_run, "only what and why; do not run it for the costs");
     command.add_flag("--ablate", options->ablate,

@@ -17,14 +17,14 @@
 namespace plumb::app {
 namespace {
 
-struct Options {
+struct TuneArguments {
     std::string subject, collider = "auto", metric, budget = "4m", plugin_path;
     double error = 0, time = 0;
     std::uint32_t reference = 0;
     bool quiet = false;
 };
 
-void check(const Options& o) {
+void check(const TuneArguments& o) {
     if (o.error > 0 || o.time > 0) return;
     throw UsageError("--error or --time is required; write --error 0.001");
 }
@@ -33,7 +33,7 @@ void check(const Options& o) {
 constexpr double kForReferences = 0.5;
 
 /// A reference that is itself less exact than what is asked for cannot tell.
-void check_reach(const Options& o, const study::Subject& subject) {
+void check_reach(const TuneArguments& o, const study::Subject& subject) {
     constexpr double kMargin = 2;
     const double known = subject.metrics.front().reference_error;
     if (!(o.error > 0) || o.error >= kMargin * known) return;
@@ -105,7 +105,8 @@ void print_reference(const study::Subject& subject) {
 }
 
 /// Says why there are no such settings, and returns the exit code.
-int not_reached(const Options& o, const study::Subject& subject, const study::TuneResult& result) {
+int not_reached(const TuneArguments& o, const study::Subject& subject,
+                const study::TuneResult& result) {
     if (interrupted()) return kInterrupted;
     const std::string over =
         result.ran_out ? "the budget of " + o.budget + " was over before all was tried; " : "";
@@ -141,7 +142,7 @@ int not_reached(const Options& o, const study::Subject& subject, const study::Tu
     return kUsage;
 }
 
-int tune(const Options& o) {
+int tune(const TuneArguments& o) {
     check(o);
     const double seconds = seconds_of(o.budget, "--budget");
     const ColliderLibrary colliders(o.plugin_path);
@@ -194,7 +195,7 @@ int tune(const Options& o) {
 }  // namespace
 
 Verb add_tune(CLI::App& command) {
-    auto o = std::make_shared<Options>();
+    auto o = std::make_shared<TuneArguments>();
     command.add_option("subject", o->subject, "a scene's file, or a case by name")
         ->required()
         ->type_name("SCENE|CASE");

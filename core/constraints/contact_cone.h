@@ -38,21 +38,17 @@ struct ConePoint {
     bool inside() const { return pushes && !slides && !spins && !rolls && !strained; }
 };
 
-namespace cone {
-
 /// Lengths of the three parts of z that the normal impulse bounds.
-inline std::array<double, 3> lengths(const Vector6d& z) {
+inline std::array<double, 3> cone_lengths(const Vector6d& z) {
     return {std::sqrt(z[1] * z[1] + z[2] * z[2]), std::abs(z[3]),
             std::sqrt(z[4] * z[4] + z[5] * z[5])};
 }
-
-}  // namespace cone
 
 /// The nearest point of the cone to z. Where parts of z are too long, its n is the root of a
 /// function that rises, is made of straight pieces and bends down: Newton's method from below ends
 /// on the root after as many steps as there are parts.
 inline ConePoint nearest_on_cone(const Vector6d& z, const ContactCone& c) {
-    const std::array<double, 3> length = cone::lengths(z), lever{c.friction, c.spinning, c.rolling};
+    const std::array<double, 3> length = cone_lengths(z), lever{c.friction, c.spinning, c.rolling};
     double n = 0;
     std::array<bool, 3> at_bound{};
     for (int round = 0; round < 4; ++round) {
@@ -85,7 +81,7 @@ inline ConePoint nearest_on_cone(const Vector6d& z, const ContactCone& c) {
 /// with the normal, and around its own circle by how far it has come in.
 inline Matrix6d cone_derivative(const Vector6d& z, const ConePoint& at, const ContactCone& c) {
     if (!at.pushes) return Matrix6d::Zero();
-    const std::array<double, 3> length = cone::lengths(z);
+    const std::array<double, 3> length = cone_lengths(z);
     Matrix6d d = Matrix6d::Zero();
     Vector6d ray = Vector6d::Zero();
     ray[0] = 1;
@@ -118,7 +114,7 @@ inline Vector6d lawful_step(const Vector6d& impulse, const Vector6d& lack, doubl
                             const ContactCone& c) {
     Vector6d z = impulse + mass * lack;
     z[0] = std::clamp(z[0], 0.0, c.most);
-    const std::array<double, 3> length = cone::lengths(z);
+    const std::array<double, 3> length = cone_lengths(z);
     const auto share = [&](double lever, double size) {
         const double most = lever * z[0];
         return size > most ? most / size : 1;
@@ -132,7 +128,7 @@ inline Vector6d lawful_step(const Vector6d& impulse, const Vector6d& lack, doubl
 /// Velocities by which the parts of an impulse that are at their bounds slip, each times its lever.
 inline double slipping(const Vector6d& impulse, const std::array<double, 3>& speed,
                        const ContactCone& c) {
-    const std::array<double, 3> held = cone::lengths(impulse),
+    const std::array<double, 3> held = cone_lengths(impulse),
                                 lever{c.friction, c.spinning, c.rolling};
     double sum = 0;
     for (int i = 0; i < 3; ++i)
@@ -145,7 +141,7 @@ inline double slipping(const Vector6d& impulse, const std::array<double, 3>& spe
 /// is found whenever there is one, and what slides lifts by less than μ times that.
 inline double slip_shift(const Vector6d& impulse, const Vector6d& slip, double slack,
                          const ContactCone& c) {
-    std::array<double, 3> fast = cone::lengths(slip);
+    std::array<double, 3> fast = cone_lengths(slip);
     for (double& x : fast) x = std::max(0.0, x - slack);
     return slipping(impulse, fast, c);
 }

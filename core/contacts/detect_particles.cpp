@@ -9,7 +9,7 @@
 namespace plumb {
 namespace {
 
-auto key(const Contact& c) { return std::tuple(c.a, c.b, c.part_b, c.feature); }
+auto particle_key(const Contact& c) { return std::tuple(c.a, c.b, c.part_b, c.feature); }
 
 bool is_sound(const Contact& c, const World& world) {
     const Vector3d n = to_eigen(c.normal);
@@ -68,7 +68,9 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
                     table.found.push_back(c);
             }
     }
-    const auto before = [](const Contact& x, const Contact& y) { return key(x) < key(y); };
+    const auto before = [](const Contact& x, const Contact& y) {
+        return particle_key(x) < particle_key(y);
+    };
     if (!std::is_sorted(table.found.begin(), table.found.end(), before))
         std::stable_sort(table.found.begin(), table.found.end(), before);
 

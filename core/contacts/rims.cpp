@@ -10,7 +10,7 @@ namespace plumb {
 namespace {
 
 /// A rim flatter than this against the normal touches with its face, as colliders take it.
-constexpr double kFlat = 1e-5;
+constexpr double kStraight = 1e-5;
 
 /// Share of the radius by which a point may lie beside the rim's deepest one and still be it.
 constexpr double kBeside = 1e-5;
@@ -60,7 +60,7 @@ ContactRim rim_at(const World& world, std::uint32_t body, std::uint32_t part, co
     rim.axis = placed.local.rotation * rim.axis;
     const double near = kBeside * rim.radius;
     if (!is_on(rim, p, near)) return {};
-    const bool tilted = d.cross(rim.axis).norm() > kFlat;
+    const bool tilted = d.cross(rim.axis).norm() > kStraight;
     const Vector3d beside = p - farthest_on(rim, d, p);
     // as deep as the collider has it, or the gap of the next substep would be another
     rim.centre += d.dot(beside) * d;
@@ -79,7 +79,7 @@ Vector3d arm_at(const ContactRim& at, const Quaterniond& q, const Vector3d& n,
 Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& otherwise) {
     const Vector3d out = direction - direction.dot(rim.axis) * rim.axis;
     const double length = out.norm();
-    return length > kFlat ? Vector3d(rim.centre + (rim.radius / length) * out) : otherwise;
+    return length > kStraight ? Vector3d(rim.centre + (rim.radius / length) * out) : otherwise;
 }
 
 void find_rims(World& world) {

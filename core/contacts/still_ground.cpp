@@ -10,7 +10,7 @@ namespace plumb {
 namespace {
 
 /// Gains below this share of what moved are rounding.
-constexpr double kRounding = 1e-12;
+constexpr double kEnergyRounding = 1e-12;
 
 /// Share of its energy, as if it stood on its end, by which a body may be above what it had, for as
 /// long as the sum half a substep back is not: small swings are left alone, and cannot add up.
@@ -67,7 +67,7 @@ void StillGround::take_back(World& world, double h) const {
                      given = h * b.torque[i].dot(b.angular_velocity[i]);
         const double rise = larger_sum(b, i, force, h) - had.energy - fallen - given;
         const double gained = beyond_lost(b.lost_to_ground[i], rise, kinetic, h);
-        if (gained <= kRounding * (kinetic + std::abs(fallen))) continue;
+        if (gained <= kEnergyRounding * (kinetic + std::abs(fallen))) continue;
         const double kept = std::sqrt(std::max(0.0, 1 - gained / kinetic));
         b.velocity[i] *= kept;
         b.angular_velocity[i] *= kept;

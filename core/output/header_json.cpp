@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "output/header_json.h"
 
+#include "output/vector_json.h"
+
 #include <nlohmann/json.hpp>
 
 #include <stdexcept>
@@ -9,9 +11,6 @@ namespace plumb {
 namespace {
 
 using nlohmann::json;
-
-json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-json to_json(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
 /// JSON has no infinities: a number that was none comes back as 0.
 double number(const json& j) { return j.is_number() ? j.get<double>() : 0; }

@@ -4,6 +4,7 @@
 #include "math/bytes.h"
 #include "output/palette.h"
 #include "output/smooth_surface.h"
+#include "output/vector_json.h"
 #include "scene/deformable_faults.h"
 
 #include <nlohmann/json.hpp>
@@ -15,8 +16,6 @@ namespace plumb {
 namespace {
 
 using nlohmann::json;
-
-json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Where triangles stand in the meshes, as a mesh without vertices of its own.
 json put_triangles(std::string& meshes,

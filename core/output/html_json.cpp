@@ -6,6 +6,7 @@
 #include "output/html_page.h"
 #include "output/palette.h"
 #include "output/triangles.h"
+#include "output/vector_json.h"
 
 #include <nlohmann/json.hpp>
 
@@ -19,9 +20,6 @@ using nlohmann::json;
 
 /// Width by height of the window that a fitted view is made for; the player fits again on demand.
 constexpr double kAspect = 16.0 / 9.0;
-
-json to_json(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-json to_json(const Eigen::Quaterniond& q) { return {q.x(), q.y(), q.z(), q.w()}; }
 
 /// Adds a mesh to the bytes; says where it begins and how large it is.
 json put_mesh(std::string& meshes, const Geometry& geometry) {

@@ -10,12 +10,13 @@
 namespace plumb {
 namespace {
 
-constexpr double kMost = 65535;
+constexpr double kMostSteps = 65535;
 
 std::uint16_t position_integer(const PoseSample& sample, const PositionGrid& grid, int axis) {
     const double place = static_cast<double>(sample.position[static_cast<std::size_t>(axis)]);
     const double step = std::round((place - grid.low[axis]) / grid.quantum);
-    return static_cast<std::uint16_t>(std::isfinite(step) ? std::clamp(step, 0.0, kMost) : 0.0);
+    return static_cast<std::uint16_t>(std::isfinite(step) ? std::clamp(step, 0.0, kMostSteps)
+                                                          : 0.0);
 }
 
 /// Value of a channel: 0…2 position, 3…5 rotation.
@@ -70,7 +71,7 @@ PositionGrid position_grid(const std::vector<PoseSample>& motion, double finest)
     PositionGrid grid;
     if (box.isEmpty()) return grid;
     grid.low = box.min();
-    grid.quantum = std::max({box.sizes().maxCoeff() / kMost, finest, 1e-12});
+    grid.quantum = std::max({box.sizes().maxCoeff() / kMostSteps, finest, 1e-12});
     return grid;
 }
 

@@ -9,13 +9,14 @@
 namespace plumb {
 namespace {
 
-constexpr double kMost = 65535;
+constexpr double kGridSteps = 65535;
 constexpr double kMostGrowth = 7;  // of the box: √3 · 7 / 131070 is below 1e-4
 constexpr std::size_t kIntegerBytes = 6, kFloatBytes = 12;
 
 /// Rounded up, so that the grid reaches over the whole box.
 float quantum_of(double side) {
-    return std::nextafter(static_cast<float>(side / kMost), std::numeric_limits<float>::infinity());
+    return std::nextafter(static_cast<float>(side / kGridSteps),
+                          std::numeric_limits<float>::infinity());
 }
 
 void put_floats(std::string& bytes, const Eigen::Vector3d& v) {
@@ -51,7 +52,7 @@ void put_places(std::string& bytes, std::span<const Eigen::Vector3d> places,
     for (const Eigen::Vector3d& place : places) {
         for (Eigen::Index i = 0; i < 3; ++i) {
             const double step = std::round((place[i] - low[i]) / static_cast<double>(quantum));
-            put(bytes, static_cast<std::uint16_t>(std::clamp(step, 0.0, kMost)));
+            put(bytes, static_cast<std::uint16_t>(std::clamp(step, 0.0, kGridSteps)));
         }
     }
 }

@@ -30,7 +30,7 @@ struct GridKeys {
     std::array<double, 2> size{1, 1};
 };
 
-const Table<GridKeys>& grid_table() {
+const Table<GridKeys>& grid_keys() {
     using G = GridKeys;
     static const Table<G> table = {
         field<G>(
@@ -44,7 +44,7 @@ const Table<GridKeys>& grid_table() {
 
 void read_grid(Draft& draft, const Node& node) {
     GridKeys grid;
-    read_object(grid, node, grid_table());
+    read_object(grid, node, grid_keys());
     require_room(*draft.scene, (grid.cells[0] + 1.0) * (grid.cells[1] + 1.0), node);
     take(draft, grid_surface(grid.cells, {grid.size[0], grid.size[1]}));
 }
@@ -289,7 +289,7 @@ Field<Draft> shape(const char* key, const SchemaJson& schema,
 const Table<Draft>& shape_table_of_deformables() {
     using enum DeformableKind;
     static const Table<Draft> table = {
-        shape("grid", object_schema(grid_table()), {cloth}, read_grid,
+        shape("grid", object_schema(grid_keys()), {cloth}, read_grid,
               "cloth: rectangle in the plane of x and z, about the origin"),
         shape("sphere", object_schema(ball_table()), {cloth, balloon, solid}, read_ball,
               "balloon, or solid ball of tetrahedra, about the origin"),

@@ -199,7 +199,7 @@ private:
     void note_missing_shapes(std::uint32_t first) {
         for (std::size_t i = first; i < scene_.bodies.size(); ++i)
             if (scene_.bodies[i].geometry != kNoIndex) return;
-        remarks_.push_back(
+        remarks_.emplace_back(
             "none of its links has a \"collision\" element, so it collides with nothing");
     }
 

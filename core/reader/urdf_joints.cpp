@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "math/rotation_between.h"
 #include "scene/nearest.h"
 
 namespace plumb::reader {
@@ -60,8 +61,7 @@ JointSpec joint_of(const LinkGroup& group, double start, const UrdfOptions& opti
     JointSpec spec;
     spec.kind = kind_of(joint);
     spec.anchor = group.world.position;
-    spec.frame = (group.world.rotation *
-                  Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis_of(joint)))
+    spec.frame = (group.world.rotation * rotation_between(Eigen::Vector3d::UnitX(), axis_of(joint)))
                      .normalized();
     if (!has_coordinate(joint)) {
         if (joint.limits || joint.dynamics)

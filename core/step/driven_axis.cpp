@@ -10,7 +10,7 @@ namespace plumb {
 namespace {
 
 /// An impulse beyond its bounds by less than this share of it is within them.
-constexpr double kRounding = 1e-9;
+constexpr double kImpulseRounding = 1e-9;
 
 /// No axis is taken to be heavier than its two bodies by more than this.
 constexpr double kLeastShare = 1e-6;
@@ -59,7 +59,8 @@ double DrivenAxis::evaluate(const Velocity<double>& a, const Velocity<double>& b
     const bool less = std::abs(next.impulse) < std::abs(impulse_);
     if (!settle || (is_row() && (next.is_row() || less))) answer_ = next;
     if (is_row()) return h_ * std::abs(wish(false)) * response_ / (response_ + softness());
-    const bool known = std::abs(answer_.impulse - impulse_) <= kRounding * std::abs(impulse_);
+    const bool known =
+        std::abs(answer_.impulse - impulse_) <= kImpulseRounding * std::abs(impulse_);
     return known ? 0 : std::numeric_limits<double>::infinity();
 }
 

@@ -5,6 +5,7 @@
 #include "constraints/contact.h"
 #include "constraints/friction.h"
 #include "contacts/contact_measures.h"
+#include "step/joint_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -34,10 +35,6 @@ constexpr std::uint32_t kMostMisses = 8;
 
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
-
-InverseMass<double> inverse_mass(const Bodies& b, std::uint32_t i) {
-    return {b.inverse_mass[i], b.world_inverse_inertia[i]};
-}
 
 Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);

@@ -190,7 +190,7 @@ double IslandSolver::residual() const {
     for (const IslandPoint& p : island_.points) {
         Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
         // what slides may lift by what the shift leaves it
-        std::array<double, 3> slow = cone::lengths(lack);
+        std::array<double, 3> slow = cone_lengths(lack);
         for (double& x : slow) x = std::min(x, slack);
         const double lift = slipping(p.impulse, slow, p.cone);
         if (lack[0] < 0) lack[0] = std::min(0.0, lack[0] + lift);

@@ -19,14 +19,14 @@
 namespace plumb::study {
 namespace {
 
-constexpr int kMoments = 200;                ///< of a trajectory, about
-constexpr std::uint32_t kCoarsest = 4;       ///< times dt: the longest step that is compared
-constexpr std::uint32_t kFinest = 4096;      ///< substeps to one of the scene's steps, at most
-constexpr std::uint32_t kDetections = 8;     ///< to one of the scene's steps, at least
-constexpr std::uint32_t kToDetection = 4;    ///< substeps, at least where that leaves as many
-constexpr int kFewest = 2 * int(kCoarsest);  ///< steps of a scene
-constexpr std::uint32_t kFirst = 4;          ///< substeps of the coarsest reference
-constexpr std::uint32_t kIterations = 4;     ///< of either kind in the coarsest one, at least
+constexpr int kMoments = 200;                  ///< of a trajectory, about
+constexpr std::uint32_t kCoarsest = 4;         ///< times dt: the longest step that is compared
+constexpr std::uint32_t kFinest = 4096;        ///< substeps to one of the scene's steps, at most
+constexpr std::uint32_t kDetections = 8;       ///< to one of the scene's steps, at least
+constexpr std::uint32_t kToDetection = 4;      ///< substeps, at least where that leaves as many
+constexpr int kFewest = 2 * int(kCoarsest);    ///< steps of a scene
+constexpr std::uint32_t kFirst = 4;            ///< substeps of the coarsest reference
+constexpr std::uint32_t kLeastIterations = 4;  ///< of either kind in the coarsest one, at least
 constexpr double kDearer = 2.9;        ///< times a reference that the next one costs: twice the
                                        ///< substeps, and the root of two of the iterations
 constexpr double kAhead = 4;           ///< times as far as prediction went, the next reference runs
@@ -43,7 +43,8 @@ using Shared = std::shared_ptr<const Trajectory>;
 /// the same in all references, however short their substeps.
 std::uint32_t refined_iterations(std::uint32_t asked, std::uint32_t substeps) {
     const double finer = std::max(1.0, static_cast<double>(substeps) / kFirst);
-    return static_cast<std::uint32_t>(std::lround(std::max(kIterations, asked) * std::sqrt(finer)));
+    return static_cast<std::uint32_t>(
+        std::lround(std::max(kLeastIterations, asked) * std::sqrt(finer)));
 }
 
 /// The scene at so many substeps to each of its own steps, in double. Detections get closer

@@ -89,9 +89,9 @@ std::vector<double> distances(const Moment& a, const Moment& b) {
 }
 
 double largest_distance(const Moment& a, const Moment& b) {
-    double largest = 0;
-    for (const double d : distances(a, b)) largest = std::max(largest, d);
-    return largest;
+    double most = 0;
+    for (const double d : distances(a, b)) most = std::max(most, d);
+    return most;
 }
 
 }  // namespace plumb::study

@@ -27,7 +27,7 @@ Vector6d random_point(Random& random, const ContactCone& c) {
     return lawful_step(random_vector(random, 2), Vector6d::Zero(), 1, c);
 }
 bool holds(const Vector6d& z, const ContactCone& c) {
-    const std::array<double, 3> length = cone::lengths(z);
+    const std::array<double, 3> length = cone_lengths(z);
     const double slack = 1e-12;
     return z[0] >= 0 && z[0] <= c.most && length[0] <= c.friction * z[0] + slack &&
            length[1] <= c.spinning * z[0] + slack && length[2] <= c.rolling * z[0] + slack;

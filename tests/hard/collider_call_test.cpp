@@ -13,13 +13,6 @@ namespace {
 
 void own_handler() { std::_Exit(77); }
 
-Scene ball_on_ground() {
-    Scene s;
-    add_ground(s);
-    add_body(s, sphere(0.5), {0, 0.5, 0});
-    return s;
-}
-
 void run_on(const std::string& collider) {
     const ColliderLibrary library(PLUMB_TEST_BAD_PLUGINS ":" PLUMB_TEST_PLUGINS);
     Simulation simulation(ball_on_ground(), library, collider);

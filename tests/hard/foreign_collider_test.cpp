@@ -43,13 +43,6 @@ public:
     }
 };
 
-Scene ball_on_ground() {
-    Scene s;
-    add_ground(s);
-    add_body(s, sphere(0.5), {0, 0.5, 0});
-    return s;
-}
-
 TEST(ForeignCollider, HoldsABall) {
     GroundOnly ground;
     Simulation simulation(ball_on_ground(), ground);

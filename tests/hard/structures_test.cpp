@@ -15,8 +15,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kGravity = 9.81;
-
 int number_from(const char* variable, int otherwise) {
     const char* value = std::getenv(variable);
     return value ? std::atoi(value) : otherwise;

@@ -54,7 +54,7 @@ void add_bodies(Scene& scene, ShapeKind kind, int count, Motion motion = Motion:
 }
 
 /// Boxes and spheres on a plane.
-Scene heap(int boxes, int spheres) {
+Scene boxes_and_spheres(int boxes, int spheres) {
     Scene scene;
     add_bodies(scene, kPlane, 1, Motion::fixed);
     add_bodies(scene, kBox, boxes);
@@ -74,7 +74,7 @@ TEST(ChooseCollider, TakesTheCheapestAndSaysSo) {
     plugins.add("cheap", 200);
     plugins.add("middling", 400);
     EXPECT_EQ(
-        plugins.chosen(heap(10, 10)),
+        plugins.chosen(boxes_and_spheres(10, 10)),
         "cheap: supports all 5 pairs of shapes, about 0.5 of middling's cost, 0.25 of dear's");
 }
 
@@ -82,24 +82,26 @@ TEST(ChooseCollider, WeighsPairsByHowManyBodiesThereAre) {
     Plugins plugins;
     set(plugins.add("round", 300).costs, kSphere, kSphere, 30);
     set(plugins.add("square", 300).costs, kBox, kBox, 30);
-    EXPECT_EQ(plugins.chosen(heap(10, 90)).substr(0, 5), "round");
-    EXPECT_EQ(plugins.chosen(heap(90, 10)).substr(0, 6), "square");
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(10, 90)).substr(0, 5), "round");
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(90, 10)).substr(0, 6), "square");
 }
 
 TEST(ChooseCollider, TakesNoneThatLacksAPair) {
     Plugins plugins;
     set(plugins.add("lacking", 1).pairs, kBox, kSphere, kPairNone);
     plugins.add("able", 1000);
-    EXPECT_EQ(plugins.chosen(heap(2, 2)), "able: supports all 5 pairs of shapes, as no other does");
-    EXPECT_EQ(plugins.chosen(heap(2, 0)).substr(0, 8), "lacking:") << "the pair cannot occur";
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(2, 2)),
+              "able: supports all 5 pairs of shapes, as no other does");
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(2, 0)).substr(0, 8), "lacking:")
+        << "the pair cannot occur";
 
     Plugins lacking;
     set(lacking.add("lacking", 1).pairs, kBox, kSphere, kPairNone);
-    EXPECT_EQ(lacking.chosen(heap(1, 1)), "none");
+    EXPECT_EQ(lacking.chosen(boxes_and_spheres(1, 1)), "none");
 }
 
 TEST(ChooseCollider, TakesMovingMeshesOnlyWhereTheyAreClaimed) {
-    Scene scene = heap(3, 0);
+    Scene scene = boxes_and_spheres(3, 0);
     add_bodies(scene, ShapeKind::mesh, 1, Motion::kinematic);
     Plugins plugins;
     plugins.add("still", 1);
@@ -112,51 +114,51 @@ TEST(ChooseCollider, RanksUnknownCostsBehindKnownOnesByName) {
     Plugins plugins;
     plugins.add("b_unknown", 0);
     set(plugins.add("a_half_known", 1).costs, kPlane, kBox, 0);
-    EXPECT_EQ(plugins.chosen(heap(5, 5)),
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(5, 5)),
               "a_half_known: supports all 5 pairs of shapes; what it costs is not known");
     EXPECT_EQ(plugins.chosen(Scene{}).substr(0, 12), "a_half_known");
     plugins.add("known", 100000);
-    EXPECT_EQ(plugins.chosen(heap(5, 5)), "known: supports all 5 pairs of shapes");
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(5, 5)), "known: supports all 5 pairs of shapes");
 }
 
 TEST(ChooseCollider, TakesTheYardstickOnlyWhereNoOtherCan) {
     Plugins plugins;
     plugins.add("reference", 1);
-    EXPECT_EQ(plugins.chosen(heap(1, 0)),
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(1, 0)),
               "reference: supports the only pair of shapes, as no other "
               "does");
     plugins.add("zebra", 0, "single");
-    EXPECT_EQ(plugins.chosen(heap(1, 0)).substr(0, 6), "zebra:");
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(1, 0)).substr(0, 6), "zebra:");
 }
 
 TEST(ChooseCollider, DoesNotPayWithPrecision) {
     Plugins plugins;
     plugins.add("rough", 1, "single");
     plugins.add("fine", 100, "double");
-    EXPECT_EQ(plugins.chosen(heap(5, 5)).substr(0, 5), "fine:");
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(5, 5)).substr(0, 5), "fine:");
 }
 
 TEST(ChooseCollider, SkipsRefusedFilesAndScenesWithoutPairs) {
     Plugins plugins;
     plugins.infos.push_back({{}, nullptr, "refused", "it is junk"});
-    EXPECT_EQ(plugins.chosen(heap(1, 1)), "none");
+    EXPECT_EQ(plugins.chosen(boxes_and_spheres(1, 1)), "none");
     plugins.add("able", 7);
     EXPECT_EQ(plugins.chosen(Scene{}), "able: the scene has no pairs of shapes that could touch");
 }
 
 TEST(ShapePairs, EstimatesHowManyAreNearEachOther) {
     // Each of two boxes may stand on the plane, and they may touch each other.
-    EXPECT_DOUBLE_EQ(near_of(heap(2, 0), kPlane, kBox), 2);
-    EXPECT_DOUBLE_EQ(near_of(heap(2, 0), kBox, kBox), 1);
-    // In a heap each of 200 has six neighbours, which makes 600 pairs in all.
-    const Scene heaped = heap(100, 100);
+    EXPECT_DOUBLE_EQ(near_of(boxes_and_spheres(2, 0), kPlane, kBox), 2);
+    EXPECT_DOUBLE_EQ(near_of(boxes_and_spheres(2, 0), kBox, kBox), 1);
+    // In a boxes_and_spheres each of 200 has six neighbours, which makes 600 pairs in all.
+    const Scene heaped = boxes_and_spheres(100, 100);
     const double boxes = near_of(heaped, kBox, kBox), spheres = near_of(heaped, kSphere, kSphere),
                  mixed = near_of(heaped, kSphere, kBox);
     EXPECT_NEAR(boxes + spheres + mixed, 600, 1e-9);
     EXPECT_NEAR(mixed, 600 * 100.0 / 199, 1e-9);
     EXPECT_DOUBLE_EQ(near_of(heaped, kPlane, kSphere), 100);
     // Half of twice as many surfaces are stood on as often.
-    Scene two = heap(10, 0);
+    Scene two = boxes_and_spheres(10, 0);
     add_bodies(two, ShapeKind::mesh, 1, Motion::fixed);
     EXPECT_DOUBLE_EQ(near_of(two, kPlane, kBox), 5);
     EXPECT_DOUBLE_EQ(near_of(two, kBox, ShapeKind::mesh), 5);

@@ -8,8 +8,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kG = 9.81;
-
 /// Sum of the impulses on a body, of all its contacts [N s].
 Vector impulse_on(const Simulation& simulation, std::uint32_t body) {
     Vector sum = Vector::Zero();
@@ -50,8 +48,8 @@ TEST_P(ContactWeights, ABoxAtRestBearsItsWeight) {
         EXPECT_NEAR(c.point_a.y(), 0, 1e-9);
         force += c.normal_force;
     }
-    EXPECT_NEAR(force, 2 * kG, 1e-6 * 2 * kG);
-    EXPECT_NEAR(impulse_on(simulation, 1).y(), 2 * kG * 0.01, 1e-6 * 2 * kG * 0.01);
+    EXPECT_NEAR(force, 2 * kGravity, 1e-6 * 2 * kGravity);
+    EXPECT_NEAR(impulse_on(simulation, 1).y(), 2 * kGravity * 0.01, 1e-6 * 2 * kGravity * 0.01);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ContactWeights,
@@ -94,7 +92,7 @@ TEST_P(FlyingBall, IsStoppedByTheImpulseThatItReads) {
         const Vector before = simulation.body_state(1).velocity;
         simulation.step();
         const Vector change = simulation.body_state(1).velocity - before;
-        const Vector expected = mass * (change + Vector(0, kG * 0.01, 0));
+        const Vector expected = mass * (change + Vector(0, kGravity * 0.01, 0));
         ASSERT_LT((impulse_on(simulation, 1) - expected).norm(), 1e-6 * mass * 30) << "step " << i;
         for (const ContactEvent& event : simulation.contact_events()) {
             if (event.kind != ContactEvent::Kind::hit) continue;
@@ -143,7 +141,7 @@ TEST(ContactSums, FrictionHoldsABoxOnASlopeAndBrakesOneThatSlides) {
             Scene s;
             const double slope = 0.4;  // tan 0.42
             s.settings.gravity =
-                Rotation(Eigen::AngleAxisd(slope, Vector::UnitZ())) * Vector(0, -kG, 0);
+                Rotation(Eigen::AngleAxisd(slope, Vector::UnitZ())) * Vector(0, -kGravity, 0);
             s.settings.substeps = substeps, s.settings.precision = Precision::double_;
             s.materials[0].friction = friction;
             add_ground(s);
@@ -155,9 +153,9 @@ TEST(ContactSums, FrictionHoldsABoxOnASlopeAndBrakesOneThatSlides) {
             double pressed = 0;
             for (const BodyContact& c : simulation.contacts())
                 across -= c.friction_force, pressed += c.normal_force;
-            const double weight = 3 * kG * std::cos(slope);
+            const double weight = 3 * kGravity * std::cos(slope);
             EXPECT_NEAR(pressed, weight, 1e-3 * weight);
-            const double held = -3 * kG * std::sin(slope), slides = -friction * weight;
+            const double held = -3 * kGravity * std::sin(slope), slides = -friction * weight;
             EXPECT_NEAR(across.x(), std::abs(held) < std::abs(slides) ? held : slides,
                         1e-3 * weight);
             EXPECT_NEAR(across.y(), 0, 1e-9 * weight);
@@ -199,7 +197,7 @@ TEST(ContactSums, AreOfIdentifiers) {
         EXPECT_NEAR(c.point_a.y() - c.point_b.y(), c.gap, 1e-12);
         force += c.normal_force;
     }
-    EXPECT_NEAR(force, 2 * kG, 1e-5 * 2 * kG);
+    EXPECT_NEAR(force, 2 * kGravity, 1e-5 * 2 * kGravity);
 }
 
 TEST(ContactSums, ThrowWhereNobodyWatches) {
@@ -322,7 +320,7 @@ TEST(ParticleContacts, BearTheWeightOfASheet) {
             EXPECT_NEAR(c.gap, 0, 1e-4);
             force += c.normal_force;
         }
-        EXPECT_NEAR(force, 0.5 * kG, 1e-3 * 0.5 * kG) << substeps;
+        EXPECT_NEAR(force, 0.5 * kGravity, 1e-3 * 0.5 * kGravity) << substeps;
     }
 }
 

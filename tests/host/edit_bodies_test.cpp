@@ -5,14 +5,8 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kG = 9.81, kStep = 0.01;
-
 /// How far a body falls from rest in n steps: the sum of the steps' velocities [m].
-double fall(int n) { return kG * kStep * kStep * n * (n + 1) / 2; }
-
-void make_steps(Simulation& s, int n) {
-    for (int i = 0; i < n; ++i) ASSERT_FALSE(s.step().collider_failed);
-}
+double fall(int n) { return kGravity * kStep * kStep * n * (n + 1) / 2; }
 
 class EditedBodies : public testing::TestWithParam<std::string> {
 protected:

@@ -5,12 +5,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kG = 9.81, kStep = 0.01;
-
-void make_steps(Simulation& s, int n) {
-    for (int i = 0; i < n; ++i) ASSERT_TRUE(s.step().finite);
-}
-
 JointSpec ball_joint(std::uint32_t a, std::uint32_t b, const Vector& anchor) {
     JointSpec joint;
     joint.body_a = a, joint.body_b = b;
@@ -35,8 +29,8 @@ TEST(EditedJoint, WhatItLetsGoFliesOnAParabola) {
     EXPECT_GT(start.velocity.norm(), 2);
     make_steps(s, 50);
     const double t = 50 * kStep;
-    const Vector expected =
-        start.placement.position + t * start.velocity - Vector(0, kG * t * (t + kStep) / 2, 0);
+    const Vector expected = start.placement.position + t * start.velocity -
+                            Vector(0, kGravity * t * (t + kStep) / 2, 0);
     EXPECT_LT((s.body_state(0).placement.position - expected).norm(), 1e-12);
 }
 
@@ -48,7 +42,7 @@ TEST(EditedJoint, HoldsWhatFallsFromWhereItIs) {
     s.set_velocity(0, Vector::Zero(), Vector::Zero());
     make_steps(s, 100);
     EXPECT_LT((s.body_state(0).placement.position - hook).norm() - 0.5, 1e-7);
-    EXPECT_NEAR(s.joint_load(joint).force.y(), kG, 1e-3) << "it bears 1 kg";
+    EXPECT_NEAR(s.joint_load(joint).force.y(), kGravity, 1e-3) << "it bears 1 kg";
     EXPECT_NEAR(s.joint_load(joint).force.x(), 0, 1e-9);
 }
 
@@ -105,7 +99,7 @@ TEST(EditedJoint, OthersKeepTheirNamesCountsAndTargets) {
     EXPECT_FALSE(s.has_joint(1)) << "it went with its body";
     EXPECT_TRUE(s.has_joint(2));
     EXPECT_EQ(s.joint_motion(2, kTurnX).position, before.position);
-    EXPECT_NEAR(s.joint_load(2).force.y(), kG, 1e-4);
+    EXPECT_NEAR(s.joint_load(2).force.y(), kGravity, 1e-4);
     s.set_motor_target(2, kTurnX, -4);
     s.step();
     EXPECT_NEAR(s.joint_motion(2, kTurnX).velocity, -4, 1e-4);
@@ -131,7 +125,8 @@ TEST(EditedJoint, ABrokenOneStaysBroken) {
     s.remove_joint(2);
     make_steps(s, 10);
     EXPECT_TRUE(s.is_broken(0));
-    EXPECT_NEAR(s.body_state(0).velocity.y(), speed - 10 * kStep * kG, 1e-9) << "it falls freely";
+    EXPECT_NEAR(s.body_state(0).velocity.y(), speed - 10 * kStep * kGravity, 1e-9)
+        << "it falls freely";
 }
 
 /// Two balls that overlap, and joints between them.

@@ -8,6 +8,15 @@
 
 namespace plumb::test {
 
+inline constexpr double kStep = 0.01;  ///< of a scene that does not say [s]
+
+inline void make_steps(Simulation& s, int n) {
+    for (int i = 0; i < n; ++i) {
+        const StepReport report = s.step();
+        ASSERT_TRUE(report.finite && !report.collider_failed);
+    }
+}
+
 /// Cubes and balls on the ground that fall on one another, 4 × 3 × 3, a metre aside of the origin.
 inline Scene heap(const Settings& settings = {}) {
     Scene s;
@@ -35,7 +44,7 @@ inline void add_machine(Scene& s) {
         joint.body_a = first + i;
         joint.body_b = i == 0 ? kNoIndex : first + i - 1;
         joint.anchor = {-3.25 + 0.5 * i, 3, 0};
-        joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
+        joint.frame = rotation_between(Vector::UnitX(), Vector::UnitZ());
         s.joints.push_back(joint);
     }
     JointSpec motor;

@@ -76,7 +76,7 @@ Scene robot() {
         joint.kind = JointKind::hinge;
         joint.body_a = 1 + i, joint.body_b = i == 0 || i == 3 ? kNoIndex : i;
         joint.anchor = {-1.25 + 0.5 * i, 1, 0};
-        joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
+        joint.frame = rotation_between(Vector::UnitX(), Vector::UnitZ());
         JointAxisSpec& axis = joint.axes[kTurnX];
         axis.friction = 0.1;
         if (i == 0) axis.motor.mode = MotorMode::velocity, axis.motor.target = 2;

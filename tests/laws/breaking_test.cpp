@@ -42,7 +42,7 @@ TEST_P(Breaking, AnotherJointStillKeepsThemApart) {
     rail.kind = JointKind::slider;
     rail.body_a = 0, rail.body_b = 1;
     rail.anchor = {0, 1.5, 0};
-    rail.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitY());
+    rail.frame = rotation_between(Vector::UnitX(), Vector::UnitY());
     s.joints.push_back(rail);
     EXPECT_LT(height(s), -2);
     s.joints[1].collide = true;

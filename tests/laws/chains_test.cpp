@@ -45,7 +45,7 @@ Scene hung_chain(const std::vector<double>& slopes, double length) {
     for (std::uint32_t i = 0; i <= slopes.size(); ++i) {
         JointSpec joint;
         joint.kind = JointKind::hinge;
-        joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
+        joint.frame = rotation_between(Vector::UnitX(), Vector::UnitZ());
         joint.body_a = i < slopes.size() ? i : i - 1;
         joint.body_b = i > 0 && i < slopes.size() ? i - 1 : kNoIndex;
         joint.anchor = end;
@@ -53,7 +53,7 @@ Scene hung_chain(const std::vector<double>& slopes, double length) {
         if (i == slopes.size()) break;
         const Vector along(std::cos(slopes[i]), std::sin(slopes[i]), 0);
         add_body(s, box(0.5 * length, 0.05 * length, 0.05 * length), end + 0.5 * length * along)
-            .placement.rotation = Rotation::FromTwoVectors(Vector::UnitX(), along);
+            .placement.rotation = rotation_between(Vector::UnitX(), along);
         end += length * along;
     }
     return s;

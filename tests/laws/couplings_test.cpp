@@ -9,8 +9,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kGravity = 9.81;
-
 class Couplings : public InEachPrecision {
 protected:
     /// Without gravity, on joints of the same kind to the world: body 0, a cube of 1 m and 1000 kg
@@ -34,10 +32,6 @@ protected:
 };
 INSTANTIATE_TEST_SUITE_P(, Couplings, each_precision(), precision_name);
 
-double position(const Simulation& s, std::uint32_t joint, std::uint32_t axis) {
-    return s.joint_motion(joint, axis).position;
-}
-
 /// Two hinged wheels tied by q_b = r q_a, the torque τ on the first: α_a = τ / (I_a + r² I_b).
 TEST_P(Couplings, AGearSharesTorqueByItsRatio) {
     for (const double ratio : {-2.0, 0.5, 3.0}) {
@@ -50,7 +44,8 @@ TEST_P(Couplings, AGearSharesTorqueByItsRatio) {
         run_for(simulation, 2);
         const double alpha = 100 / (kInertia + ratio * ratio * kInertiaB);
         EXPECT_NEAR(simulation.joint_motion(0, kTurnX).velocity, 2 * alpha, 0.005 * 2 * alpha);
-        EXPECT_NEAR(position(simulation, 1, kTurnX), ratio * position(simulation, 0, kTurnX), 1e-5);
+        EXPECT_NEAR(joint_position(simulation, 1, kTurnX),
+                    ratio * joint_position(simulation, 0, kTurnX), 1e-5);
     }
 }
 
@@ -65,7 +60,8 @@ TEST_P(Couplings, ARackFollowsItsPinion) {
     run_for(simulation, 2);
     const double alpha = 100 / (kInertia + 0.25 * 0.25 * 512);
     EXPECT_NEAR(simulation.joint_motion(0, kTurnX).velocity, 2 * alpha, 0.005 * 2 * alpha);
-    EXPECT_NEAR(position(simulation, 1, kAlongX), 0.25 * position(simulation, 0, kTurnX), 1e-5);
+    EXPECT_NEAR(joint_position(simulation, 1, kAlongX),
+                0.25 * joint_position(simulation, 0, kTurnX), 1e-5);
 }
 
 /// Two wheels or sliders tied with an offset far from where they stand come together at the speed
@@ -87,16 +83,17 @@ TEST_P(Couplings, ACouplingComesToAFarOffsetAtTheSpeedOfRecovery) {
             const double end = std::abs(offset) / 5;
             double fastest = 0;
             run_for(simulation, end / 2);
-            EXPECT_NEAR(position(simulation, 1, axis), speed * end / 2, 2e-3 * std::abs(offset));
+            EXPECT_NEAR(joint_position(simulation, 1, axis), speed * end / 2,
+                        2e-3 * std::abs(offset));
             for (int i = 0; i < 60 * (end / 2 + 0.5); ++i) {
                 ASSERT_TRUE(simulation.step().finite);
                 const double now = simulation.joint_motion(1, axis).velocity;
                 fastest = std::max(fastest, std::abs(now));
             }
             EXPECT_LT(fastest, std::abs(speed) * 1.01);
-            EXPECT_NEAR(position(simulation, 1, axis),
-                        ratio * position(simulation, 0, axis) + offset, 1e-4);
-            EXPECT_NEAR(position(simulation, 1, axis), speed * end, 2e-3 * std::abs(offset));
+            EXPECT_NEAR(joint_position(simulation, 1, axis),
+                        ratio * joint_position(simulation, 0, axis) + offset, 1e-4);
+            EXPECT_NEAR(joint_position(simulation, 1, axis), speed * end, 2e-3 * std::abs(offset));
             EXPECT_NEAR(simulation.joint_motion(1, axis).velocity, 0, 1e-3);
         }
     }
@@ -116,10 +113,10 @@ TEST_P(Couplings, ACouplingHoldsUnderLoadInLongSteps) {
     double worst = 0;
     for (int i = 0; i < 100; ++i) {
         ASSERT_TRUE(simulation.step().finite);
-        worst = std::max(worst, std::abs(gear.ratio * position(simulation, 0, kTurnX) -
-                                         position(simulation, 1, kTurnX)));
+        worst = std::max(worst, std::abs(gear.ratio * joint_position(simulation, 0, kTurnX) -
+                                         joint_position(simulation, 1, kTurnX)));
     }
-    EXPECT_GT(std::abs(position(simulation, 1, kTurnX)), 2);
+    EXPECT_GT(std::abs(joint_position(simulation, 1, kTurnX)), 2);
     EXPECT_LT(worst, 0.05);
 }
 
@@ -134,8 +131,8 @@ TEST_P(Couplings, ACouplingThatLimitsHoldBackStaysCalm) {
     run_for(simulation, 1.2);
     for (int i = 0; i < 600; ++i) {
         ASSERT_TRUE(simulation.step().finite);
-        ASSERT_NEAR(position(simulation, 1, kTurnX), 1, 1e-3);
-        ASSERT_NEAR(position(simulation, 0, kTurnX), 0, 1e-3);
+        ASSERT_NEAR(joint_position(simulation, 1, kTurnX), 1, 1e-3);
+        ASSERT_NEAR(joint_position(simulation, 0, kTurnX), 0, 1e-3);
     }
 }
 

@@ -11,7 +11,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kGravity = 9.81;
 constexpr int kLinks = 4;
 
 /// Rods of 1 m and 8 kg in a row along x, hinged about z at x = 0, 1, 2 …, the first to the world.

@@ -11,11 +11,9 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kGravity = 9.81;
+using DriveCase = std::tuple<JointMethod, Precision>;
 
-using Case = std::tuple<JointMethod, Precision>;
-
-class Drives : public testing::TestWithParam<Case> {
+class Drives : public testing::TestWithParam<DriveCase> {
 protected:
     /// Without gravity; body 0 is a cube of 1 m and 1000 kg at the origin, on joint 0 to the world.
     Scene scene(JointKind kind) const {
@@ -32,7 +30,7 @@ protected:
     }
     static constexpr double kInertia = 1000.0 / 6;
 };
-std::string case_name(const testing::TestParamInfo<Case>& which) {
+std::string drive_case_name(const testing::TestParamInfo<DriveCase>& which) {
     const auto [joints, precision] = which.param;
     return std::string(joints == JointMethod::tree ? "tree" : "iterated") + "_" +
            word_of(precision);
@@ -40,11 +38,7 @@ std::string case_name(const testing::TestParamInfo<Case>& which) {
 INSTANTIATE_TEST_SUITE_P(, Drives,
                          testing::Combine(testing::Values(JointMethod::tree, JointMethod::iterate),
                                           each_precision()),
-                         case_name);
-
-double position(const Simulation& s, std::uint32_t joint, std::uint32_t axis) {
-    return s.joint_motion(joint, axis).position;
-}
+                         drive_case_name);
 
 TEST_P(Drives, AVelocityMotorSpeedsUpByItsGreatestTorqueAndHolds) {
     Scene s = scene(JointKind::hinge);
@@ -53,13 +47,14 @@ TEST_P(Drives, AVelocityMotorSpeedsUpByItsGreatestTorqueAndHolds) {
     Simulation simulation(s, colliders(), "reference");
     run_for(simulation, 2);
     EXPECT_NEAR(simulation.joint_motion(0, kTurnX).velocity, 2, 1e-3);
-    EXPECT_NEAR(position(simulation, 0, kTurnX), 2, 0.005 * 2);
+    EXPECT_NEAR(joint_position(simulation, 0, kTurnX), 2, 0.005 * 2);
     EXPECT_NEAR(simulation.joint_load(0).torque.x(), kInertia, 1e-3 * kInertia);
     run_for(simulation, 2);
     EXPECT_NEAR(simulation.joint_motion(0, kTurnX).velocity, 3, 1e-5);
     EXPECT_LT(std::abs(simulation.joint_load(0).torque.x()), 1e-2);
     run_for(simulation, 10);
-    EXPECT_NEAR(position(simulation, 0, kTurnX), 4.5 + 3 * 11, 0.05) << "counted through turns";
+    EXPECT_NEAR(joint_position(simulation, 0, kTurnX), 4.5 + 3 * 11, 0.05)
+        << "counted through turns";
 }
 
 /// Forces that are at their bounds are exact with a leapfrog start, as all constant forces are.
@@ -72,7 +67,7 @@ TEST_P(Drives, BoundsHoldForHalfAPush) {
         motor.mode = mode, motor.target = 1000, motor.greatest = 1000;  // 1 m/s²
         Simulation simulation(s, colliders(), "reference");
         run_for(simulation, 1);
-        EXPECT_NEAR(position(simulation, 0, kAlongX), 0.5, 1e-5);
+        EXPECT_NEAR(joint_position(simulation, 0, kAlongX), 0.5, 1e-5);
     }
     Scene s = scene(JointKind::slider);
     s.settings.leapfrog_start = true;
@@ -81,7 +76,7 @@ TEST_P(Drives, BoundsHoldForHalfAPush) {
     s.joints[0].axes[kAlongX].friction = 1000;
     Simulation simulation(s, colliders(), "reference");
     run_for(simulation, 1);
-    EXPECT_NEAR(position(simulation, 0, kAlongX), 1.5, 1e-5);
+    EXPECT_NEAR(joint_position(simulation, 0, kAlongX), 1.5, 1e-5);
 }
 
 TEST_P(Drives, APositionMotorReachesItsTargetAndKeepsWithinItsTorque) {
@@ -94,14 +89,14 @@ TEST_P(Drives, APositionMotorReachesItsTargetAndKeepsWithinItsTorque) {
         double furthest = 0, strongest = 0;
         for (int i = 0; i < 180; ++i) {
             simulation.step();
-            furthest = std::max(furthest, position(simulation, 0, kTurnX));
+            furthest = std::max(furthest, joint_position(simulation, 0, kTurnX));
             strongest = std::max(strongest, simulation.joint_load(0).torque.norm());
         }
         const double overshoot =
             damping < 1 ? std::exp(-std::numbers::pi * damping / std::sqrt(1 - damping * damping))
                         : 0;
         EXPECT_LE(furthest, 0.8 * (1 + overshoot) + 1e-3) << damping;
-        EXPECT_NEAR(position(simulation, 0, kTurnX), 0.8, 1e-4) << damping;
+        EXPECT_NEAR(joint_position(simulation, 0, kTurnX), 0.8, 1e-4) << damping;
         EXPECT_LE(strongest, motor.greatest * (1 + 1e-6)) << damping;
     }
 }
@@ -118,7 +113,7 @@ TEST_P(Drives, AnUndampedPositionMotorSwingsAtItsFrequency) {
     for (int i = 0; i < 120; ++i) {
         simulation.step();
         const double law = 0.2 * (1 - std::cos(2 * std::numbers::pi * simulation.time()));
-        EXPECT_NEAR(position(simulation, 0, kTurnX), law, 0.02 * 0.4) << simulation.time();
+        EXPECT_NEAR(joint_position(simulation, 0, kTurnX), law, 0.02 * 0.4) << simulation.time();
     }
 }
 
@@ -132,7 +127,7 @@ TEST_P(Drives, ALimitHoldsAgainstAMotorOfAnyForce) {
         axis.motor.greatest = greatest;
         Simulation simulation(s, colliders(), "reference");
         run_for(simulation, 2);
-        EXPECT_LT(position(simulation, 0, kTurnX), 0.5 + 1e-3) << greatest;
+        EXPECT_LT(joint_position(simulation, 0, kTurnX), 0.5 + 1e-3) << greatest;
     }
 }
 
@@ -143,13 +138,13 @@ TEST_P(Drives, AMotorFollowsItsKeys) {
     motor.keys = {{0.5, 0}, {1.5, 0.4}, {2, 0.4}};
     Simulation simulation(s, colliders(), "reference");
     run_for(simulation, 1);
-    EXPECT_NEAR(position(simulation, 0, kAlongX), 0.2, 2e-3);
+    EXPECT_NEAR(joint_position(simulation, 0, kAlongX), 0.2, 2e-3);
     EXPECT_NEAR(simulation.joint_motion(0, kAlongX).velocity, 0.4, 1e-3);
     run_for(simulation, 1.5);
-    EXPECT_NEAR(position(simulation, 0, kAlongX), 0.4, 1e-5);
+    EXPECT_NEAR(joint_position(simulation, 0, kAlongX), 0.4, 1e-5);
     simulation.set_motor_target(0, kAlongX, -0.1);
     run_for(simulation, 1.5);
-    EXPECT_NEAR(position(simulation, 0, kAlongX), -0.1, 1e-4);
+    EXPECT_NEAR(joint_position(simulation, 0, kAlongX), -0.1, 1e-4);
 }
 
 TEST_P(Drives, ALimitHoldsUnderAHundredTimesTheWeight) {
@@ -160,7 +155,7 @@ TEST_P(Drives, ALimitHoldsUnderAHundredTimesTheWeight) {
         s.bodies[0].torque = {side * torque, 0, 0};
         Simulation simulation(s, colliders(), "reference");
         run_for(simulation, 3);
-        EXPECT_NEAR(position(simulation, 0, kTurnX), side * 0.4, 1e-5);
+        EXPECT_NEAR(joint_position(simulation, 0, kTurnX), side * 0.4, 1e-5);
         EXPECT_NEAR(simulation.joint_load(0).torque.x(), -side * torque, 1e-3 * torque);
     }
     Scene s = scene(JointKind::slider);
@@ -168,7 +163,7 @@ TEST_P(Drives, ALimitHoldsUnderAHundredTimesTheWeight) {
     s.bodies[0].force = {100 * 1000 * kGravity, 0, 0};
     Simulation simulation(s, colliders(), "reference");
     run_for(simulation, 1);
-    EXPECT_NEAR(position(simulation, 0, kAlongX), 0, 1e-4);
+    EXPECT_NEAR(joint_position(simulation, 0, kAlongX), 0, 1e-4);
 }
 
 TEST_P(Drives, AConeHoldsItsBoneAndATwistItsTurn) {
@@ -180,8 +175,8 @@ TEST_P(Drives, AConeHoldsItsBoneAndATwistItsTurn) {
     double swing = 0, twist = 0;
     for (int i = 0; i < 300; ++i) {
         simulation.step();
-        swing = std::max(swing, position(simulation, 0, kTurnY));
-        twist = std::max(twist, std::abs(position(simulation, 0, kTurnX)));
+        swing = std::max(swing, joint_position(simulation, 0, kTurnY));
+        twist = std::max(twist, std::abs(joint_position(simulation, 0, kTurnX)));
     }
     EXPECT_LT(swing, 0.5 + 2e-3);
     EXPECT_GT(swing, 0.5 - 2e-3);
@@ -197,7 +192,7 @@ TEST_P(Drives, ASpringSwingsAtItsFrequency) {
     int crossings = 0;
     for (int i = 0; i < 600; ++i) {
         simulation.step();
-        const double x = position(simulation, 0, kAlongX) - 0.1;
+        const double x = joint_position(simulation, 0, kAlongX) - 0.1;
         if (last < 0 && x >= 0) {
             crossing = simulation.time() - simulation.world().settings.dt * x / (x - last);
             if (++crossings == 1) first_crossing = crossing;
@@ -222,7 +217,7 @@ TEST_P(Drives, FrictionHoldsBelowItsForceAndSlowsAboveIt) {
     s.bodies[0].force = {499, 0, 0};
     Simulation held(s, colliders(), "reference");
     run_for(held, 2);
-    EXPECT_NEAR(position(held, 0, kAlongX), 0, 1e-6);
+    EXPECT_NEAR(joint_position(held, 0, kAlongX), 0, 1e-6);
     s.bodies[0].force = {1500, 0, 0};
     Simulation pushed(s, colliders(), "reference");
     run_for(pushed, 2);
@@ -253,7 +248,7 @@ TEST_P(Drives, AGreatestSpeedIsKept) {
             fastest = std::max(fastest, std::abs(turned.joint_motion(0, kTurnX).velocity));
         }
         EXPECT_NEAR(fastest, 0.5, 1e-3);
-        EXPECT_NEAR(position(turned, 0, kTurnX), side * 2, 1e-4);
+        EXPECT_NEAR(joint_position(turned, 0, kTurnX), side * 2, 1e-4);
     }
 }
 

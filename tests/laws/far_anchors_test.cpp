@@ -20,7 +20,7 @@ Scene far_scene(JointKind kind, double arm) {
     joint.kind = kind;
     joint.body_a = 0;
     joint.anchor = Vector(-0.8, 0.5, 0.33).normalized() * arm;
-    joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector(0, 0.3, 1));
+    joint.frame = rotation_between(Vector::UnitX(), Vector(0, 0.3, 1));
     if (kind == JointKind::distance) joint.anchor_b = joint.anchor + Vector(0, 1, 0);
     if (kind == JointKind::six_axis) joint.locked = {true, false, false, false, true, false};
     s.joints.push_back(joint);

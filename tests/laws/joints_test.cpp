@@ -10,12 +10,12 @@
 namespace plumb::test {
 namespace {
 
-struct Kind {
+struct OneJointKind {
     JointKind kind;
     const char* name;
     std::array<bool, kJointAxes> locked;
 };
-constexpr Kind kKinds[] = {
+constexpr OneJointKind kOneJointKinds[] = {
     {JointKind::ball, "ball", {true, true, true, false, false, false}},
     {JointKind::point_on_line, "point_on_line", {false, true, true, false, false, false}},
     {JointKind::point_on_plane, "point_on_plane", {true, false, false, false, false, false}},
@@ -32,10 +32,10 @@ constexpr Kind kKinds[] = {
     {JointKind::six_axis, "six_axis", {true, false, true, false, true, false}},
 };
 
-using Case = std::tuple<Kind, Precision>;
-class EveryJoint : public testing::TestWithParam<Case> {
+using OneJointCase = std::tuple<OneJointKind, Precision>;
+class EveryJoint : public testing::TestWithParam<OneJointCase> {
 protected:
-    const Kind& kind() const { return std::get<0>(GetParam()); }
+    const OneJointKind& kind() const { return std::get<0>(GetParam()); }
 
     /// A cube of 1 m and 1000 kg on a joint to the world at its centre, turned anyhow.
     Scene scene() const {
@@ -58,11 +58,12 @@ protected:
     }
     Vector axis(int k) const { return joint().frame * Vector::Unit(k % 3); }
 };
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string joint_case_name(const testing::TestParamInfo<OneJointCase>& info) {
     return std::string(std::get<0>(info.param).name) + "_" + word_of(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(, EveryJoint,
-                         testing::Combine(testing::ValuesIn(kKinds), each_precision()), case_name);
+                         testing::Combine(testing::ValuesIn(kOneJointKinds), each_precision()),
+                         joint_case_name);
 
 /// Pushed along or turned about each axis in turn for 0.5 s: by ten times its weight where the
 /// joint is locked, by a force that moves it 0.125 m or 0.125 rad where it is free.

@@ -131,7 +131,7 @@ Rocker add_round(Scene& s, const Geometry& shape, double radius, double below, d
                                        2 * radius * below * std::cos(a);
                             },
                         .upright = shape.kind == ShapeKind::capsule
-                                       ? Rotation::FromTwoVectors(Vector::UnitY(), Vector::UnitZ())
+                                       ? rotation_between(Vector::UnitY(), Vector::UnitZ())
                                        : Rotation::Identity()};
     BodySpec& body = add_body(s, shape, {0, radius, 0});
     body.placement.rotation = turn * rocker.upright;

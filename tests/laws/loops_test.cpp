@@ -26,7 +26,7 @@ protected:
         const Vector along = bar.to - bar.from;
         BodySpec& body =
             add_body(s_, box(0.5 * along.norm(), 0.04, 0.04), 0.5 * (bar.from + bar.to));
-        body.placement.rotation = Rotation::FromTwoVectors(Vector::UnitX(), along);
+        body.placement.rotation = rotation_between(Vector::UnitX(), along);
         body.group = body.mask = 0;
         return static_cast<std::uint32_t>(s_.bodies.size()) - 1;
     }
@@ -34,7 +34,7 @@ protected:
                          const Vector& axis) {
         JointSpec joint;
         joint.kind = kind, joint.body_a = a, joint.body_b = b, joint.anchor = anchor;
-        joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), axis);
+        joint.frame = rotation_between(Vector::UnitX(), axis);
         s_.joints.push_back(joint);
         return s_.joints.back();
     }

@@ -13,7 +13,7 @@ namespace {
 
 using study::SteadyCircle;
 
-constexpr double kDegree = std::numbers::pi / 180, kGravity = 9.81;
+constexpr double kDegree = std::numbers::pi / 180;
 
 /// A prism of n sides around y.
 Geometry prism(std::uint32_t n, double radius, double half_height) {

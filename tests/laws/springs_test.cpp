@@ -17,7 +17,7 @@ constexpr double kSpeed = 0.01;  // at first, so slow that sin φ = φ [m/s], [r
 constexpr double kMass = 3, kInertia = kMass * 0.5 * 0.5 / 6;  // of a cube of 0.5 m [kg], [kg m²]
 
 /// What pulls a cube back to where it was put.
-struct Kind {
+struct SpringKind {
     const char* name;
     JointKind joint;
     std::uint32_t axis;
@@ -26,7 +26,7 @@ struct Kind {
     bool turns() const { return axis >= kTurnX; }
     double mass() const { return turns() ? kInertia : kMass; }
 };
-constexpr Kind kKinds[] = {
+constexpr SpringKind kSpringKinds[] = {
     {"slider", JointKind::slider, kAlongX, false, false},
     {"hinge", JointKind::hinge, kTurnX, false, false},
     {"compliant_ball", JointKind::ball, kAlongX, true, false},
@@ -34,16 +34,16 @@ constexpr Kind kKinds[] = {
     {"position_motor", JointKind::hinge, kTurnX, false, true},
 };
 
-using Case = std::tuple<Kind, JointMethod, Precision>;
+using SpringCase = std::tuple<SpringKind, JointMethod, Precision>;
 
-class Springs : public testing::TestWithParam<Case> {
+class Springs : public testing::TestWithParam<SpringCase> {
 protected:
-    Kind kind() const { return std::get<Kind>(GetParam()); }
+    SpringKind kind() const { return std::get<SpringKind>(GetParam()); }
 
     /// A cube that leaves its place along the axis, on a spring of frequency ω [rad/s] and
     /// damping ratio ζ.
     Scene scene(double omega, double zeta) const {
-        const Kind k = kind();
+        const SpringKind k = kind();
         Scene s;
         s.settings.gravity.setZero();
         s.settings.leapfrog_start = true;
@@ -73,16 +73,16 @@ protected:
     }
 };
 
-std::string case_name(const testing::TestParamInfo<Case>& which) {
+std::string spring_case_name(const testing::TestParamInfo<SpringCase>& which) {
     const auto& [kind, joints, precision] = which.param;
     return std::string(kind.name) + "_" + (joints == JointMethod::tree ? "tree" : "iterated") +
            "_" + word_of(precision);
 }
 INSTANTIATE_TEST_SUITE_P(, Springs,
-                         testing::Combine(testing::ValuesIn(kKinds),
+                         testing::Combine(testing::ValuesIn(kSpringKinds),
                                           testing::Values(JointMethod::tree, JointMethod::iterate),
                                           each_precision()),
-                         case_name);
+                         spring_case_name);
 
 /// Steps of 2 to 20 ms, 1 to 8 substeps and 1 to 20 iterations.
 void draw_steps(Settings& s, Random& random) {

@@ -9,10 +9,8 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kGravity = 9.81;
-
-using Case = std::tuple<JointMethod, Precision>;
-class Statics : public testing::TestWithParam<Case> {
+using StaticsCase = std::tuple<JointMethod, Precision>;
+class Statics : public testing::TestWithParam<StaticsCase> {
 protected:
     Statics() {
         use_fine_steps(s_.settings);
@@ -25,7 +23,7 @@ protected:
     std::uint32_t add_bar(const Vector& from, const Vector& to, double mass) {
         const Vector along = to - from;
         BodySpec& body = add_body(s_, box(0.5 * along.norm(), 0.05, 0.05), 0.5 * (from + to));
-        body.placement.rotation = Rotation::FromTwoVectors(Vector::UnitX(), along);
+        body.placement.rotation = rotation_between(Vector::UnitX(), along);
         body.group = body.mask = 0;
         body.mass = mass;
         return static_cast<std::uint32_t>(s_.bodies.size()) - 1;
@@ -35,7 +33,7 @@ protected:
         JointSpec joint;
         joint.kind = kind, joint.body_a = a, joint.body_b = b, joint.anchor = anchor;
         if (kind == JointKind::hinge)  // about z
-            joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
+            joint.frame = rotation_between(Vector::UnitX(), Vector::UnitZ());
         s_.joints.push_back(joint);
         return static_cast<std::uint32_t>(s_.joints.size()) - 1;
     }
@@ -63,14 +61,14 @@ protected:
 
     Scene s_;
 };
-std::string case_name(const testing::TestParamInfo<Case>& info) {
+std::string statics_case_name(const testing::TestParamInfo<StaticsCase>& info) {
     return std::string(std::get<0>(info.param) == JointMethod::tree ? "tree" : "iterated") + "_" +
            word_of(std::get<1>(info.param));
 }
 INSTANTIATE_TEST_SUITE_P(, Statics,
                          testing::Combine(testing::Values(JointMethod::tree, JointMethod::iterate),
                                           each_precision()),
-                         case_name);
+                         statics_case_name);
 
 /// Five bars of 10 kg and 0.5 m, fixed to each other and to a wall, with 200 N at the end.
 TEST_P(Statics, ACantileverBearsItsEndLoadAtEachJoint) {
@@ -123,7 +121,7 @@ TEST_P(Statics, ABridgeSharesItsLoadByTheLever) {
     const std::uint32_t pin = add_joint(JointKind::hinge, beam, kNoIndex, {0, 1, 0}),
                         roller =
                             add_joint(JointKind::point_on_plane, beam, kNoIndex, {kSpan, 1, 0});
-    s_.joints[roller].frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitY());
+    s_.joints[roller].frame = rotation_between(Vector::UnitX(), Vector::UnitY());
     s_.bodies[beam].force = {0, -kLoad, 0};
     s_.bodies[beam].torque = Vector((kShare - 0.5) * kSpan, 0, 0).cross(Vector(0, -kLoad, 0));
     const std::vector<JointLoad> loads = settle();
@@ -196,7 +194,7 @@ protected:
     static JointSpec hinge() {
         JointSpec joint;
         joint.kind = JointKind::hinge;
-        joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
+        joint.frame = rotation_between(Vector::UnitX(), Vector::UnitZ());
         return joint;
     }
 };

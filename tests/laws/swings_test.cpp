@@ -25,16 +25,14 @@ Scene still_scene(Precision precision) {
     return s;
 }
 
-Rotation hinge_across_the_plane() {
-    return Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
-}
+Rotation hinge_across_the_plane() { return rotation_between(Vector::UnitX(), Vector::UnitZ()); }
 
 /// Rods of 1 kg from the origin on in one line, `angle` from the vertical; the last carries a load.
 Scene chain(Precision precision, std::uint32_t links, double length, double angle, double load) {
     Scene s = still_scene(precision);
     s.settings.joints = JointMethod::tree;
     const Vector along(std::sin(angle), -std::cos(angle), 0);
-    const Rotation turn = Rotation::FromTwoVectors(-Vector::UnitY(), along);
+    const Rotation turn = rotation_between(-Vector::UnitY(), along);
     for (std::uint32_t i = 0; i <= links; ++i) {
         const bool is_load = i == links;
         BodySpec& body = is_load ? add_body(s, sphere(0.2 * length), along * length * links)
@@ -176,7 +174,7 @@ Scene pendulum(Precision precision, JointKind kind, int bodies, bool ball) {
     const Vector along(std::sin(kAngle), -std::cos(kAngle), 0);
     for (int i = 0; i < bodies; ++i) {
         BodySpec& body = add_body(s, box(0.02, 0.5, 0.02), along * (i + 0.5));
-        body.placement.rotation = Rotation::FromTwoVectors(-Vector::UnitY(), along);
+        body.placement.rotation = rotation_between(-Vector::UnitY(), along);
         if (ball) body.mass = 0.2;
     }
     if (ball) add_body(s, sphere(0.1), along).mass = 5;
@@ -252,10 +250,10 @@ void add_drawn_pendulum(Scene& s, Random& random, const Vector& at = Vector::Zer
             add_body(s, box(thickness * length, 0.5 * length, 0.7 * thickness * length),
                      at + along * length * (i + 0.5));
         body.mass = 1;
-        body.placement.rotation = Rotation::FromTwoVectors(-Vector::UnitY(), along);
+        body.placement.rotation = rotation_between(-Vector::UnitY(), along);
         joint.kind = kind;
         joint.frame = in_a_plane ? hinge_across_the_plane()
-                                 : Rotation::FromTwoVectors(Vector::UnitX(), random.direction());
+                                 : rotation_between(Vector::UnitX(), random.direction());
         joint.anchor = at + along * length * i;
         s.joints.push_back(joint);
     }

@@ -158,7 +158,7 @@ struct Gimbals {
             joint.kind = JointKind::hinge;
             joint.body_a = i;
             if (i > 0) joint.body_b = i - 1;
-            joint.frame = Rotation::FromTwoVectors(Vector::UnitX(), axes[i]);
+            joint.frame = rotation_between(Vector::UnitX(), axes[i]);
             s.joints.push_back(joint);
         }
         return s;

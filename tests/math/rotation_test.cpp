@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "math/rotation.h"
+#include "math/rotation_between.h"
 #include "support/random.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,30 @@ namespace {
 
 using test::Random;
 constexpr double kPi = std::numbers::pi;
+
+TEST(RotationBetween, TurnsOneIntoTheOtherByTheLeastAngle) {
+    Random random(7);
+    for (int i = 0; i < 500; ++i) {
+        const Vector3d from = random.vector(3), to = random.vector(0.2);
+        const Eigen::Quaterniond turn = rotation_between(from, to);
+        EXPECT_NEAR(turn.norm(), 1, 1e-15);
+        EXPECT_LT((turn * from.normalized() - to.normalized()).norm(), 1e-14);
+        const double angle = std::acos(from.normalized().dot(to.normalized()));
+        EXPECT_NEAR(Eigen::AngleAxisd(turn).angle(), angle, 1e-7);
+    }
+}
+
+TEST(RotationBetween, TurnsHalfAroundWhereTheyAreOpposite) {
+    Random random(8);
+    for (const double off : {0.0, 1e-17, 1e-12, 1e-9, 1e-7, 1e-4}) {
+        const Vector3d from = random.direction();
+        const Vector3d to = (off * random.direction() - from).normalized();
+        const Eigen::Quaterniond turn = rotation_between(from, to);
+        EXPECT_NEAR(turn.norm(), 1, 1e-15);
+        EXPECT_LT((turn * from - to).norm(), 3e-8) << off;
+    }
+    EXPECT_LT(rotation_between({0, 0, 2}, {0, 0, 5}).vec().norm(), 1e-16);
+}
 
 TEST(ExponentialMap, IsTheTurnAboutTheAxis) {
     Random random(1);

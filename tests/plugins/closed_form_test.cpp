@@ -6,6 +6,8 @@
 /// every case whose pair it claims; which pairs it must claim at least is a test of its own.
 #include "harness.h"
 
+#include "math/rotation_between.h"
+
 namespace plumb::test {
 namespace {
 
@@ -18,15 +20,11 @@ struct Case {
     std::size_t points;              ///< at least so many in a full manifold
 };
 
-Q turn(double degrees, const V& axis) {
-    return Q(Eigen::AngleAxisd(degrees * M_PI / 180, axis.normalized()));
-}
-
 std::vector<Case> cases() {
     const V x = V::UnitX(), y = V::UnitY(), z = V::UnitZ();
     const Q flat = Q::Identity(), lying = turn(90, z), edge = turn(45, x), tilted = turn(30, y);
-    const Q on_vertex = Q::FromTwoVectors(V(1, 1, 1).normalized(), -y),
-            under_vertex = Q::FromTwoVectors(V(1, 1, 1).normalized(), y);
+    const Q on_vertex = rotation_between(V(1, 1, 1).normalized(), -y),
+            under_vertex = rotation_between(V(1, 1, 1).normalized(), y);
     const double s2 = std::sqrt(0.5), s3 = std::sqrt(0.75);
     const Shape cube = box(.5, .5, .5), slab = box(2, .5, 2), ball = sphere(.5),
                 pill = capsule(.2, .5);
@@ -147,7 +145,7 @@ TEST_P(ClosedForm, EndsWhatLiesAcrossARimOnTheCircle) {
                 world.add(0, disc, {V(0, -.2, 0), up});
                 world.add(1, rod,
                           {V(0, .0999, 0) + off * V::UnitY().cross(way),
-                           Q::FromTwoVectors(V::UnitY(), way)});
+                           rotation_between(V::UnitY(), way)});
                 SCOPED_TRACE(std::string(name_of(rod.kind)) + " on " + name_of(disc.kind) + " " +
                              std::to_string(angle));
                 double low = 0, high = 0;

@@ -112,7 +112,8 @@ TEST_P(Closest, ProvesItselfForConvexShapesAtAnyDistance) {
         for (const ShapeKind kb : kinds)
             for (const double distance : {2.5, 4.0, 60.0}) {
                 const Shape a = any_shape(ka, dice), b = any_shape(kb, dice);
-                const Place pa{distance * dice.way(), dice.turn()}, pb{V::Zero(), dice.turn()};
+                const Place pa{distance * dice.direction(), dice.rotation()},
+                    pb{V::Zero(), dice.rotation()};
                 const Contact c = ask(a, pa, b, pb);
                 SCOPED_TRACE(std::to_string(static_cast<int>(ka)) + " and " +
                              std::to_string(static_cast<int>(kb)));
@@ -161,8 +162,8 @@ TEST_P(Closest, OfACompoundIsTheBestOfItsParts) {
     std::vector<int> won(parts.size());
     for (int i = 0; i < 40; ++i) {
         const Shape other = i % 2 ? box(.2, .3, .4) : capsule(.2, .3);
-        const Place whole{V(.1, -.3, .2), dice.turn()};
-        const Place away{whole.x + dice.between(1.7, 6) * dice.way(), dice.turn()};
+        const Place whole{V(.1, -.3, .2), dice.rotation()};
+        const Place away{whole.x + dice.between(1.7, 6) * dice.direction(), dice.rotation()};
         const Contact c = ask(compound(parts), whole, other, away);
         double least = 1e300;
         std::uint32_t best = 0;

@@ -6,7 +6,7 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kMargin = 0.02;
+constexpr double kWideMargin = 0.02;
 
 /// What was wrong with some of many pairs. A back-end's iterations may stop early now and then.
 struct Count {
@@ -16,10 +16,10 @@ struct Count {
 class Exact : public EachPlugin {
 protected:
     void meet(Count& count, const NearPair& pair) {
-        const std::vector<Contact> contacts = contacts_of(GetParam(), pair, kMargin);
+        const std::vector<Contact> contacts = contacts_of(GetParam(), pair, kWideMargin);
         ++count.pairs;
         ASSERT_FALSE(contacts.empty()) << "the pair was missed";
-        expect_sound(contacts, kMargin);
+        expect_sound(contacts, kWideMargin);
         const Contact& c = deepest(contacts);
         const V n = v(c.normal);
         const double tolerance = relative_accuracy(GetParam());
@@ -98,18 +98,18 @@ TEST_P(Exact, SolidsMeetPlanes) {
         if (!claims(kind, ShapeKind::plane, kPairSeparated)) continue;
         for (int i = 0; i < 30; ++i) {
             const Shape shape = any_shape(kind, dice);
-            const Place ground{V(1, 2, 3), dice.turn()};
+            const Place ground{V(1, 2, 3), dice.rotation()};
             const V up = ground.q * V::UnitY();
-            Place at{V::Zero(), dice.turn()};
+            Place at{V::Zero(), dice.rotation()};
             const double gap = dice.between(-0.02, 0.01);
             at.x = ground.x + (gap - up.dot(support(shape, at, -up))) * up;
             World world(GetParam());
             world.add(0, plane(), ground, Mobility::fixed);
             world.add(1, shape, at);
             SCOPED_TRACE(std::string(name_of(kind)) + " " + std::to_string(i));
-            const auto& contacts = world.detect(kMargin);
+            const auto& contacts = world.detect(kWideMargin);
             ASSERT_FALSE(contacts.empty());
-            expect_sound(contacts, kMargin);
+            expect_sound(contacts, kWideMargin);
             EXPECT_NEAR(deepest(contacts).gap, gap, relative_accuracy(GetParam()));
             EXPECT_GT(-v(contacts[0].normal).dot(up), 1 - 1e-6);
         }

@@ -15,6 +15,8 @@
 
 namespace plumb::test {
 
+inline constexpr double kMargin = 0.01;  ///< of detection, where a test does not need another [m]
+
 /// Bodies of one collider, and the last answer.
 class World {
 public:

@@ -6,8 +6,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kMargin = 0.01;
-
 class Invariance : public EachPlugin {
 protected:
     /// One near pair of each two solid kinds, shallow and apart.
@@ -60,7 +58,7 @@ TEST_P(Invariance, TinyMovesTurnTheNormalOfRimsLittle) {
             for (int i = 0; i < 20; ++i) {
                 const NearPair pair = near_pair(a, b, i % 2 ? -2e-6 : -5e-5, dice);
                 NearPair moved = pair;
-                moved.pb.x += 1e-9 * dice.way();
+                moved.pb.x += 1e-9 * dice.direction();
                 const auto before = contacts_of(GetParam(), pair, kMargin),
                            after = contacts_of(GetParam(), moved, kMargin);
                 ASSERT_FALSE(before.empty() || after.empty());
@@ -76,7 +74,7 @@ TEST_P(Invariance, MovingTheWorldMovesTheContacts) {
     Dice dice(32);
     for (const NearPair& pair : near_pairs()) {
         SCOPED_TRACE(name(pair));
-        const Place frame{3 * dice.way(), dice.turn()};
+        const Place frame{3 * dice.direction(), dice.rotation()};
         compare(contacts_of(GetParam(), pair, kMargin),
                 contacts_of(GetParam(), pair, kMargin, frame), frame.q, 1);
     }

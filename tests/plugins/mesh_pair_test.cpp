@@ -7,7 +7,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kMargin = .01;
 const double kGaps[] = {.009, .005, .001, 0., -.0005, -.002, -.005};
 
 class MeshPairs : public EachPlugin {

@@ -8,8 +8,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kMargin = 0.01;
-
 class Pairs : public EachPlugin {
 protected:
     /// Gaps at which a stack must be found.

@@ -54,7 +54,7 @@ Answer ask(World& world, const std::vector<V>& places, double radius, double mar
 }
 
 /// What holds for every contact of a particle.
-void expect_sound(const Contact& c, const V& place, double radius, double margin) {
+void expect_sound_contact(const Contact& c, const V& place, double radius, double margin) {
     EXPECT_NEAR(v(c.normal).norm(), 1, 1e-9);
     EXPECT_LE(c.gap, margin);
     EXPECT_EQ(v(c.point_a), place);
@@ -82,7 +82,7 @@ TEST_P(Particles, AgreeWithDenseSamplesOfEverySurface) {
             const Contact& c = answer.contacts[i];
             ASSERT_EQ(c.a, i);
             ASSERT_EQ(c.b, 3u);
-            expect_sound(c, places[i], .05, 10);
+            expect_sound_contact(c, places[i], .05, 10);
             const double distance = c.gap + .05;
             EXPECT_EQ(distance < 0, solid.inside(own[i])) << own[i].transpose();
             double nearest = 1e300;
@@ -133,7 +133,7 @@ TEST_P(Particles, MeetClosedForms) {
         for (const Contact& contact : answer.contacts)
             if (contact.b == c.body) found = &contact;
         ASSERT_TRUE(found);
-        expect_sound(*found, c.place, .01, .3);
+        expect_sound_contact(*found, c.place, .01, .3);
         EXPECT_NEAR(found->gap, c.distance - .01, 1e-12);
         EXPECT_LT((v(found->normal) - c.normal).norm(), 1e-12);
     }

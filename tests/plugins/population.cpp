@@ -3,19 +3,6 @@
 
 namespace plumb::test {
 
-V Dice::way() {
-    std::normal_distribution<double> normal;
-    V d;
-    do d = {normal(random_), normal(random_), normal(random_)};
-    while (d.norm() < 1e-3);
-    return d.normalized();
-}
-
-Q Dice::turn() {
-    std::normal_distribution<double> normal;
-    return Q(normal(random_), normal(random_), normal(random_), normal(random_)).normalized();
-}
-
 const std::vector<ShapeKind>& solid_kinds() {
     static const std::vector<ShapeKind> kinds = {ShapeKind::sphere,  ShapeKind::box,
                                                  ShapeKind::capsule, ShapeKind::cylinder,
@@ -39,7 +26,7 @@ Shape any_shape(ShapeKind kind, Dice& dice) {
         default: {
             std::vector<V> points;
             const V stretch(length(), length(), length());
-            for (int i = 0; i < 12; ++i) points.push_back(dice.way().cwiseProduct(stretch));
+            for (int i = 0; i < 12; ++i) points.push_back(dice.direction().cwiseProduct(stretch));
             return hull_of(points);
         }
     }
@@ -48,8 +35,8 @@ Shape any_shape(ShapeKind kind, Dice& dice) {
 NearPair near_pair(ShapeKind a, ShapeKind b, double gap, Dice& dice) {
     const auto flat = [](ShapeKind k) { return k == ShapeKind::box || k == ShapeKind::hull; };
     NearPair p{any_shape(a, dice), any_shape(b, dice), {}, {}, gap, {}, flat(a) && flat(b), 0};
-    p.pb = {V(0.3, -0.2, 0.1), dice.turn()};
-    p.pa = {p.pb.x + 0.3 * dice.way(), dice.turn()};
+    p.pb = {V(0.3, -0.2, 0.1), dice.rotation()};
+    p.pa = {p.pb.x + 0.3 * dice.direction(), dice.rotation()};
     const Widest best =
         p.polyhedra ? separating_axes(p.a, p.pa, p.b, p.pb) : widest_gap(p.a, p.pa, p.b, p.pb);
     p.pa.x += (gap - best.gap) * best.n;
@@ -76,7 +63,7 @@ void throw_heap(World& world, const std::string& name, unsigned seed, std::uint3
     for (std::uint32_t i = 0; i < count && !kinds.empty(); ++i) {
         const Shape shape = any_shape(kinds[i % kinds.size()], dice);
         const V x(dice.between(-half, half), dice.between(-half, half), dice.between(-half, half));
-        world.add(backwards ? count - 1 - i : i, shape, frame * Place{x, dice.turn()});
+        world.add(backwards ? count - 1 - i : i, shape, frame * Place{x, dice.rotation()});
     }
 }
 

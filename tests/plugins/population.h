@@ -3,10 +3,10 @@
 /// claims.
 #pragma once
 
+#include "dice.h"
 #include "exact.h"
 #include "harness.h"
 
-#include <random>
 #include <vector>
 
 namespace plumb::test {
@@ -19,19 +19,6 @@ struct NearPair {
     V n;             ///< along which the gap is measured, out of b towards a
     bool polyhedra;  ///< both are boxes or hulls: gap, n and second are exact
     double second;   ///< the gap along the next best axis that points elsewhere [m]
-};
-
-class Dice {
-public:
-    explicit Dice(unsigned seed) : random_(seed) {}
-    double between(double low, double high) {
-        return low + (high - low) * std::uniform_real_distribution<double>()(random_);
-    }
-    V way();
-    Q turn();
-
-private:
-    std::mt19937 random_;
 };
 
 /// The convex kinds that fill some volume: all but planes, meshes, height fields and compounds.

@@ -7,8 +7,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kMargin = 0.01;
-
 class Purity : public EachPlugin {
 protected:
     std::vector<Contact> fresh(unsigned seed) const {
@@ -38,7 +36,7 @@ TEST_P(Purity, AnswersTheSameAfterOtherMarginsAndPlaces) {
         throw_heap(wandering, GetParam(), 1, 60);
         for (int i = 0; i < 5; ++i) {
             for (std::uint32_t id = 0; id < 60; ++id)
-                wandering.move(id, {spread * dice.way(), dice.turn()});
+                wandering.move(id, {spread * dice.direction(), dice.rotation()});
             wandering.detect(kMargin);
         }
         World again(GetParam());

@@ -45,7 +45,7 @@ TEST_P(Rays, HitWhatPointsAlongThemSay) {
         int hits = 0;
         for (int i = 0; i < 400; ++i) {
             const V to = place.x + dice.within(.5);
-            const V d = dice.direction(), from = to - dice.number(0, 2) * d;
+            const V d = dice.direction(), from = to - dice.between(0, 2) * d;
             const RayHit hit = cast(world, ray(from, d, 4));
             const bool met = hit.body != kNoBody;
             hits += met;

@@ -7,6 +7,7 @@
 
 #include <Eigen/Geometry>
 #include <functional>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,9 @@ inline Place operator*(const Place& outer, const Place& inner) {
 
 inline V v(const Vec3& p) { return {p.x, p.y, p.z}; }
 inline Vec3 vec(const V& p) { return {p.x(), p.y(), p.z()}; }
+inline Q turn(double degrees, const V& axis) {
+    return Q(Eigen::AngleAxisd(degrees * std::numbers::pi / 180, axis.normalized()));
+}
 Pose pose(const Place& place);
 
 Shape plane();

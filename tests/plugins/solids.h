@@ -3,10 +3,10 @@
 /// many points of the surface.
 #pragma once
 
+#include "dice.h"
 #include "harness.h"
 
 #include <functional>
-#include <random>
 
 namespace plumb::test {
 
@@ -23,25 +23,5 @@ std::vector<Solid> solids_of(const std::string& plugin);
 
 /// How often a mesh winds around a point: 1 inside, 0 outside.
 double winding(const Shape& mesh, const V& p);
-
-/// Random numbers and places.
-struct Dice {
-    explicit Dice(unsigned seed) : engine(seed) {}
-    double number(double low, double high) {
-        return std::uniform_real_distribution<double>(low, high)(engine);
-    }
-    V within(double half) {
-        return {number(-half, half), number(-half, half), number(-half, half)};
-    }
-    V direction() {
-        std::normal_distribution<double> normal;
-        return V(normal(engine), normal(engine), normal(engine)).normalized();
-    }
-    Q rotation() {
-        std::normal_distribution<double> normal;
-        return Q(normal(engine), normal(engine), normal(engine), normal(engine)).normalized();
-    }
-    std::mt19937 engine;
-};
 
 }  // namespace plumb::test

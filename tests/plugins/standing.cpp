@@ -4,8 +4,6 @@
 namespace plumb::test {
 namespace {
 
-Q turn(double degrees, const V& axis) { return Q(Eigen::AngleAxisd(degrees * M_PI / 180, axis)); }
-
 Outline rectangle(double hx, double hz) { return {{-hx, -hz}, {hx, -hz}, {hx, hz}, {-hx, hz}}; }
 
 Outline regular(int sides, double radius) {

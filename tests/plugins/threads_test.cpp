@@ -9,8 +9,6 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kMargin = 0.01;
-
 /// Runs each task on a thread of its own.
 void run_on_threads(void* ctx, void (*task)(void*, std::uint32_t), void* arg) {
     std::vector<std::thread> threads;

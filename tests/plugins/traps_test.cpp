@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Traps that back-ends are known for, one test each: a right answer, or none that was claimed.
+#include "math/rotation_between.h"
 #include "population.h"
 #include "surfaces.h"
 
@@ -28,7 +29,7 @@ protected:
 };
 
 const Q kOnEdge(Eigen::AngleAxisd(M_PI / 4, V::UnitX()));
-const Q kOnVertex = Q::FromTwoVectors(V(1, 1, 1).normalized(), -V::UnitY());
+const Q kOnVertex = rotation_between(V(1, 1, 1).normalized(), -V::UnitY());
 const double kEdge = std::sqrt(0.5), kVertex = std::sqrt(0.75);  ///< of a unit cube [m]
 const Place kTop{V(0, -.5, 0), Q::Identity()};
 
@@ -246,8 +247,9 @@ TEST_P(Traps, CoincidingMiddlesArePartedByAShortWay) {
     const Q lying(Eigen::AngleAxisd(M_PI / 2, V::UnitX())),
         over(Eigen::AngleAxisd(M_PI, V::UnitX()));
     Dice dice(5);
-    const std::vector<Q> turns = {Q::Identity(), lying,       over,        kOnEdge,    kOnVertex,
-                                  dice.turn(),   dice.turn(), dice.turn(), dice.turn()};
+    const std::vector<Q> turns = {Q::Identity(),   lying,           over,
+                                  kOnEdge,         kOnVertex,       dice.rotation(),
+                                  dice.rotation(), dice.rotation(), dice.rotation()};
     for (const Shape& a : shapes)
         for (const Shape& b : shapes)
             for (std::size_t i = 0; i < turns.size(); ++i)
@@ -256,7 +258,7 @@ TEST_P(Traps, CoincidingMiddlesArePartedByAShortWay) {
                     if (a.kind == ShapeKind::box && b.kind == ShapeKind::box) continue;
                     SCOPED_TRACE(std::string(name_of(a.kind)) + " in " + name_of(b.kind) + " " +
                                  std::to_string(i) + " off " + std::to_string(off));
-                    const Place pa{V::Zero(), Q::Identity()}, pb{off * dice.way(), turns[i]};
+                    const Place pa{V::Zero(), Q::Identity()}, pb{off * dice.direction(), turns[i]};
                     const auto contacts = meet(a, pa, b, pb);
                     ASSERT_FALSE(contacts.empty());
                     const Contact& c = deepest(contacts);

@@ -10,7 +10,7 @@ namespace plumb::test {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 const std::string kAt = "/bodies/0/shape/mesh";
 
 std::string points_of(const std::vector<Eigen::Vector3d>& points) {
@@ -46,7 +46,7 @@ std::string torus(const std::string& decompose) {
     std::vector<std::array<int, 3>> triangles;
     for (int i = 0; i < kRing; ++i)
         for (int k = 0; k < kTube; ++k) {
-            const double phi = 2 * kPi * i / kRing, t = 2 * kPi * k / kTube;
+            const double phi = 2 * pi * i / kRing, t = 2 * pi * k / kTube;
             const double rho = 0.5 + 0.2 * std::cos(t);
             points.emplace_back(rho * std::cos(phi), 0.2 * std::sin(t), rho * std::sin(phi));
             const int a = i * kTube + k, b = i * kTube + (k + 1) % kTube;
@@ -132,7 +132,7 @@ TEST(Decompose, TorusIsFilledAndKeepsItsHole) {
     EXPECT_GE(g.parts.size(), 6u);
     EXPECT_LE(g.parts.size(), 32u);
     expect_convex(g);
-    const double exact = 2 * kPi * kPi * 0.5 * 0.2 * 0.2;
+    const double exact = 2 * pi * pi * 0.5 * 0.2 * 0.2;
     EXPECT_NEAR(union_volume(g, {0.71, 0.21, 0.71}) / exact, 1, 0.1);
     for (const GeometryPart& part : g.parts)
         for (const double x : {0.0, 0.1, -0.15}) EXPECT_FALSE(contains(part.geometry, {x, 0, 0.1}));

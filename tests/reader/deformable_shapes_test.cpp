@@ -16,7 +16,7 @@ namespace plumb::test {
 namespace {
 
 using reader::Elements;
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// What a deformable of such elements would have wrong, "" where nothing is.
 std::string fault_of(const Elements& made, DeformableKind kind) {
@@ -65,14 +65,14 @@ double worst_quality(const Elements& made) {
 }
 
 double smallest_angle(const Elements& made) {
-    double least = kPi;
+    double least = pi;
     for (const auto& t : made.triangles)
         for (std::size_t k = 0; k < 3; ++k) {
             const Eigen::Vector3d u = made.points[t[(k + 1) % 3]] - made.points[t[k]],
                                   v = made.points[t[(k + 2) % 3]] - made.points[t[k]];
             least = std::min(least, std::acos(u.normalized().dot(v.normalized())));
         }
-    return least * 180 / kPi;
+    return least * 180 / pi;
 }
 
 reader::TriangleMesh mesh_of(const Elements& surface) {
@@ -117,14 +117,14 @@ TEST(DeformableShapes, BallsSurfaceComesToASpheres) {
         for (const Eigen::Vector3d& p : ball.points) EXPECT_NEAR(p.norm(), 0.5, 1e-12);
         EXPECT_GT(smallest_angle(ball), 45);
 
-        const double error = 4 * kPi / 3 * 0.125 - volume_within(ball);
+        const double error = 4 * pi / 3 * 0.125 - volume_within(ball);
         EXPECT_GT(error, 0);
         if (cells > 4) {
             EXPECT_NEAR(error_before / error, 4, 0.2);  // of second order
         }
         error_before = error;
     }
-    EXPECT_NEAR(area_of(reader::ball_surface(0.5, 32)), kPi, 0.004);
+    EXPECT_NEAR(area_of(reader::ball_surface(0.5, 32)), pi, 0.004);
 }
 
 TEST(DeformableShapes, BallOfTetrahedraIsFullAndHasTheSpheresSurface) {
@@ -146,7 +146,7 @@ TEST(DeformableShapes, TubeIsOpenOrClosed) {
     const Elements open = reader::tube_surface(0.5, 3, {64, 10}, false);
     EXPECT_EQ(fault_of(open, DeformableKind::cloth), "");
     EXPECT_NE(fault_of(open, DeformableKind::balloon), "");
-    EXPECT_NEAR(area_of(open), 3 * 64 * 2 * 0.5 * std::sin(kPi / 64), 1e-12);
+    EXPECT_NEAR(area_of(open), 3 * 64 * 2 * 0.5 * std::sin(pi / 64), 1e-12);
     for (const auto& [a, b, c] : open.triangles) {
         const Eigen::Vector3d normal =
             (open.points[b] - open.points[a]).cross(open.points[c] - open.points[a]);
@@ -155,7 +155,7 @@ TEST(DeformableShapes, TubeIsOpenOrClosed) {
     for (const std::uint32_t around : {3u, 4u, 9u, 10u, 24u, 64u, 101u}) {
         const Elements tube = reader::tube_surface(0.5, 3, {around, 10}, true);
         EXPECT_EQ(fault_of(tube, DeformableKind::balloon), "") << around;
-        const double polygon = around / 2. * 0.25 * std::sin(2 * kPi / around);
+        const double polygon = around / 2. * 0.25 * std::sin(2 * pi / around);
         EXPECT_NEAR(volume_within(tube), 3 * polygon, 1e-12) << around;
         EXPECT_LE(static_cast<double>(tube.points.size()), around * 11. + around * around / 6. + 4);
     }
@@ -163,8 +163,7 @@ TEST(DeformableShapes, TubeIsOpenOrClosed) {
 
 TEST(DeformableShapes, TubesTrianglesAreWellShaped) {
     for (const std::uint32_t around : {12u, 24u, 64u, 101u})
-        EXPECT_GT(smallest_angle(reader::tube_surface(0.5, 2 * kPi / around, {around, 2}, true)),
-                  20)
+        EXPECT_GT(smallest_angle(reader::tube_surface(0.5, 2 * pi / around, {around, 2}, true)), 20)
             << around;
 }
 
@@ -199,7 +198,7 @@ TEST(DeformableShapes, CellsFillAMesh) {
     for (const double cell : {0.2, 0.1, 0.05}) {
         const Elements ball = reader::mesh_lattice(mesh_of(reader::ball_surface(1, 24)), cell);
         EXPECT_EQ(fault_of(ball, DeformableKind::solid), "");
-        const double error = std::abs(volume_of_tetrahedra(ball) - 4 * kPi / 3);
+        const double error = std::abs(volume_of_tetrahedra(ball) - 4 * pi / 3);
         EXPECT_LT(error, error_before);
         for (const Eigen::Vector3d& p : ball.points) EXPECT_LT(p.norm(), 1 + cell);
         error_before = error;
@@ -216,7 +215,7 @@ TEST(DeformableShapes, CellsLeaveOutTheHoleOfATube) {
     for (const auto& [a, b, c] : inner.triangles)
         shell.triangles.push_back({first + a, first + c, first + b});
     const Elements cells = reader::mesh_lattice(mesh_of(shell), 0.05);
-    EXPECT_NEAR(volume_of_tetrahedra(cells), 4 * kPi / 3 * 0.875, 0.05);
+    EXPECT_NEAR(volume_of_tetrahedra(cells), 4 * pi / 3 * 0.875, 0.05);
     for (const auto& t : cells.tetrahedra) EXPECT_GT(cells.points[t[0]].norm(), 0.4);
 
     // Turned over as a whole, it has the same inside.

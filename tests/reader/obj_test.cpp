@@ -44,8 +44,6 @@ protected:
 
 const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 0 1\nv 0 0 1\nv 9 9 9\n";
 
-}  // namespace
-
 TEST_F(Obj, CutsPolygonsAndLeavesOutSpareVertices) {
     const auto mesh = reader::load_obj(file(kSquare + "f 4 3 2 1\n"));
     EXPECT_EQ(mesh.vertices.size(), 4u);
@@ -105,4 +103,5 @@ TEST_F(Obj, RefusalsNameFileAndPlace) {
                  "is a folder; name a file in it");
 }
 
+}  // namespace
 }  // namespace plumb::test

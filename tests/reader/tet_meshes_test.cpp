@@ -139,8 +139,6 @@ void expect_two_tetrahedra(const Elements& made) {
     EXPECT_EQ(made.points[made.tetrahedra[1][1]], Eigen::Vector3d(1, 0, 0));
 }
 
-}  // namespace
-
 TEST_F(TetMeshes, AreReadFromBothVersionsOfGmsh) {
     for (const std::string& text : {kOld, kNew}) {
         const Elements solid = reader::load_gmsh(file("mesh.msh", text), true);
@@ -284,4 +282,5 @@ TEST_F(TetMeshes, ThatAreDamagedAreMeshesOrErrors) {
     EXPECT_GT(bad, 200);
 }
 
+}  // namespace
 }  // namespace plumb::test

@@ -12,7 +12,7 @@ namespace plumb::test {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// The centre of mass of a body in the world.
 Eigen::Vector3d centre_of(const BodySpec& b) { return (b.placement * *b.mass_frame).position; }
@@ -389,7 +389,7 @@ TEST_F(Robots, StandOnTheGroundWhenReadAlone) {
 
 TEST_F(Robots, AreTurnedByTheirPlacement) {
     UrdfOptions options;
-    options.placement.rotation = Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY());
+    options.placement.rotation = Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitY());
     const Scene scene = scene_of(
         link("a") + link("b") + joint("continuous", "a", "b", R"(<origin xyz="1 0 0"/>)"), options);
     expect_near(body(scene, "r/b").placement.position, {0, 0, -1});

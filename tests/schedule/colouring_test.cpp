@@ -11,7 +11,7 @@ namespace plumb {
 namespace {
 
 using test::Random;
-constexpr std::int32_t kDynamic = 100;
+constexpr std::int32_t kRows = 100;
 
 std::vector<BodyPair> random_pairs(std::uint32_t count, std::uint32_t levels) {
     Random random(count + levels);
@@ -19,8 +19,8 @@ std::vector<BodyPair> random_pairs(std::uint32_t count, std::uint32_t levels) {
     for (std::uint32_t i = 0; i < count; ++i) {
         // rows from 100 on are immovable
         const auto a = static_cast<std::int32_t>(random.below(110));
-        auto b = static_cast<std::int32_t>(random.below(kDynamic));
-        if (a == b) b = (b + 1) % kDynamic;
+        auto b = static_cast<std::int32_t>(random.below(kRows));
+        if (a == b) b = (b + 1) % kRows;
         pairs.push_back({a, b, i, 1 + random.below(4), random.below(levels)});
     }
     return pairs;
@@ -48,7 +48,7 @@ void expect_no_shared_body(const Colouring& colouring, const std::vector<BodyPai
         for (std::uint32_t i = batch.first; i < batch.last; ++i)
             for (std::int32_t row :
                  {pairs[colouring.order()[i]].row_a, pairs[colouring.order()[i]].row_b})
-                if (row < kDynamic) {
+                if (row < kRows) {
                     EXPECT_TRUE(bodies.insert(row).second) << "row " << row;
                 }
     }
@@ -58,7 +58,7 @@ TEST(Colouring, NoDynamicBodyStandsTwiceInAnIndependentBatch) {
     for (std::uint32_t count : {1u, 10u, 400u, 3000u}) {
         const std::vector<BodyPair> pairs = random_pairs(count, 1);
         Colouring colouring;
-        colouring.colour(pairs, kDynamic);
+        colouring.colour(pairs, kRows);
         expect_complete(colouring, pairs.size());
         expect_no_shared_body(colouring, pairs);
     }
@@ -66,18 +66,18 @@ TEST(Colouring, NoDynamicBodyStandsTwiceInAnIndependentBatch) {
 
 TEST(Colouring, NoPairsMakeNoBatches) {
     Colouring colouring;
-    colouring.colour(random_pairs(20, 1), kDynamic);
-    colouring.colour(std::vector<BodyPair>(), kDynamic);
+    colouring.colour(random_pairs(20, 1), kRows);
+    colouring.colour(std::vector<BodyPair>(), kRows);
     EXPECT_TRUE(colouring.batches().empty());
     EXPECT_TRUE(colouring.order().empty());
 }
 
 TEST(Colouring, ImmovableBodiesDoNotCount) {
     std::vector<BodyPair> pairs;
-    for (std::int32_t i = 0; i < kDynamic; ++i)
-        pairs.push_back({kDynamic, i, static_cast<std::uint32_t>(i), 1, 0});
+    for (std::int32_t i = 0; i < kRows; ++i)
+        pairs.push_back({kRows, i, static_cast<std::uint32_t>(i), 1, 0});
     Colouring colouring;
-    colouring.colour(pairs, kDynamic);
+    colouring.colour(pairs, kRows);
     ASSERT_EQ(colouring.batches().size(), 1u);
     EXPECT_TRUE(colouring.batches()[0].independent);
 }
@@ -87,7 +87,7 @@ TEST(Colouring, WhatFindsNoColourGoesToOneBatchInItsOrder) {
     for (std::uint32_t i = 0; i < 99; ++i)  // all on body 0, the last with the most rows
         pairs.push_back({0, static_cast<std::int32_t>(i + 1), i, 1 + i, 0});
     Colouring colouring;
-    colouring.colour(pairs, kDynamic);
+    colouring.colour(pairs, kRows);
     expect_complete(colouring, pairs.size());
     expect_no_shared_body(colouring, pairs);
     ASSERT_EQ(colouring.batches().size(), Colouring::kMaxColours + 1);
@@ -103,7 +103,7 @@ TEST(Colouring, SixtyThreeOnOneBodyDoNotOverflow) {
     for (std::uint32_t i = 0; i < Colouring::kMaxColours; ++i)
         pairs.push_back({0, static_cast<std::int32_t>(i + 1), i, 1, 0});
     Colouring colouring;
-    colouring.colour(pairs, kDynamic);
+    colouring.colour(pairs, kRows);
     EXPECT_EQ(colouring.batches().size(), Colouring::kMaxColours);
     for (const Batch& b : colouring.batches()) EXPECT_TRUE(b.independent);
 }
@@ -111,7 +111,7 @@ TEST(Colouring, SixtyThreeOnOneBodyDoNotOverflow) {
 TEST(Colouring, LevelsFollowEachOther) {
     const std::vector<BodyPair> pairs = random_pairs(500, 7);
     Colouring colouring;
-    colouring.colour(pairs, kDynamic);
+    colouring.colour(pairs, kRows);
     expect_complete(colouring, pairs.size());
     expect_no_shared_body(colouring, pairs);
     for (std::size_t i = 1; i < pairs.size(); ++i)
@@ -124,7 +124,7 @@ TEST(Colouring, LevelsFollowEachOther) {
 TEST(Colouring, PairsWithMoreRowsComeFirst) {
     const std::vector<BodyPair> pairs = random_pairs(1000, 1);
     Colouring colouring;
-    colouring.colour(pairs, kDynamic);
+    colouring.colour(pairs, kRows);
     for (const Batch& b : colouring.batches())
         for (std::uint32_t i = b.first + 1; i < b.last && b.independent; ++i)
             EXPECT_GE(pairs[colouring.order()[i - 1]].count, pairs[colouring.order()[i]].count);
@@ -147,7 +147,7 @@ template <int N>
 void expect_no_shared_row(std::uint32_t count) {
     const std::vector<LinkedRows<N>> items = random_rows<N>(count);
     Colouring colouring;
-    colouring.colour(items, kDynamic);
+    colouring.colour(items, kRows);
     expect_complete(colouring, items.size());
     for (const Batch& batch : colouring.batches()) {
         std::set<std::int32_t> moving;
@@ -156,7 +156,7 @@ void expect_no_shared_row(std::uint32_t count) {
                 EXPECT_LT(colouring.order()[i - 1], colouring.order()[i]) << "not in their order";
             }
             for (const std::int32_t row : items[colouring.order()[i]].rows)
-                if (batch.independent && row < kDynamic) {
+                if (batch.independent && row < kRows) {
                     EXPECT_TRUE(moving.insert(row).second) << "row " << row;
                 }
         }
@@ -197,9 +197,9 @@ TEST(Colouring, WhatFindsNoColourAmongThreeOrFourStaysInItsOrder) {
 
 TEST(Colouring, AUsedColouringGivesWhatAFreshOneGives) {
     Colouring used, fresh;
-    used.colour(random_pairs(3000, 4), kDynamic);
-    used.colour(random_pairs(400, 1), kDynamic);
-    fresh.colour(random_pairs(400, 1), kDynamic);
+    used.colour(random_pairs(3000, 4), kRows);
+    used.colour(random_pairs(400, 1), kRows);
+    fresh.colour(random_pairs(400, 1), kRows);
     EXPECT_EQ(used.order(), fresh.order());
     ASSERT_EQ(used.batches().size(), fresh.batches().size());
 }

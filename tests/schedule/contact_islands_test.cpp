@@ -12,16 +12,16 @@ namespace plumb {
 namespace {
 
 using test::Random;
-constexpr std::int32_t kDynamic = 60;
+constexpr std::int32_t kFree = 60;
 
 /// The least row of each row's island, by spreading it along the pairs until nothing changes.
 std::vector<std::int32_t> least_rows(const std::vector<BodyPair>& pairs) {
-    std::vector<std::int32_t> least(kDynamic);
+    std::vector<std::int32_t> least(kFree);
     std::iota(least.begin(), least.end(), 0);
     for (bool changed = true; changed;) {
         changed = false;
         for (const BodyPair& p : pairs) {
-            if (p.row_a >= kDynamic || p.row_b >= kDynamic) continue;
+            if (p.row_a >= kFree || p.row_b >= kFree) continue;
             const std::int32_t to = std::min(least[p.row_a], least[p.row_b]);
             changed |= least[p.row_a] != to || least[p.row_b] != to;
             least[p.row_a] = least[p.row_b] = to;
@@ -35,23 +35,23 @@ TEST(ContactIslands, AreWhatHangsTogetherThroughDynamicBodies) {
         Random random(seed);
         std::vector<BodyPair> pairs;
         for (std::uint32_t i = 0; i < 2 * seed; ++i) {
-            const auto a = static_cast<std::int32_t>(random.below(kDynamic + 5));
-            const auto b = static_cast<std::int32_t>(random.below(kDynamic + 5));
+            const auto a = static_cast<std::int32_t>(random.below(kFree + 5));
+            const auto b = static_cast<std::int32_t>(random.below(kFree + 5));
             if (a != b) pairs.push_back({a, b, i, 1});
         }
         ContactIslands islands;
-        islands.find(pairs, {}, kDynamic);
+        islands.find(pairs, {}, kFree);
 
         const std::vector<std::int32_t> least = least_rows(pairs);
         std::map<std::int32_t, std::size_t> bodies, of_pairs;
-        std::vector<bool> touches(kDynamic, false);
+        std::vector<bool> touches(kFree, false);
         for (const BodyPair& p : pairs) {
             for (std::int32_t row : {p.row_a, p.row_b})
-                if (row < kDynamic) touches[row] = true;
-            const std::int32_t row = p.row_a < kDynamic ? p.row_a : p.row_b;
-            if (row < kDynamic) ++of_pairs[least[row]];
+                if (row < kFree) touches[row] = true;
+            const std::int32_t row = p.row_a < kFree ? p.row_a : p.row_b;
+            if (row < kFree) ++of_pairs[least[row]];
         }
-        for (std::int32_t row = 0; row < kDynamic; ++row)
+        for (std::int32_t row = 0; row < kFree; ++row)
             if (touches[row]) ++bodies[least[row]];
 
         ASSERT_EQ(islands.islands().size(), bodies.size());
@@ -69,7 +69,7 @@ TEST(ContactIslands, AreWhatHangsTogetherThroughDynamicBodies) {
             }
             for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
                 const BodyPair& p = pairs[islands.pairs()[i]];
-                EXPECT_EQ(least[p.row_a < kDynamic ? p.row_a : p.row_b], first);
+                EXPECT_EQ(least[p.row_a < kFree ? p.row_a : p.row_b], first);
             }
         }
     }
@@ -80,8 +80,8 @@ TEST(ContactIslands, LinksHoldWhatTouchesTogether) {
         Random random(seed);
         std::vector<BodyPair> pairs, links;
         for (std::uint32_t i = 0; i < 2 * seed; ++i) {
-            const auto a = static_cast<std::int32_t>(random.below(kDynamic + 5));
-            const auto b = static_cast<std::int32_t>(random.below(kDynamic + 5));
+            const auto a = static_cast<std::int32_t>(random.below(kFree + 5));
+            const auto b = static_cast<std::int32_t>(random.below(kFree + 5));
             if (a != b) (i % 3 == 0 ? links : pairs).push_back({a, b, i, 1});
         }
         std::vector<BodyPair> all = pairs;
@@ -90,13 +90,13 @@ TEST(ContactIslands, LinksHoldWhatTouchesTogether) {
         std::map<std::int32_t, std::size_t> touching, of_links;
         for (const BodyPair& p : pairs)
             for (const std::int32_t row : {p.row_a, p.row_b})
-                if (row < kDynamic) touching[least[row]] = 1;
+                if (row < kFree) touching[least[row]] = 1;
         for (const BodyPair& p : links) {
-            const std::int32_t row = p.row_a < kDynamic ? p.row_a : p.row_b;
-            if (row < kDynamic && touching.count(least[row])) ++of_links[least[row]];
+            const std::int32_t row = p.row_a < kFree ? p.row_a : p.row_b;
+            if (row < kFree && touching.count(least[row])) ++of_links[least[row]];
         }
         ContactIslands islands;
-        islands.find(pairs, links, kDynamic);
+        islands.find(pairs, links, kFree);
         ASSERT_EQ(islands.islands().size(), touching.size()) << "what touches nothing is no island";
         for (const ContactIsland& island : islands.islands()) {
             const std::int32_t first = islands.bodies()[island.first_body];
@@ -105,7 +105,7 @@ TEST(ContactIslands, LinksHoldWhatTouchesTogether) {
             EXPECT_EQ(island.last_link - island.first_link, of_links[first]);
             for (std::uint32_t i = island.first_link; i < island.last_link; ++i) {
                 const BodyPair& p = links[islands.links()[i]];
-                EXPECT_EQ(least[p.row_a < kDynamic ? p.row_a : p.row_b], first);
+                EXPECT_EQ(least[p.row_a < kFree ? p.row_a : p.row_b], first);
             }
         }
     }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "host/simulation.h"
+#include "math/rotation_between.h"
 #include "measure/measure.h"
 #include "scene/build.h"
 #include "scene/scene.h"
@@ -20,6 +21,8 @@ namespace plumb::test {
 
 using Vector = Eigen::Vector3d;
 using Rotation = Eigen::Quaterniond;
+
+inline constexpr double kGravity = 9.81;  ///< of a scene that does not say [m/s²]
 
 inline const ColliderLibrary& colliders() {
     static const ColliderLibrary library(PLUMB_TEST_PLUGINS);
@@ -48,6 +51,11 @@ inline double farthest_from(const std::vector<Vector>& start, const World& world
     for (std::size_t i = 0; i < start.size(); ++i)
         most = std::max(most, (world.bodies.position[i] - start[i]).norm());
     return most;
+}
+
+/// Where a joint stands along an axis [m] or [rad].
+inline double joint_position(const Simulation& s, std::uint32_t joint, std::uint32_t axis) {
+    return s.joint_motion(joint, axis).position;
 }
 
 /// Fastest motion of any point of a body [m/s].
@@ -122,6 +130,13 @@ inline auto every_collider() {
     return testing::Combine(testing::Values(std::string("reference"), std::string("ode"),
                                             std::string("bullet"), std::string("fcl")),
                             each_precision());
+}
+
+inline Scene ball_on_ground() {
+    Scene s;
+    add_ground(s);
+    add_body(s, sphere(0.5), {0, 0.5, 0});
+    return s;
 }
 
 }  // namespace plumb::test

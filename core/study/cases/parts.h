@@ -2,6 +2,7 @@
 /// What the scenes of the cases are put together from.
 #pragma once
 
+#include "math/rotation_between.h"
 #include "scene/build.h"
 #include "study/subject.h"
 
@@ -40,7 +41,7 @@ inline void add_slope(Scene& scene, double angle) {
 
 /// Turn that takes x, a joint's axis, to a unit vector.
 inline Eigen::Quaterniond axis_along(const Eigen::Vector3d& axis) {
-    return Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), axis);
+    return rotation_between(Eigen::Vector3d::UnitX(), axis);
 }
 
 }  // namespace plumb::study
