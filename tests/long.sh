@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: MIT
-# bash tests/long.sh: heaps of 300 bodies over ten simulated minutes, and structures over one at settings drawn at random,
-# on every collider that may share a process. It takes about an hour and a half, and stands beside what continuous
-# integration runs.
+# bash tests/long.sh: the tests of the label `long`, heaps of 300 bodies over ten simulated minutes, and structures over one
+# at settings drawn at random, on every collider that may share a process. It takes about two hours, and stands beside what
+# continuous integration runs.
 set -eu
 cd "$(dirname "$0")/.."
 . cmake/setup.sh
@@ -14,6 +14,7 @@ heaps() {
     --gtest_filter='LongHeaps.*:*/LongHeaps.*'
 }
 failed=0
+ctest --test-dir build/ci -L long -j 2 --output-on-failure || failed=1
 heaps cubes,capsules reference,ode,bullet,fcl || failed=1
 heaps hulls,tori ode,bullet,fcl || failed=1  # reference does not do them
 PLUMB_STRUCTURE_SECONDS=60 PLUMB_STRUCTURE_DRAWS=8 build/ci/bin/plumb_hard_tests \

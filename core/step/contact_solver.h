@@ -56,11 +56,10 @@ public:
         });
         trusted_.resize(world.contacts.found.size());
         const double fall = world.settings.gravity.norm() * world.settings.dt * world.settings.dt;
-        const bool moved = world.kinematic_count > 0;
-        const double share = moved                      ? kTrustedWhereMoved
-                             : world.joints.size() == 0 ? kTrusted
-                                                        : kOutOfReach;
+        const double where_free = world.joints.size() == 0 ? kTrusted : kOutOfReach;
         for (const BodyPair& pair : pairs_) {
+            const bool driven = is_driven(world, exact, pair);
+            const double share = driven ? kTrustedWhereDriven : where_free;
             const double radius = smaller_radius(world.bodies, world.contacts.found[pair.first]);
             std::fill_n(trusted_.begin() + pair.first, pair.count, std::max(share * radius, fall));
         }
@@ -220,9 +219,18 @@ private:
     /// full, if it is more than what gravity moves in a step. Only bodies that are moved by others
     /// squeeze without end; elsewhere it must be deep indeed, or heaps would creep. What presses on
     /// joints opens those, and its contacts come deep for a while: they are carried over whole.
-    static constexpr double kTrusted = 0.2, kTrustedWhereMoved = 0.02;
+    static constexpr double kTrusted = 0.2, kTrustedWhereDriven = 0.02;
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
+
+    /// Whether what is moved by others may squeeze a pair. Without islands, and through
+    /// deformables, it may anywhere.
+    static bool is_driven(const World& world, const IslandGroup* exact, const BodyPair& pair) {
+        if (world.kinematic_count == 0) return false;
+        if (!exact || world.particles.size() > 0) return true;
+        return exact->choice().is_driven(pair.row_a < world.dynamic_count ? pair.row_a
+                                                                          : pair.row_b);
+    }
 
     std::uint32_t row_of(std::uint32_t block, std::uint32_t point) {
         return batches_.arrays().blocks[block].first_row + point;

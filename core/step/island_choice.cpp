@@ -134,10 +134,36 @@ const ContactIslands& IslandChoice::find(const World& world, const std::vector<B
     links_.clear();
     if (!pairs.empty()) find_links(world);
     found_.find(pairs, links_, pairs.empty() ? 0 : world.dynamic_count);
+    find_driven(world, pairs);
     if (pairs.empty()) return found_;
     rule_out(world);
     bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     return found_;
+}
+
+void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& pairs) {
+    driven_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+    if (world.kinematic_count == 0) return;
+    const auto is_kinematic = [&](std::uint32_t body) {
+        return body != kNoIndex && world.bodies.motion[body] == Motion::kinematic;
+    };
+    const auto touches = [&](std::uint32_t pair) {
+        const Contact& c = world.contacts.found[pairs[pair].first];
+        return is_kinematic(c.a) || is_kinematic(c.b);
+    };
+    const auto pulls = [&](std::uint32_t link) {
+        const Joint& joint = world.joints.joints[joint_of(link)];
+        return is_kinematic(joint.a) || is_kinematic(joint.b);
+    };
+    for (const ContactIsland& island : found_.islands()) {
+        const auto pair = found_.pairs().begin();
+        const auto link = found_.links().begin();
+        if (std::none_of(pair + island.first_pair, pair + island.last_pair, touches) &&
+            std::none_of(link + island.first_link, link + island.last_link, pulls))
+            continue;
+        for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
+            driven_[static_cast<std::size_t>(found_.bodies()[i])] = 1;
+    }
 }
 
 void IslandChoice::find_links(const World& world) {
@@ -240,7 +266,7 @@ void IslandChoice::find_upset(const World& world, const ContactIsland& island,
 void IslandChoice::mark_what_goes_on(const World& world, const ContactIsland& island,
                                      const std::vector<BodyPair>& pairs) {
     // what others squeeze is jammed as a whole
-    if (!upset_.empty() && world.kinematic_count > 0) return;
+    if (!upset_.empty() && is_driven(found_.bodies()[island.first_body])) return;
     const std::vector<ContactMemory>& memory = world.contacts.memory;
     const auto was_exact = [&](std::uint32_t at) {
         const auto first = memory.begin() + pairs[at].first;

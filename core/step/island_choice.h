@@ -48,11 +48,18 @@ public:
     /// Whether an exact solution left an overlap [m] about as deep as it was.
     bool is_stuck(const ContactMemory& before, double overlap) const;
 
+    /// Whether what is moved by others (a press, a conveyor) touches the island of a body. `row`: of
+    /// the body, dynamic.
+    bool is_driven(std::int32_t row) const {
+        return driven_[static_cast<std::size_t>(row)] != 0;
+    }
+
     /// Contacts that are left to sweeps until they are out.
     const std::vector<std::uint32_t>& jammed() const { return jammed_; }
 
 private:
     void find_links(const World& world);
+    void find_driven(const World& world, const std::vector<BodyPair>& pairs);
     bool closes_loop(const BodyPair& link);
     void rule_out(const World& world);
     bool is_slow(const World& world, const Contact& contact) const;
@@ -71,6 +78,7 @@ private:
     std::vector<BodyPair> links_;          // of joints, and which
     std::vector<std::size_t> tied_;        // [dynamic row, then the ground] see closes_loop
     std::vector<std::uint8_t> ruled_out_;  // [dynamic row]
+    std::vector<std::uint8_t> driven_;     // [dynamic row], see is_driven
     std::vector<double> bears_;            // [dynamic row], see goes_on [N s]
     std::vector<std::uint8_t> weighed_;    // [body of an island]
     std::vector<BodyPair> upset_;          // of an island: what is jammed or too deep

@@ -27,10 +27,8 @@ public:
         return d.normalized();
     }
     Q rotation() {
-        Q q;
-        q.vec() = normal_vector();
-        q.w() = std::normal_distribution<double>()(random_);
-        return q.normalized();
+        std::normal_distribution<double> normal;
+        return Q(normal(random_), normal(random_), normal(random_), normal(random_)).normalized();
     }
 
 private:
