@@ -14,5 +14,5 @@ plumb_add_tests(plumb_unit_tests unit
   host/contacts_test.cpp host/log_test.cpp host/names_test.cpp host/state_test.cpp)
 # Deformables take the reader's shapes.
 target_link_libraries(plumb_unit_tests PRIVATE plumb::reader)
-# Their names are those of what they test.
+# Their helpers are named as what they test: Random is another class elsewhere, plane() a shape of scenes.
 set_source_files_properties(geometry/hull_test.cpp measure/contact_comparison_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

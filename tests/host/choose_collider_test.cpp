@@ -150,7 +150,7 @@ TEST(ShapePairs, EstimatesHowManyAreNearEachOther) {
     // Each of two boxes may stand on the plane, and they may touch each other.
     EXPECT_DOUBLE_EQ(near_of(boxes_and_spheres(2, 0), kPlane, kBox), 2);
     EXPECT_DOUBLE_EQ(near_of(boxes_and_spheres(2, 0), kBox, kBox), 1);
-    // In a boxes_and_spheres each of 200 has six neighbours, which makes 600 pairs in all.
+    // In a heap each of 200 has six neighbours, which makes 600 pairs in all.
     const Scene heaped = boxes_and_spheres(100, 100);
     const double boxes = near_of(heaped, kBox, kBox), spheres = near_of(heaped, kSphere, kSphere),
                  mixed = near_of(heaped, kSphere, kBox);
