@@ -246,6 +246,7 @@ bool IslandChoice::is_slow(const World& world, const Contact& contact) const {
 void IslandChoice::find_upset(const World& world, const ContactIsland& island,
                               const std::vector<BodyPair>& pairs) {
     const Bodies& b = world.bodies;
+    const double jam = is_driven(found_.bodies()[island.first_body]) ? kJam : kDeep;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         const Contact& first = world.contacts.found[pair.first];
@@ -255,7 +256,7 @@ void IslandChoice::find_upset(const World& world, const ContactIsland& island,
             const double overlap = -world.contacts.found[k].gap;
             const ContactMemory& before = world.contacts.memory[k];
             const bool jammed =
-                overlap > kJam * radius && (is_stuck(before, overlap) || before.jammed);
+                overlap > jam * radius && (is_stuck(before, overlap) || before.jammed);
             if (jammed) jammed_.push_back(k);
             upset |= jammed || overlap > kDeep * radius;
         }
