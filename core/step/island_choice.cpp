@@ -25,9 +25,10 @@ constexpr double kCalm = 0.25;
 /// contradict each other there is nothing to be exact about.
 constexpr double kDeep = 0.02;
 
-/// So are those beyond this share of which an exact solution pushed out less than this part of what
-/// it was asked to: friction that holds as hard as the push-out pushes locks a wedge, and sweeps
-/// let it slip.
+/// Where an island is driven, so are those beyond this share of which an exact solution pushed out
+/// less than this part of what it was asked to: friction that holds as hard as the push-out pushes
+/// locks a wedge, and sweeps let it slip. A heap that is left to itself comes to rest around its
+/// wedges, and sweeps would stir it for ever.
 constexpr double kJam = 0.0025, kStuck = 0.25;
 
 /// What rests has been pulled on for a substep already; what is hardly faster counts as resting.
