@@ -247,7 +247,7 @@ bool IslandChoice::is_slow(const World& world, const Contact& contact) const {
 void IslandChoice::find_upset(const World& world, const ContactIsland& island,
                               const std::vector<BodyPair>& pairs) {
     const Bodies& b = world.bodies;
-    const double jam = is_driven(found_.bodies()[island.first_body]) ? kJam : kDeep;
+    const double jam = is_driven(island) ? kJam : kDeep;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         const Contact& first = world.contacts.found[pair.first];
@@ -268,7 +268,7 @@ void IslandChoice::find_upset(const World& world, const ContactIsland& island,
 void IslandChoice::mark_what_goes_on(const World& world, const ContactIsland& island,
                                      const std::vector<BodyPair>& pairs) {
     // what others squeeze is jammed as a whole
-    if (!upset_.empty() && is_driven(found_.bodies()[island.first_body])) return;
+    if (!upset_.empty() && is_driven(island)) return;
     const std::vector<ContactMemory>& memory = world.contacts.memory;
     const auto was_exact = [&](std::uint32_t at) {
         const auto first = memory.begin() + pairs[at].first;

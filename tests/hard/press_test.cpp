@@ -2,19 +2,19 @@
 /// A lid that comes down on a heap, squeezes it into 70 % of what the bodies fill without any space
 /// between them, stays, and opens again: no impulses can satisfy that, and none may be left in the
 /// heap for it to fly apart. What the lid has left behind comes to rest as it would without it.
+/// PLUMB_PRESSED_BODIES says how many (60).
 #include "geometry/mass_properties.h"
 #include "reader/polyhedra.h"
-#include "support/random.h"
-#include "support/scenes.h"
+#include "support/binned_heap.h"
+#include "support/environment.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace plumb::test {
 namespace {
 
-constexpr double kRadius = 0.05, kHalf = 0.27;  // of the bodies; of the box inside of its walls [m]
+constexpr double kRadius = 0.05;  // of the bodies [m]
 constexpr std::uint32_t kLid = 5, kFirst = 6;
 
 /// Shapes of a radius of 0.05 m, and their mean volume [m³].
@@ -41,29 +41,11 @@ PressedKind of_one(const char* name, const Geometry& shape) {
     return {name, {shape}, mass_properties(shape).volume};
 }
 
-/// How many bodies: 60, or as many as the environment asks for.
-std::uint32_t body_count() {
-    const char* const asked = std::getenv("PLUMB_PRESSED_BODIES");
-    return asked ? static_cast<std::uint32_t>(std::atoi(asked)) : 60;
-}
-
-/// Four walls, a lid high above, and bodies in layers.
+/// Into the bin, with a lid high above.
 Scene boxed_heap(Scene s, const std::vector<Geometry>& shapes, std::uint32_t count) {
-    s.materials[0].rolling_friction = 0.005;
-    add_ground(s);
-    for (const Vector& d : {Vector(1, 0, 0), Vector(-1, 0, 0), Vector(0, 0, 1), Vector(0, 0, -1)}) {
-        const Vector half = Vector(kHalf + 0.4, 4, kHalf + 0.4) - (kHalf + 0.2) * d.cwiseAbs();
-        add_body(s, box(half.x(), half.y(), half.z()), (kHalf + 0.2) * d + Vector(0, 4, 0),
-                 Motion::fixed);
-    }
-    add_body(s, box(kHalf, 0.2, kHalf), {0, 8, 0}, Motion::kinematic);
-    Random random(3);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double x = i % 3 - 1.0, z = (i / 3) % 3 - 1.0, layer = i / 9;
-        BodySpec& body =
-            add_body(s, shapes[i % shapes.size()], {0.175 * x, 0.1 + 0.18 * layer, 0.175 * z});
-        body.placement.rotation = random.rotation();
-    }
+    add_bin(s, 4);
+    add_body(s, box(kBinHalf, 0.2, kBinHalf), {0, 8, 0}, Motion::kinematic);
+    add_layers(s, shapes, count);
     return s;
 }
 
@@ -95,7 +77,7 @@ protected:
                 most_ = std::max(most_, fastest(world) - kSpeed);
             }
         };
-        const double height = top(world), left = 0.7 * volume / (4 * kHalf * kHalf);
+        const double height = top(world), left = 0.7 * volume / (4 * kBinHalf * kBinHalf);
         Placement lid;
         lid.position = {0, height + 0.25, 0};
         simulation.set_placement(kLid, lid);
@@ -108,7 +90,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(, Press, every_collider(), where_name);
 
 TEST_P(Press, LeavesNothingToFlyApart) {
-    const std::uint32_t count = body_count();
+    const auto count = static_cast<std::uint32_t>(number_from("PLUMB_PRESSED_BODIES", 60));
     const PressedKind kinds[] = {
         of_one("cubes", box(kRadius, kRadius, kRadius)), of_one("balls", sphere(kRadius)),
         of_one("capsules", capsule(0.7 * kRadius, 0.6 * kRadius)), hulls()};
@@ -125,7 +107,7 @@ TEST_P(Press, LeavesNothingToFlyApart) {
         EXPECT_LT(fastest(simulation.world()), 0.005) << "at rest again";
         for (std::uint32_t i = kFirst; i < kFirst + count; ++i) {
             const Vector& at = simulation.world().bodies.position[i];
-            EXPECT_TRUE(std::abs(at.x()) < kHalf && std::abs(at.z()) < kHalf && at.y() > 0)
+            EXPECT_TRUE(std::abs(at.x()) < kBinHalf && std::abs(at.z()) < kBinHalf && at.y() > 0)
                 << "body " << i << " is outside, at " << at.transpose();
         }
     }

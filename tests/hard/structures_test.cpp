@@ -4,21 +4,17 @@
 /// long large ones and those of drawn settings stand (12), and PLUMB_STRUCTURE_DRAWS how often
 /// settings are drawn for each (1); tests/long.sh: 60 and 8.
 #include "support/structures.h"
+#include "support/environment.h"
 #include "support/growth.h"
 #include "support/scenes.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <map>
 #include <sstream>
 
 namespace plumb::test {
 namespace {
 
-int number_from(const char* variable, int otherwise) {
-    const char* value = std::getenv(variable);
-    return value ? std::atoi(value) : otherwise;
-}
 const double kSeconds = number_from("PLUMB_STRUCTURE_SECONDS", 12);
 const int kDraws = number_from("PLUMB_STRUCTURE_DRAWS", 1);
 
