@@ -218,22 +218,33 @@ void IslandChoice::rule_out(const World& world) {
         if (is_boundless(world, drive)) mark_joint(drive.joint);
 }
 
-bool IslandChoice::is_exact(const World& world, const ContactIsland& island,
-                            const std::vector<BodyPair>& pairs) {
+bool IslandChoice::is_loose_heap(const ContactIsland& island) const {
+    return island.last_body - island.first_body > kVerySmall &&
+           island.first_link == island.last_link && !is_driven(island);
+}
+
+IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
+                               const std::vector<BodyPair>& pairs) {
     const std::uint32_t n = island.last_body - island.first_body;
     const bool jointed = island.first_link < island.last_link;
     if (n == 1 && !jointed &&
         !is_slow(world, world.contacts.found[pairs[found_.pairs()[island.first_pair]].first]))
-        return false;
+        return IslandWay::left;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
-        if (ruled_out_[found_.bodies()[i]]) return false;
+        if (ruled_out_[found_.bodies()[i]]) return IslandWay::left;
     upset_.clear();
     if (n <= world.settings.exact_islands) {
+        const std::size_t jammed_before = jammed_.size();
         find_upset(world, island, pairs);
-        if (upset_.empty() && (n <= kVerySmall || is_calm(world, island, pairs))) return true;
+        const bool calm = n <= kVerySmall || is_calm(world, island, pairs);
+        if (calm && upset_.empty()) return IslandWay::exact;
+        if (calm && is_loose_heap(island)) {
+            jammed_.resize(jammed_before);
+            return IslandWay::swept;
+        }
     }
     mark_what_goes_on(world, island, pairs);
-    return false;
+    return IslandWay::left;
 }
 
 bool IslandChoice::is_slow(const World& world, const Contact& contact) const {

@@ -10,6 +10,9 @@
 /// islands with couplings, with joints that close a loop, with motors that nothing can stop, with
 /// joints that turn far within a substep or pull so hard that levers have to turn with them
 /// (constraints/joint_lever.h), and for a while those whose joints could not be closed.
+///
+/// What overlaps deeply is left to others, too, where it is squeezed, jointed or very small. A heap
+/// that is left to itself is swept here until it is out: its sweeps find more than others do.
 #pragma once
 
 #include "schedule/contact_islands.h"
@@ -25,6 +28,9 @@ double pull_on(const World& world, std::uint32_t body);
 /// Of a contact's point on a against that on b, forces included [m/s].
 Vector3d relative_velocity(const World& world, std::uint32_t contact);
 
+/// What becomes of an island: solved or swept here, or left to others.
+enum class IslandWay : std::uint8_t { exact, swept, left };
+
 class IslandChoice {
 public:
     /// Once a step, before the others: finds the islands that pairs make.
@@ -33,8 +39,12 @@ public:
     /// The joint of a link of the islands.
     std::uint32_t joint_of(std::uint32_t link) const { return links_[link].first; }
 
-    bool is_exact(const World& world, const ContactIsland& island,
-                  const std::vector<BodyPair>& pairs);
+    IslandWay way_of(const World& world, const ContactIsland& island,
+                     const std::vector<BodyPair>& pairs);
+
+    /// Whether an island that could not be solved may be disputed (step/island_effort.h): a heap
+    /// that nothing drives and no joint holds.
+    bool is_loose_heap(const ContactIsland& island) const;
 
     /// Whether a contact that was solved exactly goes on from its impulses in the sweeps, to which
     /// its island is left because it has grown, or some of it moves, is jammed or overlaps deeply.

@@ -86,8 +86,12 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     const ContactIslands& found = choice_.find(world, pairs);
     if (pairs.empty()) return;
     taken_.assign(pairs.size(), 0);
-    for (const ContactIsland& island : found.islands())
-        if (choice_.is_exact(world, island, pairs)) take(world, island, found, pairs);
+    for (const ContactIsland& island : found.islands()) {
+        const IslandWay way = choice_.way_of(world, island, pairs);
+        if (way == IslandWay::left) continue;
+        take(world, island, found, pairs);
+        choose_effort(world, members_[count_ - 1], way == IslandWay::swept);
+    }
 
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i)
@@ -110,6 +114,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.first_point = static_cast<std::uint32_t>(points_.size());
     member.first_joint = joints_.size();
     member.given_up = false;
+    member.may_be_disputed = choice_.is_loose_heap(island);
     bodies_.resize(bodies_.size() + n);
 
     pattern_.clear();
@@ -142,6 +147,16 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     if (member.system.rows() == n && member.pattern == pattern_) return;
     member.pattern = pattern_;
     member.system.analyse(n, pattern_);
+}
+
+void IslandGroup::choose_effort(const World& world, Member& member, bool swept) {
+    member.disputed = 0;
+    if (member.may_be_disputed)
+        for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
+            const ContactMemory& memory = world.contacts.memory[contacts_[k]];
+            if (memory.matched) member.disputed = std::max(member.disputed, memory.disputed);
+        }
+    member.effort = swept ? IslandEffort::swept : effort_of(member.disputed);
 }
 
 void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint32_t a,
@@ -230,7 +245,7 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
         }
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
-            ask(world, k, h, push_out, kCreep * member.speed);
+            ask(world, member, k, h, push_out);
             clamped += -world.contacts.gap[contacts_[k]] > push_out.most;
         }
     }
@@ -280,24 +295,26 @@ double IslandGroup::strongest(const World& world, const Member& member, double h
     return kThrust * weight * h + kBlow * mass * member.speed + kBlow * driven;
 }
 
-/// What the substep asks of a point; velocities below `least` [m/s] are asked for as 0.
-void IslandGroup::ask(const World& world, std::size_t k, double h, const PushOut& push_out,
-                      double least) {
+/// What the substep asks of a point; velocities of creep are asked for as 0.
+void IslandGroup::ask(const World& world, const Member& member, std::size_t k, double h,
+                      const PushOut& push_out) {
     const ContactTable& c = world.contacts;
     const Settings& s = world.settings;
     const std::uint32_t contact = contacts_[k];
     IslandPoint& p = points_[k];
+    const double least = kCreep * member.speed;
+    const bool stays = member.effort == IslandEffort::light;
 
     const double bounce = restitution_velocity_of(c, contact);
     double normal = closing_velocity(gap_in_substep(c, contact), h, push_out);
     const ContactMemory& before = c.memory[contact];
     locked_[k] = choice_.is_stuck(before, -c.found[contact].gap) &&
                  (before.jammed || p.impulse[0] > kLocked * p.cone.most);
-    if (std::abs(normal) < least || (locked_[k] && normal > 0)) normal = 0;
+    if (std::abs(normal) < least || ((locked_[k] || stays) && normal > 0)) normal = 0;
     if (bounce > 0) normal = bounce;
 
     Vector3d across = Vector3d::Zero();
-    if (!c.anchor_slip.empty()) {
+    if (!c.anchor_slip.empty() && !stays) {
         across = p.frame.transpose() * (-s.anchor_stiffness / h * c.anchor_slip[contact]);
         across[0] = 0;
         if (across.cwiseAbs().maxCoeff() < least) across.setZero();
@@ -368,11 +385,20 @@ void IslandGroup::solve(const World& world, StepReport& report) {
 /// close them must add no energy.
 void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
     const Island island = island_of(m);
+    if (m.effort == IslandEffort::swept) {
+        solver.sweep(island);
+        m.solved = true;
+        return;
+    }
     const auto ask = [&] { m.open = joints_.ask(m.first_joint, m.last_joint, island.velocity); };
     for (int i = 0; i < kCloses; ++i) {
-        m.solved = solver.solve(island, m.system, m.speed).solved;
+        m.solved = solver.solve(island, m.system, m.speed, m.effort).solved;
         ask();
         if (!(m.open > tolerance) || (!m.solved && i > 0)) break;
+    }
+    if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
+        m.disputed = disputed_after(0, false);
+        m.effort = IslandEffort::swept;
     }
     if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;
     m.given_up |= !(m.open <= kAjar * tolerance);
@@ -434,6 +460,12 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         memory.gap = contacts.found[contacts_[k]].gap;
         memory.sticks =
             p.impulse.segment<2>(1).norm() < (1 - kSticks) * p.cone.friction * p.impulse[0];
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Member& m = members_[i];
+        const std::uint8_t left = m.may_be_disputed ? disputed_after(m.disputed, m.solved) : 0;
+        for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
+            contacts.memory[contacts_[k]].disputed = left;
     }
     for (const std::uint32_t contact : choice_.jammed()) contacts.memory[contact].jammed = true;
 }

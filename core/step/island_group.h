@@ -10,6 +10,7 @@
 #include "effects/report.h"
 #include "schedule/workers.h"
 #include "step/island_choice.h"
+#include "step/island_effort.h"
 #include "step/island_joints.h"
 #include "step/island_solver.h"
 #include "world/world.h"
@@ -56,12 +57,16 @@ private:
         double speed;  // at which its contacts and joints would part in this substep [m/s]
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
+        bool may_be_disputed;
+        std::uint8_t disputed;  // steps that are left, see island_effort.h
+        IslandEffort effort;    // in this step
         bool solved;
         double open;    // the worst joint [m], [rad]
         bool given_up;  // in this step, its joints could not be closed
     };
     void take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
+    void choose_effort(const World& world, Member& member, bool swept);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
     void take_memory(const World& world);
     void take_geometry(const World& world);
@@ -70,8 +75,8 @@ private:
     double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
     double strongest(const World& world, const Member& member, double h);
     double thrust_of(const World& world, const Member& member, double h) const;
-    void ask(const World& world, std::size_t point, double h, const PushOut& push_out,
-             double least);
+    void ask(const World& world, const Member& member, std::size_t point, double h,
+             const PushOut& push_out);
     void forget_impulses();
     void apply_impulses();
     Island island_of(const Member& member);

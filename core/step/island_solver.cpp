@@ -41,6 +41,15 @@ constexpr int kRounds = 4, kMostRounds = 16;
 /// No round begins after so many factorisations.
 constexpr std::uint32_t kEnoughFactorisations = 60;
 
+/// With little work: so many rounds at least, no other after so many factorisations, and γ is more
+/// at first, so that its minimum is found.
+constexpr int kLightRounds = 1;
+constexpr std::uint32_t kLightFactorisations = 10;
+constexpr double kLightShare = 30;
+
+/// Sweeps of an island that is swept, there and back.
+constexpr int kSweeps = 10;
+
 /// An island may stand that slips no faster than this; one slides where the shift is so many times
 /// the residual.
 constexpr double kFast = 2, kClear = 100;
@@ -77,9 +86,16 @@ double span_of(const AxisDrive& drive) {
 
 }  // namespace
 
-IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed) {
+void IslandSolver::sweep(const Island& island) {
+    island_ = island;
+    for (int i = 0; i < kSweeps; ++i) sweep_both_ways();
+}
+
+IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed,
+                                 IslandEffort effort) {
     island_ = island;
     system_ = &system;
+    effort_ = effort;
     creep_ = kCreep * speed;
     shifts_ = true;
     IslandReport report;
@@ -88,7 +104,8 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
 
     sweep_both_ways();
     report.residual = residual();
-    const bool may_stand = report.residual > kFar * speed && most_shift() < kFast * speed;
+    const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
+                           most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
     if (report.residual > speed) {
         take_back_impulses();
@@ -126,12 +143,14 @@ bool IslandSolver::stands(IslandReport& report, double speed) {
 
 /// Rounds, until the law of contact holds.
 void IslandSolver::improve(IslandReport& report, double speed) {
-    double share = kSoftnessShare, hard = kHard;
-    const std::uint32_t enough = report.factorisations + kEnoughFactorisations;
+    const bool light = effort_ == IslandEffort::light;
+    double share = light ? kLightShare : kSoftnessShare, hard = kHard;
+    const std::uint32_t enough =
+        report.factorisations + (light ? kLightFactorisations : kEnoughFactorisations);
     const auto goes_on = [&](int round) {
         if (report.residual <= kStop * speed) return false;
         if (!shifts_ && most_shift() > kClear * report.residual) return false;
-        if (round < kRounds) return true;
+        if (round < (light ? kLightRounds : kRounds)) return true;
         return round < kMostRounds && report.residual > kSolved * speed &&
                report.factorisations < enough;
     };

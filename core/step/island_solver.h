@@ -20,6 +20,7 @@
 
 #include "math/block_cholesky.h"
 #include "step/island.h"
+#include "step/island_effort.h"
 
 #include <vector>
 
@@ -37,7 +38,11 @@ public:
     /// Improves impulses and velocities until the law of contact holds. `system` has the pattern of
     /// the island's pairs; `speed` [m/s], at which its contacts would approach, is the measure of
     /// what may be missed.
-    IslandReport solve(const Island& island, BlockCholesky& system, double speed);
+    IslandReport solve(const Island& island, BlockCholesky& system, double speed,
+                       IslandEffort effort = IslandEffort::full);
+
+    /// Sweeps from the impulses and velocities that there are.
+    void sweep(const Island& island);
 
     /// Where nothing was found: sweeps from impulses of 0, which can make no more of it than there
     /// is. `ask()` comes before each.
@@ -50,7 +55,7 @@ public:
     }
 
 private:
-    static constexpr int kSweepsAnew = 5;
+    static constexpr int kSweepsAnew = 5;  ///< there and back
 
     struct PointWork {
         double stiffness;    ///< m/γ [kg]
@@ -85,6 +90,7 @@ private:
     Island island_;
     BlockCholesky* system_ = nullptr;
     double creep_ = 0;               ///< slip that is not shifted away [m/s]
+    IslandEffort effort_ = IslandEffort::full;
     bool shifts_ = true;             ///< whether what slides is shifted (de Saxcé)
     std::vector<PointWork> work_;    // [point]
     std::vector<RowWork> row_work_;  // [row]

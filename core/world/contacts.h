@@ -25,6 +25,7 @@ struct ContactMemory {
     double gap = 0;        ///< of the step before, where it was solved exactly [m]
     bool jammed = false;   ///< friction holds its overlap: an exact solution could not push it
                            ///< out, or left it as it is
+    std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
     bool known = false;    ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// How much is done for an island, from step to step.
+///
+/// Overlap that is to be opened and slip that is to be taken back can contradict each other: no
+/// velocities do both, and a wedged heap that is asked for them is never at rest. So an island that
+/// could not be solved is disputed for a while. It is swept at first, which opens what gives way,
+/// and then asked for neither, with little work: what stands is soon solved so, and stays as it is
+/// until something disturbs it.
+#pragma once
+
+#include <cstdint>
+
+namespace plumb {
+
+enum class IslandEffort : std::uint8_t {
+    full,   ///< solved until its laws hold, overlap and slip among them
+    swept,  ///< improved by sweeps
+    light,  ///< solved with little work; overlap and slip stay as they are
+};
+
+/// For how many steps a disputed island is swept, and then solved lightly.
+inline constexpr std::uint8_t kSweptSteps = 64, kLightSteps = 64;
+
+/// `disputed`: the steps that are left of the dispute.
+inline IslandEffort effort_of(std::uint8_t disputed) {
+    if (disputed == 0) return IslandEffort::full;
+    return disputed > kLightSteps ? IslandEffort::swept : IslandEffort::light;
+}
+
+/// Steps that are left after one. A dispute lasts while what is asked lightly is solved.
+inline std::uint8_t disputed_after(std::uint8_t disputed, bool solved) {
+    switch (effort_of(disputed)) {
+        case IslandEffort::full: return solved ? 0 : kSweptSteps + kLightSteps;
+        case IslandEffort::swept: return disputed - 1;
+        case IslandEffort::light: break;
+    }
+    return solved ? disputed : disputed - 1;
+}
+
+}  // namespace plumb
