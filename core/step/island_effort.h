@@ -4,8 +4,8 @@
 /// Overlap that is to be opened and slip that is to be taken back can contradict each other: no
 /// velocities do both, and a wedged heap that is asked for them is never at rest. So an island that
 /// could not be solved is disputed for a while. It is swept at first, which opens what gives way,
-/// and then asked for neither, with little work: what stands is soon solved so, and stays as it is
-/// until something disturbs it.
+/// and once nothing overlaps by much it is asked for neither, with little work: what stands is soon
+/// solved so, and stays as it is until something disturbs it.
 #pragma once
 
 #include <cstdint>
@@ -21,16 +21,22 @@ enum class IslandEffort : std::uint8_t {
 /// For how many steps a disputed island is swept, and then solved lightly.
 inline constexpr std::uint8_t kSweptSteps = 64, kLightSteps = 64;
 
+/// It is swept on while a contact overlaps by more than this share of its smaller body's radius.
+inline constexpr double kShallow = 0.005;
+
 /// `disputed`: the steps that are left of the dispute.
 inline IslandEffort effort_of(std::uint8_t disputed) {
     if (disputed == 0) return IslandEffort::full;
     return disputed > kLightSteps ? IslandEffort::swept : IslandEffort::light;
 }
 
+/// At the start of a dispute.
+inline constexpr std::uint8_t kDisputed = kSweptSteps + kLightSteps;
+
 /// Steps that are left after one. A dispute lasts while what is asked lightly is solved.
 inline std::uint8_t disputed_after(std::uint8_t disputed, bool solved) {
     switch (effort_of(disputed)) {
-        case IslandEffort::full: return solved ? 0 : kSweptSteps + kLightSteps;
+        case IslandEffort::full: return solved ? 0 : kDisputed;
         case IslandEffort::swept: return disputed - 1;
         case IslandEffort::light: break;
     }

@@ -149,6 +149,16 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.system.analyse(n, pattern_);
 }
 
+/// Whether nothing in it overlaps by much.
+bool IslandGroup::is_shallow(const World& world, const Member& member) const {
+    const auto contacts = std::span(contacts_).subspan(member.first_point,
+                                                       member.last_point - member.first_point);
+    return std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t i) {
+        const Contact& contact = world.contacts.found[i];
+        return -contact.gap <= kShallow * smaller_radius(world.bodies, contact);
+    });
+}
+
 void IslandGroup::choose_effort(const World& world, Member& member, bool swept) {
     member.disputed = 0;
     if (member.may_be_disputed)
@@ -156,6 +166,9 @@ void IslandGroup::choose_effort(const World& world, Member& member, bool swept) 
             const ContactMemory& memory = world.contacts.memory[contacts_[k]];
             if (memory.matched) member.disputed = std::max(member.disputed, memory.disputed);
         }
+    const bool overlaps =
+        effort_of(member.disputed) == IslandEffort::light && !is_shallow(world, member);
+    if (member.disputed > 0 && (swept || overlaps)) member.disputed = kDisputed;
     member.effort = swept ? IslandEffort::swept : effort_of(member.disputed);
 }
 
@@ -387,7 +400,7 @@ void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
     const Island island = island_of(m);
     if (m.effort == IslandEffort::swept) {
         solver.sweep(island);
-        m.solved = true;
+        m.solved = true, m.open = 0;
         return;
     }
     const auto ask = [&] { m.open = joints_.ask(m.first_joint, m.last_joint, island.velocity); };
@@ -397,7 +410,7 @@ void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
         if (!(m.open > tolerance) || (!m.solved && i > 0)) break;
     }
     if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
-        m.disputed = disputed_after(0, false);
+        m.disputed = kDisputed;
         m.effort = IslandEffort::swept;
     }
     if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;

@@ -66,6 +66,7 @@ private:
     };
     void take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
+    bool is_shallow(const World& world, const Member& member) const;
     void choose_effort(const World& world, Member& member, bool swept);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
     void take_memory(const World& world);

@@ -48,7 +48,7 @@ constexpr std::uint32_t kLightFactorisations = 10;
 constexpr double kLightShare = 30;
 
 /// Sweeps of an island that is swept, there and back.
-constexpr int kSweeps = 10;
+constexpr int kSweeps = 20;
 
 /// An island may stand that slips no faster than this; one slides where the shift is so many times
 /// the residual.
