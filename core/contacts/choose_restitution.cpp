@@ -5,7 +5,8 @@
 /// Restitution is consumed once a contact and step, in the first substep that begins with the
 /// surfaces touching: a collision that is still open is let through, or it would bounce early and
 /// from too high. The recovery of the overlap that this makes adds no speed (the kernels leave
-/// parting bodies alone).
+/// parting bodies alone), nor does that of what turned into another body and parts from it as fast
+/// as what collides.
 #include "contacts/contact_measures.h"
 #include "contacts/contact_stages.h"
 
@@ -19,8 +20,10 @@ void choose_restitution(World& world, bool first_substep) {
     if (first_substep) c.bounced.assign(c.found.size(), 0);
     for (std::size_t i = 0; i < c.found.size(); ++i) {
         const double e = world.surface_pair(c.found[i].a, c.found[i].b).restitution;
-        if (e == 0 || c.bounced[i]) continue;
+        if (e == 0) continue;
         const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
+        if (u > threshold && c.gap[i] < 0) c.set_restitution(i, ContactTable::kParting);
+        if (c.bounced[i]) continue;
         if (-u <= threshold) continue;
         if (c.gap[i] > 0) {
             c.restitution[i] = Restitution::passing;

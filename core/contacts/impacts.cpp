@@ -42,6 +42,7 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     colliding_.reserve(bodies);
     shares_.reserve(bodies);
     changes_.resize(bodies);
+    start_.reserve(world.bodies.size());
     body_of_.resize(bodies);
 }
 
@@ -64,14 +65,26 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
                    last = islands_.pairs().begin() + island.last_pair;
         const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
         if (!hit) continue;
-        const std::uint8_t mark = last - first == 1 ? kAlone : kAmongOthers;
         std::for_each(first, last, [&](std::uint32_t p) {
-            hit_[p] = mark;
+            hit_[p] = 1;
             take_bodies(world, pairs[p]);
         });
         colliding_.push_back(island);
     }
+    choose_start(world);
     return true;
+}
+
+void Impacts::choose_start(const World& world) {
+    const Bodies& b = world.bodies;
+    start_ = b.velocity_now;
+    for (const ContactIsland& island : colliding_) {
+        if (island.last_pair - island.first_pair > 1) continue;
+        for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+            const std::uint32_t body = body_of_[islands_.bodies()[i]];
+            start_[body] = 0.5 * (b.velocity_now[body] + b.velocity[body]);
+        }
+    }
 }
 
 void Impacts::take_bodies(const World& world, const BodyPair& pair) {
@@ -98,7 +111,7 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
         const std::int32_t row = islands_.bodies()[i];
         const std::uint32_t body = body_of_[row];
         const Change& d = changes_[row];
-        const Vector3d &v = bodies.velocity_now[body], &w = bodies.angular_velocity_now[body];
+        const Vector3d &v = start_[body], &w = bodies.angular_velocity_now[body];
         b += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
         a +=
             0.5 * (bodies.mass[body] * d.v.squaredNorm() + inertia_product(bodies, body, d.w, d.w));
@@ -106,7 +119,7 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
     return a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 1;
 }
 
-void Impacts::take(World& world, const std::vector<BodyPair>& pairs) {
+void Impacts::take(World& world, const std::vector<BodyPair>& pairs, double h) {
     Bodies& b = world.bodies;
     shares_.clear();
     for (const ContactIsland& island : colliding_) {
@@ -116,7 +129,11 @@ void Impacts::take(World& world, const std::vector<BodyPair>& pairs) {
             const std::uint32_t body = body_of_[row];
             const Vector3d dv = share * changes_[row].v, dw = share * changes_[row].w;
             b.velocity[body] += dv, b.velocity_now[body] += dv;
-            b.angular_velocity[body] += dw, b.angular_velocity_now[body] += dw;
+            if (gyroscopic_ && !b.isotropic[body])
+                b.angular_velocity[body] = pushed_rate(b, body, dw, h);
+            else
+                b.angular_velocity[body] += dw;
+            b.angular_velocity_now[body] += dw;
             b.angular_momentum[body] += spin_momentum(b, body, dw);
         }
     }

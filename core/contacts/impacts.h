@@ -21,6 +21,9 @@ namespace plumb {
 
 class Impacts {
 public:
+    /// `gyroscopic`: whether bodies of unequal moments carry their angular momentum.
+    explicit Impacts(bool gyroscopic) : gyroscopic_(gyroscopic) {}
+
     /// Change of a body's velocity.
     struct Change {
         Vector3d v = Vector3d::Zero(), w = Vector3d::Zero();
@@ -36,8 +39,10 @@ public:
     /// Whether a pair belongs to such an island.
     bool is_hit(std::size_t pair) const { return hit_[pair] != 0; }
 
-    /// Whether the pair is an island for itself.
-    bool is_alone(std::size_t pair) const { return hit_[pair] == kAlone; }
+    /// Velocities from which collisions begin, [body] [m/s]. A pair for itself has half of what
+    /// forces do in the substep, in the middle of which it collides: so it keeps its energy. Among
+    /// others that would take what rests out of its rest.
+    const std::vector<Vector3d>& start() const { return start_; }
 
     /// Calls visit(row) for their bodies.
     template <class Visit>
@@ -50,8 +55,9 @@ public:
     /// By row, for the rows above.
     std::vector<Change>& changes() { return changes_; }
 
-    /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities.
-    void take(World& world, const std::vector<BodyPair>& pairs);
+    /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities;
+    /// those that carry their momentum turn over h [s] as it then asks.
+    void take(World& world, const std::vector<BodyPair>& pairs, double h);
 
     /// Calls visit(pair, share) for the pairs of these islands, with the share of their impulses
     /// that was taken.
@@ -63,16 +69,17 @@ public:
     }
 
 private:
-    static constexpr std::uint8_t kAmongOthers = 1, kAlone = 2;
-
+    void choose_start(const World& world);
     void take_bodies(const World& world, const BodyPair& pair);
     double bounded_share(const World& world, const ContactIsland& island,
                          const std::vector<BodyPair>& pairs) const;
 
+    bool gyroscopic_;
     ContactIslands islands_;
     std::vector<ContactIsland> colliding_;
     std::vector<double> shares_;          // [colliding_] of the changes that were taken
     std::vector<std::uint8_t> hit_;       // [pair]
+    std::vector<Vector3d> start_;         // [body]
     std::vector<std::uint32_t> body_of_;  // [row], of the rows above
     std::vector<Change> changes_;         // [row]
 };

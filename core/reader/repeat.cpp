@@ -101,7 +101,7 @@ std::uint64_t total_of(const Grid& grid, const Node& node) {
     const std::uint64_t places = std::uint64_t{grid.count[0]} * grid.count[1] * grid.count[2];
     if (grid.total && *grid.total > places)
         node.at("total").fail("the grid has only " + std::to_string(places) + " places");
-    return grid.total.value_or(places);
+    return grid.total ? *grid.total : places;
 }
 
 std::vector<std::size_t> dealt(const std::vector<double>& weights, std::size_t total,

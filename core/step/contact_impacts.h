@@ -24,7 +24,7 @@ public:
     /// Memory for `contacts` of them, so that the first impact allocates none.
     void reserve(Batches& batches, std::size_t contacts) {
         resting_.reserve(batches.arrays(), batches.row_count());
-        given_.reserve(contacts);
+        given_.reserve(contacts), hit_.reserve(contacts);
     }
 
     /// Puts the impulses of the substep before aside. Rows ask how fast contacts approach, and how
@@ -49,18 +49,19 @@ public:
         ContactTable& c = world.contacts;
         if (c.restitution.empty()) return false;
         const ContactArrays<Real, W> rows = batches.arrays();
-        given_.clear();
+        given_.clear(), hit_.clear();
         batches.each_contact(pairs, [&](const ContactPlace& at) {
             if (!impacts.is_hit(at.pair) || c.is_passing(at.contact)) return;
             c.set_restitution(at.contact, 0);
             const Real impulse = restitution(world, rows, at);
+            hit_.push_back(at.contact);
             if (!(impulse > 0)) return;
-            given_.push_back({at, impacts.is_alone(at.pair)});
+            given_.push_back(at);
             NormalRow<Real, W>& row = rows.normals[at.row];
             push(bodies, sides_of(rows, at), impulse);
             row.lambda_velocity[at.lane] += impulse;
         });
-        for (const auto& [at, alone] : given_) {
+        for (const ContactPlace& at : given_) {
             NormalRow<Real, W>& row = rows.normals[at.row];
             row.restitution_velocity[at.lane] =
                 std::max(Real(0), row.velocity[at.lane] + change_along(bodies, sides_of(rows, at)));
@@ -69,28 +70,18 @@ public:
         return !given_.empty();
     }
 
-    /// Takes the impulses that were put aside up again. What bounced parts as it does: the recovery
-    /// of its overlap adds nothing. A pair for itself keeps its speed through the substep, half of
-    /// whose forces belong before the impact; among others that would add energy.
+    /// Takes the impulses that were put aside up again. What parts after an impact does so at its own
+    /// speed: the recovery of overlap adds nothing, for it would come on top of it.
     void end(World& world, Batches& batches) {
         resting_.give(batches.arrays(), batches.row_count());
         ContactTable& c = world.contacts;
-        for (const auto& [at, alone] : given_) {
-            const double u =
-                separating_velocity(world.bodies, c.found[at.contact], c.point[at.contact]);
-            c.set_restitution(at.contact,
-                              alone ? std::max(u, 0.0) : (u > 0 ? ContactTable::kParting : 0));
-        }
-        given_.clear();
+        for (const std::size_t contact : hit_)
+            if (separating_velocity(world.bodies, c.found[contact], c.point[contact]) > 0)
+                c.set_restitution(contact, ContactTable::kParting);
+        hit_.clear();
     }
 
 private:
-    /// A contact that bounced, and whether its pair is an island for itself.
-    struct Given {
-        ContactPlace at;
-        bool alone;
-    };
-
     /// A body of a pair, and a contact's point on it.
     struct Side {
         std::int32_t row;
@@ -154,7 +145,8 @@ private:
     }
 
     ContactImpulses<Real, W> resting_;
-    std::vector<Given> given_;
+    std::vector<ContactPlace> given_;  // which bounced
+    std::vector<std::size_t> hit_;     // contacts of islands in which something collided
 };
 
 }  // namespace plumb

@@ -39,16 +39,6 @@ constexpr double kFiner = 0.01;
 constexpr int kMostRounds = 8;
 constexpr double kSameTurn = 1e-10;
 
-/// Rate at which a body turns over a part of h [s] if constraints change its rate by Δω [rad/s]: as
-/// one that is free, with the momentum that it then has.
-Vector3d pushed_rate(const Bodies& b, std::uint32_t body, const Vector3d& change, double h) {
-    const Quaterniond& q = b.orientation[body];
-    const Quaterniond back = q.conjugate();
-    const Vector3d momentum =
-        back * b.angular_momentum[body] + b.inertia[body].cwiseProduct(back * change);
-    return q * middle_rate<double>(momentum, b.inertia[body], b.inverse_inertia[body], h);
-}
-
 /// Of the joints that turn most [rad/s].
 double angular_rate(const World& world, const std::vector<std::uint32_t>& joints) {
     const Bodies& b = world.bodies;

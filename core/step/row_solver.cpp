@@ -66,6 +66,8 @@ public:
           has_impacts_(plan.runs(Effect::impacts)),
           warm_start_(settings_.warm_start && !shocks_),
           in_island_(world.joints.size(), 0),
+          impacts_(plan.runs(Effect::gyroscopic) &&
+                   settings_.gyroscopic == Gyroscopic::conserving),
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         make_groups(world, plan);
         if (shocks_) shock_.emplace(plan, workers);
@@ -110,7 +112,7 @@ public:
     void solve_impacts(World& world, double h, ContactSums* sums) override {
         if (contacts_->empty() || !impacts_.find(world, contacts_->pairs(), h)) return;
         const Bodies& b = world.bodies;
-        table_.begin(world, b.velocity_now, b.angular_velocity_now);
+        table_.begin(world, impacts_.start(), b.angular_velocity_now);
         PassSettings<Real> pass{};
         pass.h = static_cast<Real>(h), pass.inverse_h = static_cast<Real>(1 / h);
         contacts_->begin_impacts(world, table_.rows(), pass);
@@ -121,7 +123,7 @@ public:
             impacts_.changes()[row] = {change.v.template cast<double>(),
                                        change.w.template cast<double>()};
         });
-        impacts_.take(world, contacts_->pairs());
+        impacts_.take(world, contacts_->pairs(), h);
         if (sums) contacts_->add_impacts(impacts_, *sums);
         contacts_->end_impacts(world);
     }

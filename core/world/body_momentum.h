@@ -3,6 +3,7 @@
 /// frame; ω and L are the world's.
 #pragma once
 
+#include "math/free_rotation.h"
 #include "world/bodies.h"
 
 namespace plumb {
@@ -11,6 +12,16 @@ namespace plumb {
 inline Vector3d spin_momentum(const Bodies& b, std::size_t i, const Vector3d& w) {
     const Quaterniond& q = b.orientation[i];
     return q * b.inertia[i].cwiseProduct(q.conjugate() * w);
+}
+
+/// Rate at which body i turns over h [s] if constraints change its rate by Δω [rad/s]: as one that
+/// is free, with the momentum that it then has.
+inline Vector3d pushed_rate(const Bodies& b, std::size_t i, const Vector3d& change, double h) {
+    const Quaterniond& q = b.orientation[i];
+    const Quaterniond back = q.conjugate();
+    const Vector3d momentum =
+        back * b.angular_momentum[i] + b.inertia[i].cwiseProduct(back * change);
+    return q * middle_rate<double>(momentum, b.inertia[i], b.inverse_inertia[i], h);
 }
 
 /// v · I w [J]; with v = w twice the rotational energy at that rate.

@@ -119,6 +119,7 @@ TEST(Repeat, RefusesWhatDoesNotFit) {
     const std::string at = "/bodies/0/repeat";
     expect_error(with_repeat(R"("count": [1000, 1001, 1])"), at, "at most 1000000");
     expect_error(with_repeat(R"("count": [1000000, 1000000, 1000000])"), at, "at most 1000000");
+    expect_error(with_repeat(R"("count": [65536, 65536, 1])"), at, "4294967296");
     expect_error(with_repeat(R"("count": [2, 2, 2], "total": 9)"), at + "/total", "only 8 places");
     expect_error(with_repeat(R"("count": [2, 0, 2])"), at + "/count/1", "from 1");
     expect_error(with_repeat(R"("count": [2, 2])"), at + "/count", "a list of 3");
