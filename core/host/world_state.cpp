@@ -73,7 +73,7 @@ void each_number_of_memory(Io& io, Table& table) {
         io(m.normal_impulse), io(m.gap);
         vector(io, m.friction_impulse), vector(io, m.rolling_impulse);
         vector(io, m.stick_a), vector(io, m.stick_b);
-        io(m.sticks), io(m.exact), io(m.jammed), io(m.known), io(m.matched);
+        io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.known), io(m.matched);
     }
     io(table.rejected);
     each_number_of_contacts(io, table.kept.pool);
