@@ -184,17 +184,21 @@ void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint
     p.impulse.setZero();
 }
 
-/// The impulses that the contacts remember of the step before.
+/// The impulses that the contacts remember of the step before. Sweeps cannot take back what a press
+/// left in others.
 void IslandGroup::take_memory(const World& world) {
     if (!world.settings.warm_start) return;
-    for (std::size_t k = 0; k < points_.size(); ++k) {
-        const ContactMemory& memory = world.contacts.memory[contacts_[k]];
-        IslandPoint& p = points_[k];
-        if (!memory.matched) continue;
-        p.impulse.head<3>() = p.frame.transpose() * memory.friction_impulse;
-        p.impulse[0] = memory.normal_impulse;
-        if (p.cone.turns())
-            p.impulse.tail<3>() = p.frame.transpose() * memory.rolling_impulse / p.length;
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Member& m = members_[i];
+        for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
+            const ContactMemory& memory = world.contacts.memory[contacts_[k]];
+            IslandPoint& p = points_[k];
+            if (!memory.matched || (m.effort == IslandEffort::swept && !memory.exact)) continue;
+            p.impulse.head<3>() = p.frame.transpose() * memory.friction_impulse;
+            p.impulse[0] = memory.normal_impulse;
+            if (p.cone.turns())
+                p.impulse.tail<3>() = p.frame.transpose() * memory.rolling_impulse / p.length;
+        }
     }
 }
 
