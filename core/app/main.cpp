@@ -82,6 +82,8 @@ int guarded(const Verb& verb) {
         return finished(verb());
     } catch (const UsageError& e) {
         return complain(kUsage, e.what());
+    } catch (const UnknownEnding& e) {
+        return complain(kUsage, e.what());
     } catch (const SceneError& e) {
         return complain(kBadScene, e.what());
     } catch (const ColliderError& e) {

@@ -54,11 +54,13 @@ std::string usage_sentence(const CLI::App& app, int argc, char** argv, const CLI
     const std::string help =
         "; try \"plumb " + (parsed.empty() ? "" : asked.get_name() + " ") + "--help\"";
 
-    const std::string option = unknown_option(asked, argc, argv);
+    const std::string word = argc > 1 ? argv[1] : "";
+    // What follows an unknown verb may be an option of the verb that was meant.
+    const bool verb_is_known = !parsed.empty() || word.rfind('-', 0) == 0;
+    const std::string option = verb_is_known ? unknown_option(asked, argc, argv) : "";
     if (!option.empty())
         return "unknown option \"" + option + '"' + advice(option, option_names(asked)) + help;
     if (!parsed.empty()) return one_line(e.what()) + help;
-    const std::string word = argc > 1 ? argv[1] : "";
     if (word.empty()) return "a verb is missing" + advice(word, verbs) + help;
     return "unknown verb \"" + word + '"' + advice(word, verbs) + help;
 }

@@ -3,6 +3,7 @@
 
 #include "effects/filter_reachability.h"
 #include "scene/error.h"
+#include "scene/nearest.h"
 #include "schedule/joint_trees.h"
 #include "world/round_shapes.h"
 
@@ -232,14 +233,15 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"shock_propagation", shock_propagation},
 }};
 
-std::size_t effect_named(const std::string& name, const char* key) {
-    for (std::size_t i = 0; i < kEffectCount; ++i)
-        if (kEffects[i].name == name) return i;
-    std::string allowed;
-    for (const Registered& e : kEffects)
-        allowed += (allowed.empty() ? "" : ", ") + std::string(e.name);
-    throw SceneError("", std::string("/settings/") + key,
-                     "there is no effect \"" + name + "\"; effects are " + allowed);
+/// The effect that `names[i]`, a list under `key` in the settings, names. Throws SceneError.
+std::size_t effect_named(const std::vector<std::string>& names, std::size_t i, const char* key) {
+    std::vector<std::string> known;
+    for (std::size_t k = 0; k < kEffectCount; ++k) {
+        if (kEffects[k].name == names[i]) return k;
+        known.emplace_back(kEffects[k].name);
+    }
+    throw SceneError("", std::string("/settings/") + key + '/' + std::to_string(i),
+                     "there is no effect \"" + names[i] + '"' + advice(names[i], known));
 }
 
 }  // namespace
@@ -250,15 +252,16 @@ Plan make_plan(const World& world) {
         const Wish wish = kEffects[i].wish(world);
         plan.decisions[i] = {kEffects[i].name, wish.wanted, wish.why};
     }
-    for (const std::string& name : world.settings.require) {
-        Decision& d = plan.decisions[effect_named(name, "require")];
+    const Settings& settings = world.settings;
+    for (std::size_t i = 0; i < settings.require.size(); ++i) {
+        Decision& d = plan.decisions[effect_named(settings.require, i, "require")];
         if (!d.runs) d.why = "required, although: " + d.why;
         d.runs = true;
     }
-    for (const std::string& name : world.settings.forbid) {
-        Decision& d = plan.decisions[effect_named(name, "forbid")];
+    for (std::size_t i = 0; i < settings.forbid.size(); ++i) {
+        Decision& d = plan.decisions[effect_named(settings.forbid, i, "forbid")];
         if (d.runs)
-            plan.warnings.push_back("\"" + name +
+            plan.warnings.push_back('"' + settings.forbid[i] +
                                     "\" is forbidden, but the scene calls for it: " + d.why);
         d.why = "forbidden" + (d.runs ? ", although: " + d.why : std::string());
         d.runs = false;

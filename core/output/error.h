@@ -19,4 +19,9 @@ private:
     std::string path_;
 };
 
+/// The ending of a file's name is that of no kind of output.
+class UnknownEnding : public OutputError {
+    using OutputError::OutputError;
+};
+
 }  // namespace plumb

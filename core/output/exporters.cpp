@@ -5,12 +5,11 @@
 #include "output/error.h"
 #include "output/html.h"
 #include "output/png.h"
+#include "scene/nearest.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cstddef>
-#include <numeric>
 #include <string_view>
 #include <vector>
 
@@ -57,35 +56,19 @@ std::string extension_of(const std::string& path) {
     return extension;
 }
 
-/// How many letters must be put in, left out or changed to make one word of the other.
-std::size_t edits(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0]++;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i] == b[j] ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({changed, diagonal + 1, row[j] + 1});
-        }
-    }
-    return row.back();
-}
-
 /// "has the ending .htm, and none of .html, .csv, .plumb; did you mean .html?"
 std::string sentence_about(const std::string& extension) {
+    std::vector<std::string> known;
     std::string list;
     for (const Kind& kind : kKinds) {
-        list += (list.empty() ? "" : ", ") + std::string(kind.extension);
+        known.emplace_back(kind.extension);
+        list += (list.empty() ? "" : ", ") + known.back();
     }
     if (extension.empty()) return "has no ending; it must be one of " + list;
 
-    const auto nearest =
-        std::min_element(kKinds.begin(), kKinds.end(), [&extension](const Kind& a, const Kind& b) {
-            return edits(extension, a.extension) < edits(extension, b.extension);
-        });
-    std::string sentence = "has the ending " + extension + ", which is none of " + list;
-    return sentence + "; did you mean " + std::string(nearest->extension) + "?";
+    const std::string near = nearest(extension, known);
+    return "has the ending " + extension + ", which is none of " + list +
+           (near.empty() ? "" : "; did you mean " + near + "?");
 }
 
 }  // namespace
@@ -95,7 +78,7 @@ std::unique_ptr<Exporter> make_exporter(const std::string& path, const Recording
     for (const Kind& kind : kKinds) {
         if (kind.extension == extension) return kind.maker(path, header);
     }
-    throw OutputError(path, sentence_about(extension));
+    throw UnknownEnding(path, sentence_about(extension));
 }
 
 std::unique_ptr<Exporter> make_exporter(const std::string& path, const Scene& scene,

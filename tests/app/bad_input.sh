@@ -67,7 +67,7 @@ expect 3 "/links/0/a/deformable" "$plumb" check "$work/link.json"
 expect 3 "/materials/ice/friction" "$plumb" check "$work/friction.json"
 expect 3 "did you mean \"sphere\"" "$plumb" check "$work/shape.json"
 expect 3 "did you mean \"wood\"" "$plumb" check "$work/material.json"
-expect 3 "shock_propagation" "$plumb" check "$work/effect.json"
+expect 3 '/settings/require/0: there is no effect "shok_propagation"; did you mean "shock_propagation"?' "$plumb" check "$work/effect.json"
 expect 3 "absent.obj" "$plumb" check "$work/mesh.json"
 expect 3 'folder.obj" is a folder; name a file in it' "$plumb" check "$work/folder.json"
 expect 3 'folder.stl" in ' "$plumb" check "$work/folder.urdf"
@@ -124,13 +124,14 @@ expect 4 "$good_plugins/plumb_collider_reference.so has already taken" \
   "$plumb" check "$scenes/stack.json" --plugin-path "$good_plugins:$bad_plugins" --collider taken
 expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/absent/x.html"
 expect 6 "No such file or directory" "$plumb" run "$scenes/stack.json" --collider ode --summary "$work/absent/x.json"
-expect 6 ".html" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/x.hmtl"
+expect 2 "did you mean .html?" "$plumb" run "$scenes/stack.json" --collider ode --out "$work/x.hmtl"
 expect 6 "absent" "$plumb" run "$scenes/stack.json" --out "$work/absent/x.plumb"
 expect 6 "Is a directory" "$plumb" run "$scenes/stack.json" --summary "$work"
 expect 3 "not a file" "$plumb" run "$work"
 expect 2 "scene is required" "$plumb" run
 expect 2 "a verb is missing" "$plumb"
 expect 2 "did you mean \"check\"" "$plumb" chek
+expect 2 "unknown verb \"rnu\"; did you mean \"run\"" "$plumb" rnu "$scenes/stack.json" --quiet
 expect 2 "Allowed: run, colliders" "$plumb" walk
 expect 2 "did you mean \"--collider\"" "$plumb" run "$scenes/stack.json" --colider ode
 expect 2 "did you mean \"--substeps\"" "$plumb" run "$scenes/stack.json" --substep=3
