@@ -17,7 +17,7 @@
 /// load; κ takes what swings faster than substeps can follow down to 0.64 of itself each time. (The
 /// characteristic polynomial is z (z − 1)² + a (z² + θ z (z − 1)² + κ (z − 1)³).)
 ///
-/// A body that turns far within a substep is another matter: rows at its start are poor rows for
+/// An arm that swings far within a substep is another matter: rows at its start are poor rows for
 /// its end. There the lever is that of the end, which loses some energy and angular momentum. So
 /// are loaded levers of joints that are iterated: few iterations do not find the balance that would
 /// keep the energy, and what they leave must not add any.
@@ -81,16 +81,23 @@ inline JointLever<T> iterated_lever(const T& a, const Vector3<T>& turn) {
     return {between_0_and_1<T>(far), Vector3<T>(T(0), T(0), T(0))};
 }
 
-/// Of a joint in a tree that is solved exactly; `turn`, `turn_before()`: h ω₀ and h ω₋₁ [rad], the
-/// latter asked for only where a lever is loaded.
+/// The square of the angle by which a turn swings an arm [rad²]: none about the arm itself.
+template <class T>
+inline T swing_squared(const Vector3<T>& turn, const Vector3<T>& arm) {
+    const Vector3<T> way = cross(turn, arm);
+    return dot(way, way) / max(dot(arm, arm), T(1e-30));
+}
+
+/// Of a joint in a tree that is solved exactly; `swing`: see swing_squared; `turn`, `turn_before()`:
+/// h ω₀ and h ω₋₁ [rad], the latter asked for only where a lever is loaded.
 template <class T, class TurnBefore>
-inline JointLever<T> exact_lever(const T& a, const Vector3<T>& turn,
+inline JointLever<T> exact_lever(const T& a, const T& swing, const Vector3<T>& turn,
                                  const TurnBefore& turn_before) {
     constexpr double kTheta = 0.5, kKappa = -0.1;
     constexpr double kFar = 0.2;  // [rad]
     T far = T(0);
-    if (const T square = dot(turn, turn); any_greater(square, T(kFar * kFar)))
-        far = between_0_and_1<T>((sqrt(square) - T(kFar)) * T(10));
+    if (any_greater(swing, T(kFar * kFar)))
+        far = between_0_and_1<T>((sqrt(swing) - T(kFar)) * T(10));
     const T near = (T(1) - far) * between_0_and_1<T>(a - T(1));
     if (!any_greater(near, T(0))) return {far, Vector3<T>(T(0), T(0), T(0))};
     return {far + near * T(kTheta + kKappa),

@@ -3,6 +3,7 @@
 /// computed.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -31,6 +32,16 @@ struct OpenTree {
     std::uint32_t joint;
     double error;
 };
+
+/// One more of a substep's; of a tree that is known already, the greater error counts.
+inline void note_open_tree(std::vector<OpenTree>& trees, const OpenTree& tree) {
+    for (OpenTree& known : trees)
+        if (known.joint == tree.joint) {
+            known.error = std::max(known.error, tree.error);
+            return;
+        }
+    trees.push_back(tree);
+}
 
 struct StepReport {
     std::uint32_t contacts = 0;            ///< contact points

@@ -48,7 +48,7 @@ inline JointLever<T> ball_lever(const BodyStates& columns, const ItemGroup<N>& b
     const Vector3<T> turn = bodies.vector(columns.angular_velocity_now) * T(h);
     JointLever<T> lever;
     if constexpr (Tree)
-        lever = exact_lever<T>(load, turn, [&]() -> Vector3<T> {
+        lever = exact_lever<T>(load, swing_squared<T>(turn, arm), turn, [&]() -> Vector3<T> {
             return bodies.vector(columns.angular_velocity_before) * T(h);
         });
     else

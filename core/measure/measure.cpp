@@ -73,33 +73,14 @@ std::vector<double> penetrations(const World& world) {
 
 std::vector<double> joint_errors(const World& world) {
     std::vector<double> errors;
-    for (const Joint& joint : world.joints.joints) {
-        const JointPose pose = joint_pose(world.bodies, joint);
-        const Vector3d apart = pose.point_a - pose.point_b;
-        Vector3d error = Vector3d::Zero();
-        if (joint.length > 0)
-            error[0] = joint.locked[kAlongX] ? apart.norm() - joint.length : 0;
-        else
-            for (int k = 0; k < 3; ++k)
-                if (joint.locked[k]) error[k] = pose.axes_b.col(k).dot(apart);
-        errors.push_back(joint.broken ? 0 : error.norm());
-    }
+    for (const Joint& joint : world.joints.joints) errors.push_back(joint_gap(world.bodies, joint));
     return errors;
 }
 
 std::vector<double> joint_turn_errors(const World& world) {
     std::vector<double> errors;
-    for (const Joint& joint : world.joints.joints) {
-        Vector3d error = Vector3d::Zero();
-        for (int k = 0; k < 3; ++k) {
-            if (!joint.locked[kTurnX + k]) continue;
-            const auto turned = [&](std::uint32_t body, const Vector3d& v) -> Vector3d {
-                return body == kNoIndex ? v : Vector3d(world.bodies.orientation[body] * v);
-            };
-            error[k] = turned(joint.a, joint.turns[k].u).dot(turned(joint.b, joint.turns[k].w));
-        }
-        errors.push_back(error.norm());
-    }
+    for (const Joint& joint : world.joints.joints)
+        errors.push_back(joint_turn_gap(world.bodies, joint));
     return errors;
 }
 

@@ -27,6 +27,11 @@ constexpr double kSwing = 0.5, kHeavy = 16;
 /// turned about that the faster the nearer it comes.
 constexpr double kTwist = 0.2;
 
+/// How far a body may turn in a part about an axis that misses its joint [rad], and may turn out to
+/// have turned: beyond the latter, it does not turn as its joint was solved for
+/// (math/free_rotation.h).
+constexpr double kSpin = 0.1, kTooFast = 0.2;
+
 /// For how long fewer parts must do before fewer are taken [s]: longer than what swings quickly
 /// takes to come back.
 constexpr double kCalm = 5;
@@ -87,6 +92,18 @@ double greatest_angular_load(const World& world, const std::vector<std::uint32_t
         for (const std::uint32_t body : {joint.a, joint.b})
             if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
                 most = std::max(most, angular_load(world, joint, body, h));
+    }
+    return most;
+}
+
+/// Of the bodies on their joints [rad/s].
+double eccentric_spin(const World& world, const std::vector<std::uint32_t>& joints) {
+    double most = 0;
+    for (const std::uint32_t i : joints) {
+        const Joint& joint = world.joints.joints[i];
+        if (joint.broken) continue;
+        most = std::max({most, eccentric_spin(world.bodies, joint.a, joint.frame_a),
+                         eccentric_spin(world.bodies, joint.b, joint.frame_b)});
     }
     return most;
 }
@@ -213,7 +230,8 @@ std::uint32_t DividedTrees::wanted_parts(const World& world, const Tree& tree, d
     const double turn = h * angular_rate(world, tree.joints);
     if (turn < kLittle) return 0;
     const double swing = std::sqrt(greatest_load(world, tree.joints, h));
-    return parts_for(std::max(turn / kTurn, swing < kHeavy ? swing / kSwing : 0),
+    const double spin = h * eccentric_spin(world, tree.joints);
+    return parts_for(std::max({turn / kTurn, spin / kSpin, swing < kHeavy ? swing / kSwing : 0}),
                      world.settings.tree_parts);
 }
 
@@ -255,6 +273,7 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     if (!last && !tree.solver.open().empty()) return false;
     tree.solver.store_impulses(world.joints);
     return last || (time.h * angular_rate(world, tree.joints) <= kTooFar &&
+                    time.h * eccentric_spin(world, tree.joints) <= kTooFast &&
                     greatest_angular_load(world, tree.joints, time.h) <= kTwist * kTwist);
 }
 

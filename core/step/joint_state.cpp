@@ -40,6 +40,29 @@ JointPose joint_pose(const Bodies& b, const Joint& joint) {
     return pose;
 }
 
+double joint_gap(const Bodies& b, const Joint& joint) {
+    if (joint.broken) return 0;
+    const JointPose pose = joint_pose(b, joint);
+    const Vector3d apart = pose.point_a - pose.point_b;
+    if (joint.length > 0) return joint.locked[kAlongX] ? std::abs(apart.norm() - joint.length) : 0;
+    Vector3d gap = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k)
+        if (joint.locked[k]) gap[k] = pose.axes_b.col(k).dot(apart);
+    return gap.norm();
+}
+
+double joint_turn_gap(const Bodies& b, const Joint& joint) {
+    if (joint.broken) return 0;
+    const auto turned = [&](std::uint32_t body, const Vector3d& v) -> Vector3d {
+        return body == kNoIndex ? v : Vector3d(b.orientation[body] * v);
+    };
+    Vector3d gap = Vector3d::Zero();
+    for (int k = 0; k < 3; ++k)
+        if (joint.locked[kTurnX + k])
+            gap[k] = turned(joint.a, joint.turns[k].u).dot(turned(joint.b, joint.turns[k].w));
+    return gap.norm();
+}
+
 int free_turns(const Joint& joint) {
     return !joint.locked[kTurnX] + !joint.locked[kTurnY] + !joint.locked[kTurnZ];
 }
@@ -88,6 +111,15 @@ double angular_rate(const Bodies& b, const Joint& joint, std::uint32_t body,
     while (joint.locked[kTurnX + axis]) ++axis;
     const Vector3d along = b.orientation[body] * (frame.rotation * Vector3d::Unit(axis));
     return std::max(rate, w.cross(along).norm());
+}
+
+double eccentric_spin(const Bodies& b, std::uint32_t body, const Placement& frame) {
+    if (body == kNoIndex || b.motion[body] != Motion::dynamic) return 0;
+    const Vector3d w = b.orientation[body].conjugate() * b.angular_velocity[body];
+    const double square = w.squaredNorm();
+    const double energy = w.dot(b.inertia[body].cwiseProduct(w)) * b.inverse_mass[body];
+    const double missed = w.cross(frame.position).squaredNorm();
+    return energy > 0 ? std::sqrt(square) * std::min(1.0, missed / energy) : 0;
 }
 
 JointLoad joint_load(const World& world, std::uint32_t index) {

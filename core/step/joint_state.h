@@ -11,6 +11,11 @@ namespace plumb {
 
 JointPose joint_pose(const Bodies& bodies, const Joint& joint);
 
+/// How far a joint's points have parted along what it locks [m], and its bodies have turned against
+/// each other about what it locks [rad]; 0 of one that is broken.
+double joint_gap(const Bodies& bodies, const Joint& joint);
+double joint_turn_gap(const Bodies& bodies, const Joint& joint);
+
 /// How many rotations a joint leaves free.
 int free_turns(const Joint& joint);
 
@@ -27,6 +32,11 @@ double joint_rate_before(const Bodies& bodies, const Joint& joint, const JointCo
 /// `frame`: the joint's on the body.
 double angular_rate(const Bodies& bodies, const Joint& joint, std::uint32_t body,
                     const Placement& frame);
+
+/// How fast a body spins about an axis that misses its joint, as far as the joint's pull turns it
+/// about that axis: wholly where the joint is no nearer to it than its radius of gyration about it
+/// [rad/s]. A thin rod that hangs a little beside its axis is turned about that the most of all.
+double eccentric_spin(const Bodies& bodies, std::uint32_t body, const Placement& frame);
 
 /// Force at the joint's point of a and torque on a, from b; world frame [N], [N m]. Motors,
 /// springs, limits and friction of the joint are part of it. The mean of the last two substeps:

@@ -70,7 +70,8 @@ inline JointLever<double> lever_of(const World& world, const Joint& joint, std::
                                b.world_inverse_inertia[body], h);
         return iterated_lever<double>(load, turn);
     }
-    return exact_lever<double>(tree_load(world, joint, body, arm, h), turn,
+    return exact_lever<double>(tree_load(world, joint, body, arm, h),
+                               swing_squared<double>(turn, arm), turn,
                                [&]() -> Vector3d { return h * b.angular_velocity_before[body]; });
 }
 
@@ -94,8 +95,9 @@ inline void turn_line(JointGeometry<double>& g, const World& world, const Joint&
     };
     add(joint.a, g.r_a, 1), add(joint.b, g.r_b, -1);
     const double load = h * load_of(joint, kAlongX, solve) * response / joint.length;
+    const Vector3d turn = moved / joint.length;
     const JointLever<double> line =
-        exact_lever<double>(load, Vector3d(moved / joint.length),
+        exact_lever<double>(load, turn.squaredNorm(), turn,
                             [&]() -> Vector3d { return moved_before / joint.length; });
     g.line_share = line.share, g.line_lag = line.lag * joint.length;
 }

@@ -102,11 +102,12 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
                 moving = &stepper.divided.advance(world, plan, stepper.workers, h, stepper.motion,
                                                   report);
             });
-        report.count_open_trees();
         timed(Stage::move, [&] {
             move(world, *moving, h);
             move_particles(world, h);
+            stepper.fast_joints.note_open(world, h, report);
         });
+        report.count_open_trees();
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });
         timed(Stage::joints, [&] { solver.end_substep(world, ledger); });
         world.time += h;

@@ -12,6 +12,7 @@
 #include "schedule/workers.h"
 #include "step/air.h"
 #include "step/divided_trees.h"
+#include "step/fast_joints.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
 #include "step/stages.h"
@@ -36,6 +37,7 @@ struct Stepper {
           surfaces(world),
           air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           divided(plan.runs(Effect::divided_trees) ? DividedTrees(world, plan) : DividedTrees()),
+          fast_joints(world, plan),
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints, rows or elements
@@ -49,6 +51,7 @@ struct Stepper {
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
         if (plan.runs(Effect::air_drag)) air = Air(world);
         if (plan.runs(Effect::divided_trees)) divided = DividedTrees(world, plan);
+        fast_joints = FastJoints(world, plan);
         const bool holds =
             plan.runs(Effect::joints) || plan.runs(Effect::deformables) || plan.runs(Effect::links);
         if (holds || !plan.runs_as(before)) solver = make_row_solver(world, plan, workers);
@@ -61,6 +64,7 @@ struct Stepper {
     SurfaceDetector surfaces;
     Air air;
     DividedTrees divided;
+    FastJoints fast_joints;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     GroundTouch ground;

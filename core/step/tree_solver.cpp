@@ -174,10 +174,7 @@ void TreeSolver<W>::solve() {
 template <int W>
 void TreeSolver<W>::note_open() {
     progress_.each_open([this](std::uint32_t joint, double error) {
-        const auto known = std::find_if(open_.begin(), open_.end(),
-                                        [=](const OpenTree& t) { return t.joint == joint; });
-        if (known == open_.end()) return open_.push_back({joint, error});
-        known->error = std::max(known->error, error);
+        note_open_tree(open_, {joint, error});
     });
 }
 

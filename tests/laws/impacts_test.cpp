@@ -119,10 +119,14 @@ Geometry prism(int sides, double radius) {
 Geometry drawn_shape(Random& random, double radius, bool boxes_only) {
     const double narrow = 0.3 * radius, length = random.number(0.4, 1) * radius;
     switch (boxes_only ? 0 : random.below(4)) {
-        case 0: return box(narrow, random.number(0.2, 1) * radius, length);
-        case 1: return capsule(narrow, length);
-        case 2: return cylinder(narrow, length);
-        default: return prism(3 + static_cast<int>(random.below(14)), radius);
+        case 0:
+            return box(narrow, random.number(0.2, 1) * radius, length);
+        case 1:
+            return capsule(narrow, length);
+        case 2:
+            return cylinder(narrow, length);
+        default:
+            return prism(3 + static_cast<int>(random.below(14)), radius);
     }
 }
 
