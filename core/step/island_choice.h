@@ -61,14 +61,14 @@ public:
     /// Whether what is moved by others (a press, a conveyor) touches the island of a body. `row`:
     /// of the body, dynamic.
     bool is_driven(std::int32_t row) const { return driven_[static_cast<std::size_t>(row)] != 0; }
+    bool is_driven(const ContactIsland& island) const {
+        return is_driven(found_.bodies()[island.first_body]);
+    }
 
     /// Contacts that are left to sweeps until they are out.
     const std::vector<std::uint32_t>& jammed() const { return jammed_; }
 
 private:
-    bool is_driven(const ContactIsland& island) const {
-        return is_driven(found_.bodies()[island.first_body]);
-    }
     void find_links(const World& world);
     void find_driven(const World& world, const std::vector<BodyPair>& pairs);
     bool closes_loop(const BodyPair& link);

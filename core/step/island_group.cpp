@@ -115,6 +115,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.first_joint = joints_.size();
     member.given_up = false;
     member.may_be_disputed = choice_.is_loose_heap(island);
+    member.is_driven = choice_.is_driven(island);
     bodies_.resize(bodies_.size() + n);
 
     pattern_.clear();
@@ -151,8 +152,8 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
 
 /// Whether nothing in it overlaps by much.
 bool IslandGroup::is_shallow(const World& world, const Member& member) const {
-    const auto contacts = std::span(contacts_).subspan(member.first_point,
-                                                       member.last_point - member.first_point);
+    const auto contacts =
+        std::span(contacts_).subspan(member.first_point, member.last_point - member.first_point);
     return std::all_of(contacts.begin(), contacts.end(), [&](std::uint32_t i) {
         const Contact& contact = world.contacts.found[i];
         return -contact.gap <= kShallow * smaller_radius(world.bodies, contact);
@@ -260,8 +261,12 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
                 row.softness =
                     world.settings.joint_tolerance / (h * thrust * row.length * row.length);
         }
+        member.bounces = false;
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
+            member.bounces |=
+                !member.is_driven &&
+                restitution_velocity_of(world.contacts, contacts_[k]) > ContactTable::kParting;
             ask(world, member, k, h, push_out);
             clamped += -world.contacts.gap[contacts_[k]] > push_out.most;
         }
@@ -388,7 +393,7 @@ std::span<const Vector6d> IslandGroup::velocities_of(const Member& m) const {
 void IslandGroup::solve(const World& world, StepReport& report) {
     workers_.run([&](std::uint32_t worker) {
         for (std::size_t i = worker; i < count_; i += workers_.count())
-            solve(solvers_[worker], world.settings.joint_tolerance, members_[i]);
+            solve(world, solvers_[worker], members_[i]);
     });
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& member = members_[i];
@@ -400,7 +405,8 @@ void IslandGroup::solve(const World& world, StepReport& report) {
 
 /// Joints are not linear: what a solution leaves open of them is asked for again. One that does not
 /// close them must add no energy.
-void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
+void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
+    const double tolerance = world.settings.joint_tolerance;
     const Island island = island_of(m);
     if (m.effort == IslandEffort::swept) {
         solver.sweep(island);
@@ -417,6 +423,7 @@ void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
         m.disputed = kDisputed;
         m.effort = IslandEffort::swept;
     }
+    if (m.bounces) bound_restitution(world.contacts, solver, m);
     if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;
     m.given_up |= !(m.open <= kAjar * tolerance);
     const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
@@ -426,6 +433,25 @@ void IslandGroup::solve(IslandSolver& solver, double tolerance, Member& m) {
     std::copy(start.begin(), start.end(), island.velocity.begin());
     solver.sweep_anew(island, ask);
     ask();
+}
+
+/// Where friction turns slip about, the speeds that restitution asks for can be more energy than
+/// there was (Kane and Levinson 1985). Then only a share of them is asked for: energy grows with
+/// the share at least in proportion, and without restitution there is no gain.
+void IslandGroup::bound_restitution(const ContactTable& c, IslandSolver& solver, Member& m) {
+    const Island island = island_of(m);
+    const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
+    const double before = kinetic_energy(island.bodies, start);
+    const double whole = kinetic_energy(island.bodies, island.velocity);
+    if (whole <= before) return;
+    const auto ask_for_more = [&](double share) {
+        for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
+            points_[k].wanted[0] += share * restitution_velocity_of(c, contacts_[k]);
+        m.solved &= solver.solve(island, m.system, m.speed, m.effort).solved;
+        return kinetic_energy(island.bodies, island.velocity);
+    };
+    const double least = ask_for_more(-1);
+    if (least < before) ask_for_more((before - least) / (whole - least));
 }
 
 void IslandGroup::take_changes(Bodies& bodies) const {

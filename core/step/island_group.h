@@ -57,10 +57,11 @@ private:
         double speed;  // at which its contacts and joints would part in this substep [m/s]
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
-        bool may_be_disputed;
+        bool may_be_disputed, is_driven;
         std::uint8_t disputed;  // steps that are left, see island_effort.h
         IslandEffort effort;    // in this step
         bool solved;
+        bool bounces;   // in this substep, and nothing drives it
         double open;    // the worst joint [m], [rad]
         bool given_up;  // in this step, its joints could not be closed
     };
@@ -72,7 +73,8 @@ private:
     void take_memory(const World& world);
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
-    void solve(IslandSolver& solver, double tolerance, Member& member);
+    void solve(const World& world, IslandSolver& solver, Member& member);
+    void bound_restitution(const ContactTable& contacts, IslandSolver& solver, Member& member);
     double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
     double strongest(const World& world, const Member& member, double h);
     double thrust_of(const World& world, const Member& member, double h) const;
