@@ -74,6 +74,10 @@ Vector3d arm_at(const ContactRim& at, const Quaterniond& q, const Vector3d& n,
     return q * (at.runs ? farthest_on(at.rim, q.conjugate() * n, point) : point);
 }
 
+/// How far a rim's axis may swing in a substep [rad]: beyond, its lowest point at the end is not to
+/// be foreseen from the rate at the start, and contacts that ask for it make energy.
+constexpr double kFarSwing = 0.25;
+
 }  // namespace
 
 Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& otherwise) {
@@ -104,6 +108,7 @@ Vector3d bend_at_rim(const World& world, std::size_t contact, double h) {
     const double sign = at.body == c.found[contact].a ? 1 : -1;
     const Vector3d n = -sign * to_eigen(c.found[contact].normal), w = b.angular_velocity[at.body];
     const Quaterniond& q = b.orientation[at.body];
+    if (h * w.cross(q * at.rim.axis).norm() > kFarSwing) return Vector3d::Zero();
     const Vector3d point = in_body(b, at.body, c.point[contact]);
     const Vector3d now = arm_at(at, q, n, point),
                    middle = arm_at(at, turned(q, 0.5 * h * w), n, point),

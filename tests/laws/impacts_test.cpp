@@ -130,8 +130,36 @@ Geometry drawn_shape(Random& random, double radius, bool boxes_only) {
     }
 }
 
-/// Bodies that tumble as they bounce on the ground for 4 s, by up to half a radian in a step. Their
-/// velocities are those of half a substep earlier than their places. One of a hundred gains a
+/// A body that falls on the ground from some times its radius, turning at a rate [rad/s].
+Scene falling(Scene s, Random& random, const Geometry& shape, double radius, double rate) {
+    s.materials[0].friction = 0;
+    add_ground(s);
+    BodySpec& body = add_body(s, shape, {0, random.number(3, 10) * radius, 0});
+    body.placement.rotation = random.rotation();
+    body.angular_velocity = rate * random.direction();
+    return s;
+}
+
+/// The most energy that it has in 4 s, of that at the start. Velocities are those of half a substep
+/// earlier than places.
+double most_energy(const Scene& s, const std::string& collider) {
+    Simulation simulation(s, colliders(), collider);
+    const World& world = simulation.world();
+    const double half = 0.5 * s.settings.dt / s.settings.substeps;
+    const auto energy = [&] {
+        return total_energy(simulation) -
+               half * 9.81 * world.bodies.mass[1] * world.bodies.velocity[1].y();
+    };
+    const double before = energy();
+    double most = before;
+    while (simulation.time() < 4) {
+        simulation.step();
+        most = std::max(most, energy());
+    }
+    return most / before;
+}
+
+/// Bodies that tumble as they bounce, by up to half a radian in a step. One of a hundred gains a
 /// little: what is kept from closing turns by a rate that is not quite that of its momentum.
 TEST_P(Impacts, OfTumblingBodiesGainNothing) {
     constexpr int kDraws = 40;
@@ -140,35 +168,37 @@ TEST_P(Impacts, OfTumblingBodiesGainNothing) {
     for (int draw = 0; draw < kDraws; ++draw) {
         Scene s = scene();
         s.materials[0].restitution = draw % 3 == 2 ? random.number(0.3, 1) : 1;
-        s.materials[0].friction = 0;
         choose_step(s.settings, draw % 4, random);
-        add_ground(s);
         const double radius = std::exp(random.number(std::log(0.02), std::log(0.4)));
-        const double rate = std::min(0.5 / s.settings.dt, 8 * std::sqrt(9.81 / radius));
-        const double height = random.number(3, 10) * radius;
+        const double fastest = std::min(0.5 / s.settings.dt, 8 * std::sqrt(9.81 / radius));
         const Geometry shape = drawn_shape(random, radius, collider() == "reference");
-        BodySpec& body = add_body(s, shape, {0, height, 0});
-        body.placement.rotation = random.rotation();
-        body.angular_velocity = random.number(0.3, 1) * rate * random.direction();
+        s = falling(s, random, shape, radius, random.number(0.3, 1) * fastest);
         SCOPED_TRACE(testing::Message() << "draw " << draw << ", radius " << radius << " m, "
                                         << s.settings.dt << " s x " << s.settings.substeps);
-        Simulation simulation(s, colliders(), collider());
-        const World& world = simulation.world();
-        const double half = 0.5 * s.settings.dt / s.settings.substeps;
-        const auto energy = [&] {
-            return total_energy(simulation) -
-                   half * 9.81 * world.bodies.mass[1] * world.bodies.velocity[1].y();
-        };
-        const double before = energy();
-        double most = before;
-        while (simulation.time() < 4) {
-            simulation.step();
-            most = std::max(most, energy());
-        }
-        gaining += most > 1.001 * before;
-        EXPECT_LT(most, 1.01 * before);
+        const double most = most_energy(s, collider());
+        gaining += most > 1.001;
+        EXPECT_LT(most, 1.01);
     }
     EXPECT_LE(gaining, 1);
+}
+
+/// Small cylinders come to tumble by more than a radian in a step of 10 ms. Where their rims come
+/// to by its end is not to be foreseen then.
+TEST_P(Impacts, OfCylindersThatTumbleFastGainNothing) {
+    if (collider() == "reference") GTEST_SKIP() << "it has no cylinders";
+    Random random(13);
+    for (int draw = 0; draw < 60; ++draw) {
+        Scene s = scene();
+        s.materials[0].restitution = 1;
+        s.settings.dt = random.number(0.008, 0.014);
+        const double radius = random.number(0.02, 0.06);
+        const Geometry shape =
+            cylinder(random.number(0.3, 0.8) * radius, random.number(0.3, 1) * radius);
+        s = falling(s, random, shape, radius, random.number(2, 30));
+        SCOPED_TRACE(testing::Message() << "draw " << draw << ", radius " << radius << " m, "
+                                        << s.settings.dt << " s");
+        EXPECT_LT(most_energy(s, collider()), 1.01);
+    }
 }
 
 /// Up to eight bodies fly together in free space, turn and slip. Friction that turns slip about may
