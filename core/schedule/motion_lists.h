@@ -15,10 +15,16 @@ struct MotionLists {
     std::vector<std::uint32_t> scripted;    ///< kinematic
 };
 
-/// `gyroscopic`: whether the plan runs that effect.
+/// Whether bodies of unequal moments carry their angular momentum. `gyroscopic`: whether the plan
+/// runs that effect.
+inline bool carry_momentum(const Settings& settings, bool gyroscopic) {
+    return gyroscopic && settings.gyroscopic == Gyroscopic::conserving;
+}
+
+/// `gyroscopic`: as above.
 inline MotionLists sort_by_motion(const World& world, bool gyroscopic) {
     const Bodies& b = world.bodies;
-    const bool conserving = gyroscopic && world.settings.gyroscopic == Gyroscopic::conserving;
+    const bool conserving = carry_momentum(world.settings, gyroscopic);
     MotionLists lists;
     for (std::uint32_t i = 0; i < b.size(); ++i) {
         if (b.motion[i] == Motion::kinematic) lists.scripted.push_back(i);

@@ -236,9 +236,9 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     if (n <= world.settings.exact_islands) {
         const std::size_t jammed_before = jammed_.size();
         find_upset(world, island, pairs);
-        const bool calm = n <= kVerySmall || is_calm(world, island, pairs);
-        if (calm && upset_.empty()) return IslandWay::exact;
-        if (calm && is_loose_heap(island)) {
+        const bool is_loose = is_loose_heap(island);
+        if ((upset_.empty() || is_loose) && (n <= kVerySmall || is_calm(world, island, pairs))) {
+            if (upset_.empty()) return IslandWay::exact;
             jammed_.resize(jammed_before);
             return IslandWay::swept;
         }

@@ -5,6 +5,7 @@
 #include "math/root.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
+#include "schedule/motion_lists.h"
 #include "solve/deformable_group.h"
 #include "solve/exact_deformable_group.h"
 #include "solve/link_group.h"
@@ -66,8 +67,7 @@ public:
           has_impacts_(plan.runs(Effect::impacts)),
           warm_start_(settings_.warm_start && !shocks_),
           in_island_(world.joints.size(), 0),
-          impacts_(plan.runs(Effect::gyroscopic) &&
-                   settings_.gyroscopic == Gyroscopic::conserving),
+          impacts_(carry_momentum(settings_, plan.runs(Effect::gyroscopic))),
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         make_groups(world, plan);
         if (shocks_) shock_.emplace(plan, workers);
