@@ -2,11 +2,11 @@
 /// Collision or contact? A pair collides when it approaches faster than √(2 g ε) (§6, after
 /// Mirtich).
 ///
-/// Restitution is consumed once a contact and step, in the first substep that begins with the
-/// surfaces touching: a collision that is still open is let through, or it would bounce early and
-/// from too high. The recovery of the overlap that this makes adds no speed (the kernels leave
-/// parting bodies alone), nor does that of what turned into another body and parts from it as fast
-/// as what collides.
+/// Restitution is consumed once a collision, in the first substep that begins with the surfaces
+/// touching; what has parted as fast may collide again in the same step. A collision that is still
+/// open is let through, or it would bounce early and from too high. The recovery of the overlap
+/// that this makes adds no speed (the kernels leave parting bodies alone), nor does that of what
+/// turned into another body and parts from it as fast as what collides.
 #include "contacts/contact_measures.h"
 #include "contacts/contact_stages.h"
 
@@ -23,6 +23,7 @@ void choose_restitution(World& world, bool first_substep) {
         if (e == 0) continue;
         const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
         if (u > threshold && c.gap[i] < 0) c.set_restitution(i, ContactTable::kParting);
+        if (u > threshold) c.bounced[i] = 0;
         if (c.bounced[i]) continue;
         if (-u <= threshold) continue;
         if (c.gap[i] > 0) {

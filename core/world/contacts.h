@@ -21,12 +21,12 @@ struct ContactMemory {
     Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,
     Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
     bool sticks = false;
-    bool exact = false;    ///< whether its impulses are those of an island solved exactly
-    double gap = 0;        ///< of the step before, where it was solved exactly [m]
-    bool jammed = false;   ///< friction holds its overlap: an exact solution could not push it
-                           ///< out, or left it as it is
+    bool exact = false;         ///< whether its impulses are those of an island solved exactly
+    double gap = 0;             ///< of the step before, where it was solved exactly [m]
+    bool jammed = false;        ///< friction holds its overlap: an exact solution could not push it
+                                ///< out, or left it as it is
     std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
-    bool known = false;    ///< whether the step before had this very feature
+    bool known = false;         ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
 
@@ -70,7 +70,7 @@ struct ContactTable {
     std::vector<Restitution> restitution;  ///< of the substep; this and the next only where some
                                            ///< pair bounces
     std::vector<double> restitution_velocity;  ///< separating speed that it asks for [m/s]
-    std::vector<std::uint8_t> bounced;         ///< restitution is consumed once a step
+    std::vector<std::uint8_t> bounced;         ///< whether a collision has consumed its restitution
     std::vector<Vector3d>
         anchor_slip;  ///< how far a sticking contact has left its anchors [m]; else empty
 

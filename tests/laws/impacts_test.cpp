@@ -130,6 +130,24 @@ Geometry drawn_shape(Random& random, double radius, bool boxes_only) {
     }
 }
 
+/// A ball that runs into a row of touching ones.
+TEST_P(Impacts, RowsOfUpToEightKeepTheirEnergy) {
+    for (int count = 2; count <= 8; ++count)
+        for (const bool fine : {false, true}) {
+            Scene s = scene();
+            s.settings.gravity.setZero();
+            s.materials[0].restitution = 1;
+            if (fine) use_fine_steps(s.settings);
+            ball(s, -0.25, 0, 1);
+            for (int i = 1; i < count; ++i) ball(s, 0.2 * i, 0, 0);
+            Simulation simulation(s, colliders(), collider());
+            const double before = kinetic_energy(simulation.world());
+            run_for(simulation, 1.5);
+            EXPECT_NEAR(kinetic_energy(simulation.world()) / before, 1, 0.05)
+                << count << " balls" << (fine ? ", fine" : ", coarse");
+        }
+}
+
 /// A body that falls on the ground from some times its radius, turning at a rate [rad/s].
 Scene falling(Scene s, Random& random, const Geometry& shape, double radius, double rate) {
     s.materials[0].friction = 0;
