@@ -5,6 +5,7 @@
 #include "constraints/contact.h"
 #include "constraints/friction.h"
 #include "contacts/contact_measures.h"
+#include "step/driven_axes.h"
 #include "step/joint_geometry.h"
 
 #include <algorithm>
@@ -50,6 +51,19 @@ double largest(const Symmetric3<double>& k) {
 double closing_velocity(double gap, double h, const PushOut& push_out) {
     const double left = overlap_left(gap, push_out.most);
     return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
+}
+
+/// Whether a joint may give its bodies energy.
+bool can_do_work(const World& world, std::uint32_t index) {
+    const Joint& joint = world.joints.joints[index];
+    bool can = joint.compliance > 0 || joint.angular_compliance > 0;
+    each_driven_axis(world.joints, index, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t i = first; i < last; ++i) {
+            const DriveKind kind = world.joints.drives[i].kind;
+            can |= kind == DriveKind::motor || kind == DriveKind::spring;
+        }
+    });
+    return can;
 }
 
 double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
@@ -115,7 +129,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.first_joint = joints_.size();
     member.given_up = false;
     member.may_be_disputed = choice_.is_loose_heap(island);
-    member.is_driven = choice_.is_driven(island);
+    member.gains_nothing = !choice_.is_driven(island);
     bodies_.resize(bodies_.size() + n);
 
     pattern_.clear();
@@ -141,6 +155,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
         if (a != kImmovable && b != kImmovable) pattern_.emplace_back(a, b);
         joints_.add(world, index, a, b);
         in_island_[index] = 1;
+        member.gains_nothing &= !can_do_work(world, index);
     }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
@@ -265,7 +280,7 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
             member.bounces |=
-                !member.is_driven &&
+                member.gains_nothing &&
                 restitution_velocity_of(world.contacts, contacts_[k]) > ContactTable::kParting;
             ask(world, member, k, h, push_out);
             clamped += -world.contacts.gap[contacts_[k]] > push_out.most;

@@ -57,11 +57,12 @@ private:
         double speed;  // at which its contacts and joints would part in this substep [m/s]
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
-        bool may_be_disputed, is_driven;
+        bool may_be_disputed;
+        bool gains_nothing;     // no lid, motor or spring does work on it
         std::uint8_t disputed;  // steps that are left, see island_effort.h
         IslandEffort effort;    // in this step
         bool solved;
-        bool bounces;   // in this substep, and nothing drives it
+        bool bounces;   // in this substep, and must gain nothing by it
         double open;    // the worst joint [m], [rad]
         bool given_up;  // in this step, its joints could not be closed
     };
