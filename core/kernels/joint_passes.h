@@ -68,8 +68,12 @@ template <class Real, int W>
                                   std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     each_block<Real, W>(blocks, bodies, first, last, [h](auto& block, auto& j) {
-        // an empty lane has unit mass and no gap, so that its 3 × 3 system can be solved
-        j.mass_a.mass = j.mass_a.mass + (T(1) - load(block.used));
+        // an empty lane, or a joint that an exact island has, has unit mass, so that its 3 × 3
+        // system can be solved, and neither gap nor velocity, so that it gives no impulse
+        const T used = load(block.used);
+        j.mass_a.mass = j.mass_a.mass + (T(1) - used);
+        j.total_a = {j.total_a.v * used, j.total_a.w * used};
+        j.total_b = {j.total_b.v * used, j.total_b.w * used};
         const Vector3<T> impulse =
             join<T>(j.a, j.b, j.total_a, j.total_b, j.mass_a, j.mass_b, load_vector(block.arm_a),
                     load_vector(block.arm_b), load_vector(block.gap),
