@@ -233,6 +233,8 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
         if (ruled_out_[found_.bodies()[i]]) return IslandWay::left;
     upset_.clear();
+    if (n <= std::min(kVerySmall, world.settings.exact_islands) && flies(world, island, pairs))
+        return IslandWay::exact;
     if (n <= world.settings.exact_islands) {
         const std::size_t jammed_before = jammed_.size();
         find_upset(world, island, pairs);
@@ -245,6 +247,18 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     }
     mark_what_goes_on(world, island, pairs);
     return IslandWay::left;
+}
+
+bool IslandChoice::flies(const World& world, const ContactIsland& island,
+                         const std::vector<BodyPair>& pairs) const {
+    const auto is_free = [&](const BodyPair& pair) {
+        return pair.row_a < world.dynamic_count && pair.row_b < world.dynamic_count;
+    };
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+        if (!is_free(pairs[found_.pairs()[i]])) return false;
+    for (std::uint32_t i = island.first_link; i < island.last_link; ++i)
+        if (!is_free(links_[found_.links()[i]])) return false;
+    return true;
 }
 
 bool IslandChoice::is_slow(const World& world, const Contact& contact) const {

@@ -46,6 +46,10 @@ public:
     /// that nothing drives and no joint holds.
     bool is_loose_heap(const ContactIsland& island) const;
 
+    /// Whether it touches and hangs by nothing that is immovable.
+    bool flies(const World& world, const ContactIsland& island,
+               const std::vector<BodyPair>& pairs) const;
+
     /// Whether a contact that was solved exactly goes on from its impulses in the sweeps, to which
     /// its island is left because it has grown, or some of it moves, is jammed or overlaps deeply.
     /// It does unless

@@ -34,6 +34,13 @@ constexpr int kCloses = 8;
 constexpr double kAjar = 100, kRest = 0.1;
 constexpr std::uint32_t kMostMisses = 8;
 
+/// Bodies that fly about and overlap part at least at this share of their radius [1/s].
+constexpr double kDrift = 0.3;
+
+/// And they overlap at rest if they move, about their common centre, with less than this share of
+/// the energy with which they are to part.
+constexpr double kAtRest = 0.25;
+
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
 
@@ -73,6 +80,15 @@ double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector
     return 0.5 * twice;
 }
 
+/// Of all mass in its common centre.
+double energy_of_centre(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
+    double mass = 0;
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        mass += bodies[i].mass, sum += bodies[i].mass * velocity[i].head<3>();
+    return 0.5 * sum.squaredNorm() / mass;
+}
+
 /// Of a driven axis, as far as its bounds or the substep before tell.
 double greatest_impulse(const IslandRow& row) {
     double most = std::abs(row.impulse);
@@ -95,7 +111,8 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers, std::vector<std::ui
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0;
-    bodies_.clear(), points_.clear(), locked_.clear(), contacts_.clear(), joints_.clear();
+    bodies_.clear(), points_.clear(), locked_.clear(), parting_.clear(), contacts_.clear(),
+        joints_.clear();
     std::fill(in_island_.begin(), in_island_.end(), 0);
     const ContactIslands& found = choice_.find(world, pairs);
     if (pairs.empty()) return;
@@ -130,6 +147,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.given_up = false;
     member.may_be_disputed = choice_.is_loose_heap(island);
     member.gains_nothing = !choice_.is_driven(island);
+    member.flies = choice_.flies(world, island, pairs);
     bodies_.resize(bodies_.size() + n);
 
     pattern_.clear();
@@ -193,7 +211,7 @@ void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint
     const Vector3d n = to_eigen(world.contacts.found[contact].normal), x = tangent_of<double>(n);
     contacts_.push_back(contact);
     IslandPoint& p = points_.emplace_back();
-    locked_.push_back(0);
+    locked_.push_back(0), parting_.push_back(0);
     p.a = a, p.b = b;
     p.frame << n, x, n.cross(x);
     p.length = 1;
@@ -276,13 +294,12 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
                 row.softness =
                     world.settings.joint_tolerance / (h * thrust * row.length * row.length);
         }
-        member.bounces = false;
+        member.parts = member.bounces = false;
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
-            member.bounces |=
-                member.gains_nothing &&
-                restitution_velocity_of(world.contacts, contacts_[k]) > ContactTable::kParting;
             ask(world, member, k, h, push_out);
+            member.parts |= member.gains_nothing && parting_[k] > 0;
+            member.bounces |= restitution_velocity_of(world.contacts, contacts_[k]) > 0;
             clamped += -world.contacts.gap[contacts_[k]] > push_out.most;
         }
     }
@@ -367,6 +384,11 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     if (p.a == kImmovable) add(c.found[contact].a, p.arm_a, 1);
     if (p.b == kImmovable) add(c.found[contact].b, p.arm_b, -1);
 
+    parting_[k] = bounce > ContactTable::kParting ? bounce : 0;
+    if (member.flies && bounce == 0)
+        parting_[k] =
+            std::max(0.0, normal - kDrift * smaller_radius(world.bodies, c.found[contact]));
+
     p.wanted.setZero();
     p.wanted.head<3>() = across - p.frame.transpose() * moving;
     p.wanted[0] += normal;
@@ -438,7 +460,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         m.disputed = kDisputed;
         m.effort = IslandEffort::swept;
     }
-    if (m.bounces) bound_restitution(world.contacts, solver, m);
+    if (m.parts) bound_energy(solver, m);
     if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;
     m.given_up |= !(m.open <= kAjar * tolerance);
     const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
@@ -451,17 +473,23 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
 }
 
 /// Where friction turns slip about, the speeds that restitution asks for can be more energy than
-/// there was (Kane and Levinson 1985). Then only a share of them is asked for: energy grows with
-/// the share at least in proportion, and without restitution there is no gain.
-void IslandGroup::bound_restitution(const ContactTable& c, IslandSolver& solver, Member& m) {
+/// there was (Kane and Levinson 1985); and what flies about finds overlap wherever it turned into
+/// another body, whose push-out is. Then only a share of what is asked for beyond rest is given:
+/// energy grows with the share at least in proportion. What overlaps at rest is pushed out all the
+/// same.
+void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
     const Island island = island_of(m);
     const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
     const double before = kinetic_energy(island.bodies, start);
     const double whole = kinetic_energy(island.bodies, island.velocity);
     if (whole <= before) return;
+    if (!m.bounces) {
+        const double centre = energy_of_centre(island.bodies, start);
+        if (before - centre < kAtRest * (whole - centre)) return;
+    }
     const auto ask_for_more = [&](double share) {
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
-            points_[k].wanted[0] += share * restitution_velocity_of(c, contacts_[k]);
+            points_[k].wanted[0] += share * parting_[k];
         m.solved &= solver.solve(island, m.system, m.speed, m.effort).solved;
         return kinetic_energy(island.bodies, island.velocity);
     };

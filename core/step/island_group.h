@@ -59,10 +59,12 @@ private:
         BlockCholesky system;
         bool may_be_disputed;
         bool gains_nothing;     // no lid, motor or spring does work on it
+        bool flies;             // it touches and hangs by nothing that is immovable
         std::uint8_t disputed;  // steps that are left, see island_effort.h
         IslandEffort effort;    // in this step
         bool solved;
-        bool bounces;   // in this substep, and must gain nothing by it
+        bool bounces;   // in this substep
+        bool parts;     // in this substep, and must gain nothing by it
         double open;    // the worst joint [m], [rad]
         bool given_up;  // in this step, its joints could not be closed
     };
@@ -75,7 +77,7 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
-    void bound_restitution(const ContactTable& contacts, IslandSolver& solver, Member& member);
+    void bound_energy(IslandSolver& solver, Member& member);
     double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
     double strongest(const World& world, const Member& member, double h);
     double thrust_of(const World& world, const Member& member, double h) const;
@@ -100,6 +102,7 @@ private:
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
     std::vector<IslandPoint> points_;
     std::vector<std::uint8_t> locked_;  // [point] whether it is pushed out no more
+    std::vector<double> parting_;       // [point] of the speed asked for, what may be too much
     IslandJoints joints_;
     std::vector<std::uint32_t> contacts_;  // [point] in the contact table
     std::vector<IslandSolver> solvers_;    // [worker]
