@@ -31,6 +31,21 @@ Vector3d bend_of_material(const World& world, std::size_t contact, double h) {
            bend_of(b.angular_velocity[found.b], b_point - b.position[found.b], h);
 }
 
+bool is_turntable(const Bodies& b, std::uint32_t body) {
+    return b.motion[body] == Motion::kinematic && !b.angular_velocity[body].isZero(0);
+}
+
+/// Of the point of what a rim stands on, if that turns.
+Vector3d bend_of_turntable(const World& world, std::size_t contact, double h) {
+    const Bodies& b = world.bodies;
+    const bool of_a = world.contacts.rims[contact].body != world.contacts.found[contact].a;
+    const std::uint32_t body =
+        of_a ? world.contacts.found[contact].a : world.contacts.found[contact].b;
+    if (!is_turntable(b, body)) return Vector3d::Zero();
+    return (of_a ? 1 : -1) *
+           bend_of(b.angular_velocity[body], world.contacts.point[contact] - b.position[body], h);
+}
+
 /// Whether what moves of a contact touches nothing but what is fixed.
 bool is_on_ground(const Bodies& b, const GroundTouch& ground, const Contact& c) {
     return ground.is_alone(b.motion[c.a] == Motion::fixed ? c.b : c.a);
@@ -47,10 +62,13 @@ void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, dou
     const bool rims = plan.runs(Effect::rims);
     c.bend.resize(c.found.size());
     for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const bool carried = is_on_ground(world.bodies, ground, c.found[i]) &&
-                             c.memory[i].matched && c.memory[i].normal_impulse > 0;
+        const Contact& found = c.found[i];
+        const bool rides = is_on_ground(world.bodies, ground, found) ||
+                           is_turntable(world.bodies, found.a) ||
+                           is_turntable(world.bodies, found.b);
+        const bool carried = rides && c.memory[i].matched && c.memory[i].normal_impulse > 0;
         if (rims && c.rims[i].rim.radius > 0)
-            c.bend[i] = bend_at_rim(world, i, h);
+            c.bend[i] = bend_at_rim(world, i, h) + bend_of_turntable(world, i, h);
         else
             c.bend[i] = carried ? bend_of_material(world, i, h) : Vector3d(Vector3d::Zero());
     }

@@ -13,11 +13,11 @@
 namespace plumb {
 
 /// What the coming substep of length h [s] adds to the velocities of points of contact, into
-/// ContactTable::bend: of rims whose axis does not swing far, and of points of the material where a contact with what is
-/// fixed carried something in the step before. Of one that only now hits, the turning ends with the
-/// impact; and a heap in which bodies hang on bodies comes to rest by what their swings lose.
-/// Empties the table where velocities are those of a substep's start, as in the paper
-/// (shared_push).
+/// ContactTable::bend: of rims whose axis does not swing far, and of points of the material where a
+/// contact with what is fixed, or with a kinematic body that turns, carried something in the step
+/// before. Of one that only now hits, the turning ends with the impact; and a heap in which bodies
+/// hang on bodies comes to rest by what their swings lose. Empties the table where velocities are
+/// those of a substep's start, as in the paper (shared_push).
 void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, double h);
 
 }  // namespace plumb

@@ -180,5 +180,35 @@ TEST_P(Friction, RollingFrictionIsTheSameInAllDirections) {
         }
 }
 
+/// What stands on a turntable and turns with it stays where it is on it, if μ g is more than ω² r.
+TEST_P(Friction, ATurntableCarriesWhatStandsOnIt) {
+    const bool boxes_only = collider() == "reference";
+    Random random(17);
+    for (int draw = 0; draw < 12; ++draw) {
+        Scene s = scene();
+        s.materials[0].friction = 0.8;
+        if (draw % 3 == 1) use_fine_steps(s.settings);
+        if (draw % 3 == 2) s.settings.dt = random.number(0.002, 0.02);
+        const double radius = random.number(0.2, 1);
+        const double rate = std::sqrt(random.number(0.05, 0.6) * 0.8 * 9.81 / radius);
+        const double size = random.number(0.03, 0.1), height = random.number(0.3, 0.8) * size;
+        BodySpec& table = add_body(s, box(1.5, 0.05, 1.5), {0, -0.05, 0});
+        table.motion = Motion::kinematic;
+        table.angular_velocity = {0, rate, 0};
+        const bool is_round = draw % 2 == 0 && !boxes_only;
+        BodySpec& body = add_body(s, is_round ? cylinder(size, height) : box(size, height, size),
+                                  {radius, height, 0});
+        body.angular_velocity = {0, rate, 0};
+        body.velocity = body.angular_velocity.cross(body.placement.position);
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 10);
+        const Bodies& b = simulation.world().bodies;
+        const Vector on_table = b.orientation[0].conjugate() * (b.position[1] - b.position[0]);
+        EXPECT_LT((on_table - Vector(radius, height + 0.05, 0)).norm(), 0.005 * radius)
+            << "draw " << draw << (is_round ? ", round, " : ", box, ") << rate << " rad/s at "
+            << radius << " m, " << s.settings.dt << " s x " << s.settings.substeps;
+    }
+}
+
 }  // namespace
 }  // namespace plumb::test
