@@ -48,7 +48,7 @@ Vector3d bend_of_turntable(const World& world, std::size_t contact, double h) {
 
 /// Whether what moves of a contact touches nothing but what is fixed.
 bool is_on_ground(const Bodies& b, const GroundTouch& ground, const Contact& c) {
-    return ground.is_alone(b.motion[c.a] == Motion::fixed ? c.b : c.a);
+    return ground.is_alone(b.motion[c.a] == Motion::dynamic ? c.a : c.b);
 }
 
 }  // namespace

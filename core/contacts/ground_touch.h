@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Which bodies touch fixed ground and nothing else: what they gain and lose there is known.
+/// Which bodies touch what stands still and nothing else: what they gain and lose there is known.
 #pragma once
 
 #include "world/world.h"
@@ -14,12 +14,12 @@ public:
     /// By the contacts and by what bounces in the coming substep.
     void find(const World& world);
 
-    /// Whether a body touches nothing but what is fixed, does not bounce, and hangs on no joint and
-    /// no deformable.
-    bool is_alone(std::uint32_t body) const { return touches_[body] == fixed_only; }
+    /// Whether a body touches nothing but what is fixed or kinematic and at rest, does not bounce,
+    /// and hangs on no joint and no deformable.
+    bool is_alone(std::uint32_t body) const { return touches_[body] == still_only; }
 
 private:
-    enum Touch : std::uint8_t { nothing, fixed_only, else_too };
+    enum Touch : std::uint8_t { nothing, still_only, else_too };
     std::vector<Touch> touches_;  ///< [body]
 };
 

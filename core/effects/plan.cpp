@@ -97,10 +97,12 @@ Wish still_ground(const World& w) {
     if (!w.settings.shared_push)
         return {false, "what stands still may give energy, as in the paper (shared_push)"};
     const auto stands = [&](std::size_t i) {
-        return w.bodies.motion[i] == Motion::fixed && w.bodies.bounding_radius[i] > 0;
+        return w.bodies.motion[i] != Motion::dynamic && w.bodies.bounding_radius[i] > 0;
     };
-    return counted(count_bodies(w, stands), "fixed bodies give no energy to what touches them",
-                   "nothing with a shape is fixed");
+    return counted(
+        count_bodies(w, stands),
+        "bodies that are fixed, or kinematic and at rest, give no energy to what touches them",
+        "nothing with a shape is fixed");
 }
 Wish exact_islands(const World& w) {
     if (!contacts(w).wanted) return {false, "there are no contacts"};
