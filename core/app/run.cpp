@@ -12,6 +12,7 @@
 #include "host/simulation.h"
 #include "measure/within_reach.h"
 
+#include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -19,6 +20,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace plumb::app {
 namespace {
@@ -127,19 +130,22 @@ std::string faults_in_words(const Statistics& statistics) {
     return words;
 }
 
-/// What is worth knowing although the run went on.
-void warn(const Simulation& simulation, const Statistics& statistics) {
+/// What is worth knowing although the run went on, a sentence each.
+std::vector<std::string> warnings_of(const Simulation& simulation, const Statistics& statistics) {
+    std::vector<std::string> warnings;
     if (statistics.rejected_contacts > 0)
-        logger()->warn("collider \"{}\" gave contacts that were left out: {}",
-                       simulation.collider_name(), faults_in_words(statistics));
+        warnings.push_back(fmt::format("collider \"{}\" gave contacts that were left out: {}",
+                                       simulation.collider_name(), faults_in_words(statistics)));
     if (statistics.collider_failures > 0)
-        logger()->warn("collider \"{}\" failed in {} of {} steps: {}", simulation.collider_name(),
-                       statistics.collider_failures, simulation.steps(), statistics.first_failure);
+        warnings.push_back(fmt::format("collider \"{}\" failed in {} of {} steps: {}",
+                                       simulation.collider_name(), statistics.collider_failures,
+                                       simulation.steps(), statistics.first_failure));
     if (statistics.unsolved_trees > 0)
-        logger()->warn(
+        warnings.push_back(fmt::format(
             "trees of joints were left open in {} solves, by {:.3g} m or rad at the most, that of "
             "joint {}; more substeps, or \"joints\": \"iterate\", may help",
-            statistics.unsolved_trees, statistics.tree_error, statistics.open_joint);
+            statistics.unsolved_trees, statistics.tree_error, statistics.open_joint));
+    return warnings;
 }
 
 void greet(const Simulation& simulation, const Outputs& outputs) {
@@ -169,10 +175,13 @@ int complete(const Run& run, Ending ending) {
     if (!recorder.failure().empty() && ending.code != kDiverged) ending.code = kCannotWrite;
     auto figures = summary(run.outputs.run.scene, run.scene, run.simulation, run.statistics);
     figures["ended"] = words_for(ending.code);
+    const std::vector<std::string> warnings = warnings_of(run.simulation, run.statistics);
+    for (const std::string& warning : warnings) figures["warnings"].push_back(warning);
     recorder.write_summary(figures.dump(2));
     if (!recorder.failure().empty() && ending.code != kDiverged)
         ending = {kCannotWrite, recorder.failure()};
-    if (ending.code != kColliderUnable) warn(run.simulation, run.statistics);
+    if (ending.code != kColliderUnable)
+        for (const std::string& warning : warnings) logger()->warn(warning);
     if (!ending.sentence.empty()) logger()->error(ending.sentence);
     return ending.code;
 }

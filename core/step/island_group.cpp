@@ -460,7 +460,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         m.disputed = kDisputed;
         m.effort = IslandEffort::swept;
     }
-    if (m.parts) bound_energy(solver, m);
+    if (m.parts) bound_energy(solver, m), ask();
     if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;
     m.given_up |= !(m.open <= kAjar * tolerance);
     const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());

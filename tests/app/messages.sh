@@ -47,6 +47,17 @@ for collider in ode bullet fcl; do
   "$json_has" "$work/out" /state_hash || fail "a wedge on $collider: stdout is no summary: $(head -1 "$work/out")"
 done
 
+# A thin rod that no substep may be divided for tears itself loose: the summary says so, too.
+cat >"$work/rod.json" <<'END'
+{"settings": {"tree_parts": 1, "dt": 0.01, "duration": 4}, "bodies": [
+  {"name": "rod", "shape": {"box": {"half_extents": [0.004, 0.4, 0.004]}}, "position": [0.2, -0.35, 0.1],
+   "rotation": {"axis": [0, 0, 1], "degrees": 30}}],
+ "joints": [{"type": "ball", "bodies": ["rod"], "anchor": [0, 0, 0.104]}]}
+END
+"$plumb" run "$work/rod.json" --collider reference --quiet --summary - >"$work/out" 2>"$work/err" || fail "a rod ends with $?"
+grep -q "^plumb: warning: trees of joints were left open" "$work/err" || fail "nothing is said of a tree that is open"
+"$json_has" "$work/out" /warnings/0 || fail "the summary does not warn of a tree that is open"
+
 # The same without the option; all verbs have it.
 "$plumb" run "$small" --duration 0.05 --set 'forbid=["friction"]' >"$work/out" 2>"$work/err" || fail "run ends with $?"
 grep -qF "$warned" "$work/err" || fail "a run does not warn unless told"
