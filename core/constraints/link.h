@@ -26,6 +26,12 @@ struct LinkedPoint {
 /// nothing up to a radian, all where the line of the start would be near its bound, 2 radians.
 inline double line_share(double z) { return std::clamp((z - 1) / 2, 0.0, 1.0); }
 
+/// The unit vector along which a link acts whose points are so far apart; any where they meet.
+inline Vector3d line_of(const Vector3d& apart) {
+    const double length = apart.norm();
+    return length > 0 ? Vector3d(apart / length) : Vector3d(Vector3d::UnitY());
+}
+
 /// Response of both points to opposite impulses along the unit vector n [1/kg].
 inline double line_response(const LinkedPoint& a, const LinkedPoint& b, const Vector3d& n) {
     return response(a.inverse, a.arm, n, n) + response(b.inverse, b.arm, n, n);

@@ -27,7 +27,9 @@ void GroundTouch::find(const World& world) {
     for (const Joint& joint : world.joints.joints)
         for (const std::uint32_t body : {joint.a, joint.b})
             if (body != kNoIndex) touches_[body] = else_too;
-    world.each_body_among_particles([&](std::uint32_t body) { touches_[body] = else_too; });
+    const auto mark = [&](std::uint32_t body) { touches_[body] = else_too; };
+    world.each_body_among_particles(mark);
+    world.each_linked_body(true, mark);
 }
 
 }  // namespace plumb

@@ -38,7 +38,7 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     const auto bodies = static_cast<std::size_t>(world.dynamic_count);
     if (hit_.capacity() >= pairs.size() && changes_.size() == bodies) return;
     hit_.reserve(pairs.size());
-    islands_.find(pairs, {}, world.dynamic_count);
+    islands_.find(pairs, {}, 0, world.dynamic_count);
     colliding_.reserve(bodies);
     shares_.reserve(bodies);
     changes_.resize(bodies);
@@ -59,7 +59,7 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
             any |= hit_[p] = collides(world, pairs[p].first + k, threshold, h);
     if (!any) return false;
 
-    islands_.find(pairs, {}, world.dynamic_count);
+    islands_.find(pairs, {}, 0, world.dynamic_count);
     for (const ContactIsland& island : islands_.islands()) {
         const auto first = islands_.pairs().begin() + island.first_pair,
                    last = islands_.pairs().begin() + island.last_pair;

@@ -105,7 +105,11 @@ Wish still_ground(const World& w) {
         "nothing with a shape is fixed");
 }
 Wish exact_islands(const World& w) {
-    if (!contacts(w).wanted) return {false, "there are no contacts"};
+    const bool is_tied = w.joints.size() > 1 || !w.joints.couplings.empty() ||
+                         std::any_of(w.links.begin(), w.links.end(),
+                                     [](const Link& link) { return link.is_between_bodies(); });
+    if (!contacts(w).wanted && !is_tied)
+        return {false, "there are no contacts, couplings or links between bodies"};
     const std::uint32_t most = w.settings.exact_islands;
     if (most < 2) return {false, "exact_islands is below 2"};
     if (!w.settings.shared_push)
@@ -113,8 +117,8 @@ Wish exact_islands(const World& w) {
     if (std::count(w.settings.require.begin(), w.settings.require.end(), "shock_propagation") > 0)
         return {false, "shock propagation carries all that touches"};
     return {true, "up to " + std::to_string(most) +
-                      " bodies that touch are solved as one system, with their joints "
-                      "(exact_islands)"};
+                      " bodies that touch, are linked or coupled are solved as one system, with "
+                      "their joints (exact_islands)"};
 }
 Wish gyroscopic(const World& w) {
     return counted(count_bodies(w, [&](std::size_t i) { return !w.bodies.isotropic[i]; }),

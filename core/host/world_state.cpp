@@ -90,7 +90,10 @@ void each_number_of_particles(Io& io, W& world) {
         vector(io, world.particles.position[i]), vector(io, world.particles.velocity[i]);
     io.count(world.particles.factored);
     for (auto& place : world.particles.factored) vector(io, place);
-    for (auto& link : world.links) vector(io, link.impulse);
+    for (auto& link : world.links) {
+        vector(io, link.impulse);
+        io(link.island_rest.steps), io(link.island_rest.misses);
+    }
     for (auto& d : world.deformables) each_number_of_list(io, d.torn);
 }
 

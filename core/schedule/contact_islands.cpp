@@ -27,17 +27,20 @@ void ContactIslands::join(const std::vector<BodyPair>& pairs) {
         }
 }
 
-void ContactIslands::find(const std::vector<BodyPair>& pairs, const std::vector<BodyPair>& links,
-                          std::int32_t dynamic_count) {
+void ContactIslands::find(const std::vector<BodyPair>& pairs, const std::vector<BodyPair>& ties,
+                          std::size_t first_seed, std::int32_t dynamic_count) {
     parent_.resize(dynamic_count);
     std::iota(parent_.begin(), parent_.end(), 0);
     island_.assign(dynamic_count, kNone);
     index_.assign(dynamic_count, 0);
     islands_.clear();
-    join(pairs), join(links);
-    for (const BodyPair& p : pairs)
+    join(pairs), join(ties);
+    const auto begin_island = [&](const BodyPair& p) {
         for (const std::int32_t row : {p.row_a, p.row_b})
             if (row < dynamic_count) island_[root(row)] = 0;
+    };
+    for (const BodyPair& p : pairs) begin_island(p);
+    for (std::size_t i = first_seed; i < ties.size(); ++i) begin_island(ties[i]);
     for (std::int32_t row = 0; row < dynamic_count; ++row) {
         const std::int32_t r = root(row);
         if (island_[r] == kNone) continue;
@@ -60,7 +63,7 @@ void ContactIslands::find(const std::vector<BodyPair>& pairs, const std::vector<
         bodies_[i.last_body++] = row;
     }
     sort(pairs, &ContactIsland::first_pair, &ContactIsland::last_pair, pairs_);
-    sort(links, &ContactIsland::first_link, &ContactIsland::last_link, links_);
+    sort(ties, &ContactIsland::first_tie, &ContactIsland::last_tie, ties_);
 }
 
 /// Indices of pairs, island by island; of islands, where theirs begin and end.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Bodies that touch one another, or that joints link to those, directly or through others:
-/// islands. What is immovable joins nothing.
+/// Bodies that touch one another, or that are tied to those, directly or through others: islands.
+/// What is immovable joins nothing.
 #pragma once
 
 #include "schedule/colouring.h"
@@ -10,25 +10,26 @@
 
 namespace plumb {
 
-/// One island: ranges of ContactIslands::bodies, pairs and links.
+/// One island: ranges of ContactIslands::bodies, pairs and ties.
 struct ContactIsland {
     std::uint32_t first_body, last_body;
     std::uint32_t first_pair, last_pair;
-    std::uint32_t first_link, last_link;
+    std::uint32_t first_tie, last_tie;
 };
 
 /// Reusable memory of a partition. Islands stand in the order of their first body, bodies, pairs
-/// and links of an island in their own.
+/// and ties of an island in their own.
 class ContactIslands {
 public:
-    /// `links`: bodies that joints hold together. Where nothing touches there is no island.
-    void find(const std::vector<BodyPair>& pairs, const std::vector<BodyPair>& links,
-              std::int32_t dynamic_count);
+    /// `ties`: bodies that are held together. Where nothing touches there is no island, but for what
+    /// the ties from `first_seed` on hold.
+    void find(const std::vector<BodyPair>& pairs, const std::vector<BodyPair>& ties,
+              std::size_t first_seed, std::int32_t dynamic_count);
 
     const std::vector<ContactIsland>& islands() const { return islands_; }
     const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< rows
     const std::vector<std::uint32_t>& pairs() const { return pairs_; }   ///< indices of pairs
-    const std::vector<std::uint32_t>& links() const { return links_; }   ///< indices of links
+    const std::vector<std::uint32_t>& ties() const { return ties_; }     ///< indices of ties
     std::uint32_t index_in_island(std::int32_t row) const { return index_[row]; }
 
 private:
@@ -42,7 +43,7 @@ private:
     std::vector<std::uint32_t> index_;   // [dynamic row] place among its island's bodies
     std::vector<ContactIsland> islands_;
     std::vector<std::int32_t> bodies_;
-    std::vector<std::uint32_t> pairs_, links_;
+    std::vector<std::uint32_t> pairs_, ties_;
 };
 
 }  // namespace plumb

@@ -7,8 +7,8 @@
 #include "math/rotation.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/linked_point.h"
 #include "solve/particle_rows.h"
-#include "world/point_place.h"
 
 #include <cmath>
 #include <vector>
@@ -18,32 +18,37 @@ namespace plumb {
 template <class Real>
 class LinkGroup final : public ConstraintGroup<Real> {
 public:
-    LinkGroup(const World& world, Workers& workers) : workers_(workers) {
-        for (const Link& link : world.links) {
+    /// `in_island` [link]: 1 where an exact island solves it in this step.
+    LinkGroup(const World& world, const std::vector<std::uint8_t>& in_island, Workers& workers)
+        : in_island_(in_island), workers_(workers) {
+        all_.reserve(world.links.size()), rows_.reserve(world.links.size());
+        for (std::uint32_t i = 0; i < world.links.size(); ++i) {
+            const Link& link = world.links[i];
             Row row;
-            row.link = link;
+            row.index = i, row.link = link;
             row.row_a = row_of(world, link.a), row.row_b = row_of(world, link.b);
-            rows_.push_back(row);
+            all_.push_back(row);
         }
     }
 
     Stage stage() const override { return Stage::links; }
     bool empty() const override { return rows_.empty(); }
 
+    void load(const World&) override {
+        rows_.clear();
+        for (const Row& row : all_)
+            if (!in_island_[row.index]) rows_.push_back(row);
+    }
+
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
         h_ = h;
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
-            Row& row = rows_[i];
-            place(world, row.link.a, row.a);
-            place(world, row.link.b, row.b);
+        for (Row& row : rows_) {
+            row.a = linked_point(world, row.link.a), row.b = linked_point(world, row.link.b);
             const Vector3d apart = row.a.start - row.b.start;
-            const double length = apart.norm();
-            row.length = length;
-            row.line = length > 0 ? Vector3d(apart / length) : Vector3d(Vector3d::UnitY());
-            const double response = line_response(row.a, row.b, row.line);
-            const double pull = world.links[i].impulse.norm();  // of the substep before
-            row.share = length > 0 ? line_share(h * pull * response / length) : 0;
+            row.length = apart.norm();
+            row.line = line_of(apart);
+            row.share = line_share(link_load(world.links[row.index], row.a, row.b, h));
             row.impulse.setZero();
         }
     }
@@ -56,11 +61,12 @@ public:
     }
 
     void end_substep(World& world) override {
-        for (std::size_t i = 0; i < rows_.size(); ++i) world.links[i].impulse = rows_[i].impulse;
+        for (const Row& row : rows_) world.links[row.index].impulse = row.impulse;
     }
 
 private:
     struct Row {
+        std::uint32_t index = 0;  ///< in the world's table
         Link link;
         std::int32_t row_a = 0, row_b = 0;
         LinkedPoint a, b;
@@ -72,20 +78,6 @@ private:
     static std::int32_t row_of(const World& world, const WorldPoint& p) {
         if (p.particle != kNoIndex) return world.particle_row(p.particle);
         return p.body == kNoIndex ? world.zero_row() : world.bodies.row[p.body];
-    }
-
-    static void place(const World& world, const WorldPoint& p, LinkedPoint& to) {
-        const Symmetric3<double> none{0, 0, 0, 0, 0, 0};
-        to.arm.setZero();
-        to.inverse = {0, none};
-        to.start = place_of(world, p);
-        if (p.particle != kNoIndex) {
-            to.inverse.mass = world.particles.inverse_mass[p.particle];
-        } else if (p.body != kNoIndex) {
-            to.arm = to.start - world.bodies.position[p.body];
-            to.inverse = {world.bodies.inverse_mass[p.body],
-                          world.bodies.world_inverse_inertia[p.body]};
-        }
     }
 
     /// Where a point is at the end of the substep as things stand, against its start [m].
@@ -149,8 +141,9 @@ private:
         push(rows, row.row_b, b, -impulse);
     }
 
+    const std::vector<std::uint8_t>& in_island_;
     Workers& workers_;
-    std::vector<Row> rows_;
+    std::vector<Row> all_, rows_;  // rows_: of those that no island solves
     double h_ = 0;
 };
 

@@ -208,7 +208,9 @@ std::vector<DividedTrees::Tree*> DividedTrees::share_out_bodies(const World& wor
 void DividedTrees::find_free(const World& world) {
     std::fill(touches_.begin(), touches_.end(), 0);
     for (const Contact& c : world.contacts.found) touches_[c.a] = touches_[c.b] = 1;
-    world.each_body_among_particles([&](std::uint32_t body) { touches_[body] = 1; });
+    const auto mark = [&](std::uint32_t body) { touches_[body] = 1; };
+    world.each_body_among_particles(mark);
+    world.each_linked_body(true, mark);
     for (Tree& tree : trees_)
         tree.is_free =
             tree.may_divide && std::none_of(tree.bodies.begin(), tree.bodies.end(),

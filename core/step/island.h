@@ -13,8 +13,11 @@
 #include "math/symmetric.h"
 #include "math/types.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace plumb {
@@ -44,19 +47,45 @@ struct IslandPoint {
     Vector6d impulse;  ///< [N s]
 };
 
-/// A row that a joint takes away (constraints/joint_rows.h), or all that drives one of its axes
+/// What a row does to one body of the island: (force, torque) of an impulse of 1. The body's motion
+/// contributes on · (v, ω) to the row's rate.
+struct RowSide {
+    std::uint32_t body;
+    Vector6d on;
+};
+
+/// A row that a joint, a link or a coupling takes away, or all that drives one axis of a joint
 /// (constraints/axis_drive.h).
 struct IslandRow {
-    std::uint32_t a, b;   ///< bodies of the island, or kImmovable
-    Vector6d on_a, on_b;  ///< (force, torque) of an impulse of 1; its rate is on · (v, ω)
-    double mass;          ///< effective [kg], [kg m²]
-    double length;        ///< that makes a velocity of the rate: 1, or [m]
-    double moving = 0;    ///< rate of what is immovable and moves by itself
+    static constexpr std::uint32_t kMostSides = 4;  ///< two joints that are coupled
+
+    std::array<RowSide, kMostSides> side;
+    std::uint32_t count = 0;  ///< of sides
+    double mass = 0;          ///< effective [kg], [kg m²]
+    double length = 1;        ///< that makes a velocity of the rate: 1, or [m]
+    double moving = 0;        ///< rate of what is immovable and moves by itself
     double wanted = 0, softness = 0;  ///< of a row that is taken away: rate − wanted + softness λ
                                       ///< is 0 [m/s], [1/kg], or of turning
     double most = 0;  ///< more than such a row bears unless others contradict it [N s], [N m s]
-    const AxisDrive* drive = nullptr;  ///< else the force law of the axis
-    double impulse = 0;                ///< λ [N s], [N m s]
+    double lowest = -std::numeric_limits<double>::infinity();  ///< of λ: 0 where it only pushes
+    double highest = std::numeric_limits<double>::infinity();  ///< 0 where it only pulls
+    const AxisDrive* drive = nullptr;                          ///< else the force law of the axis
+    double impulse = 0;                                        ///< λ [N s], [N m s]
+
+    std::span<const RowSide> sides() const { return {side.data(), count}; }
+
+    /// What is immovable has no side, and a body only one.
+    void add_side(std::uint32_t body, const Vector6d& on) {
+        if (body == kImmovable) return;
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (side[i].body == body) {
+                side[i].on += on;
+                return;
+            }
+        side[count++] = {body, on};
+    }
+
+    bool is_one_sided() const { return lowest == 0 || highest == 0; }
 };
 
 /// What a solver reads and improves. Velocities are (v, ω) and follow the impulses.
@@ -70,15 +99,13 @@ struct Island {
 /// What the island's bodies contribute to the rate of a row if they move by `v`.
 inline double rate_of(const IslandRow& row, std::span<const Vector6d> v) {
     double rate = 0;
-    if (row.a != kImmovable) rate += row.on_a.dot(v[row.a]);
-    if (row.b != kImmovable) rate += row.on_b.dot(v[row.b]);
+    for (const RowSide& side : row.sides()) rate += side.on.dot(v[side.body]);
     return rate;
 }
 
 /// Adds a row's impulse to the sums (force, torque) of its bodies.
 inline void add_impulse(const IslandRow& row, double impulse, std::span<Vector6d> sums) {
-    if (row.a != kImmovable) sums[row.a] += impulse * row.on_a;
-    if (row.b != kImmovable) sums[row.b] += impulse * row.on_b;
+    for (const RowSide& side : row.sides()) sums[side.body] += impulse * side.on;
 }
 
 /// The impulse by which a row that gives way by 1/stiffness answers a rate of the island's bodies,
@@ -91,8 +118,9 @@ inline RowAnswer answer_of(const IslandRow& row, double rate, double stiffness) 
         const double slope = stiffness / (1 + stiffness * row.softness);
         const double impulse =
             row.impulse + slope * (row.wanted - rate - row.softness * row.impulse);
-        if (std::abs(impulse) > row.most) return {std::copysign(row.most, impulse), 0};
-        return {impulse, slope};
+        const double within = std::clamp(impulse, std::max(row.lowest, -row.most),
+                                         std::min(row.highest, row.most));
+        return {within, within == impulse ? slope : 0};
     }
     const AxisAnswer met = answer_of(*row.drive, rate + row.moving, row.impulse, 1 / stiffness);
     const double slope = met.is_step ? stiffness : met.slope / (1 + met.slope / stiffness);

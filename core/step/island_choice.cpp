@@ -4,11 +4,14 @@
 #include "constraints/contact.h"
 #include "constraints/joint_lever.h"
 #include "contacts/contact_measures.h"
+#include "solve/linked_point.h"
 #include "step/joint_state.h"
+#include "step/tie_work.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace plumb {
 namespace {
@@ -34,8 +37,9 @@ constexpr double kJam = 0.0025, kStuck = 0.25;
 /// What rests has been pulled on for a substep already; what is hardly faster counts as resting.
 constexpr double kPulled = 1.05;
 
-/// How far joints may turn within a substep [rad], and the square of h ω of what they pull.
-constexpr double kFarTurn = 0.2, kHardPull = 2;
+/// How far joints may turn within a substep [rad], also where others are worse at it, and the square
+/// of h ω of what they pull.
+constexpr double kFarTurn = 0.2, kFarthestTurn = 1, kHardPull = 2;
 
 /// A motor is boundless that lifts so many times the weight of the bodies that it drives.
 constexpr double kBoundless = 3e4;
@@ -104,16 +108,38 @@ double pull_load(const World& world, const Joint& joint, std::uint32_t body, con
     return lever_load<double>(pull, 0, arm, inverse_inertia, h);
 }
 
-/// Whether levers of the start of a substep will do for a joint until its end.
-bool is_gentle(const World& world, const Joint& joint, double h) {
+/// How far a tie may turn within a substep [rad], and the square of h ω of what it pulls: whether
+/// levers of the start of a substep will do until its end.
+struct TieLoad {
+    double turn = 0, pull = 0;
+};
+
+TieLoad load_of(const World& world, const Joint& joint, double h) {
     const Bodies& b = world.bodies;
     const Vector3d impulse = impulse_on_a(world, joint);
+    TieLoad load;
     const auto see = [&](std::uint32_t body, const Placement& frame, double sign) {
-        return body == kNoIndex || b.motion[body] != Motion::dynamic ||
-               (h * angular_rate(b, joint, body, frame) <= kFarTurn &&
-                pull_load(world, joint, body, frame, sign * impulse, h) <= kHardPull);
+        if (body == kNoIndex || b.motion[body] != Motion::dynamic) return;
+        load.turn = std::max(load.turn, h * angular_rate(b, joint, body, frame));
+        load.pull = std::max(load.pull, pull_load(world, joint, body, frame, sign * impulse, h));
     };
-    return see(joint.a, joint.frame_a, 1) && see(joint.b, joint.frame_b, -1);
+    see(joint.a, joint.frame_a, 1), see(joint.b, joint.frame_b, -1);
+    return load;
+}
+
+TieLoad load_of(const World& world, const Link& link, double h) {
+    const Bodies& b = world.bodies;
+    const LinkedPoint at_a = linked_point(world, link.a), at_b = linked_point(world, link.b);
+    TieLoad load{0, link_load(link, at_a, at_b, h)};
+    const auto see = [&](std::uint32_t body, const LinkedPoint& at) {
+        if (body == kNoIndex || b.motion[body] != Motion::dynamic) return;
+        const double arm = std::max(at.arm.norm(), kNoArm);
+        load.turn = std::max(load.turn, h * b.angular_velocity[body].cross(at.arm).norm() / arm);
+        load.pull = std::max(load.pull, lever_load<double>(link.impulse.norm(), 0, at.arm,
+                                                           b.world_inverse_inertia[body], h));
+    };
+    see(link.a.body, at_a), see(link.b.body, at_b);
+    return load;
 }
 
 }  // namespace
@@ -132,11 +158,11 @@ Vector3d relative_velocity(const World& world, std::uint32_t contact) {
 const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs) {
     stuck_share_ = stuck_share(world.settings);
     jammed_.clear();
-    links_.clear();
-    if (!pairs.empty()) find_links(world);
-    found_.find(pairs, links_, pairs.empty() ? 0 : world.dynamic_count);
+    find_ties(world);
+    const bool is_empty = pairs.empty() && first_seed_ == ties_.size();
+    found_.find(pairs, tied_rows_, first_seed_, is_empty ? 0 : world.dynamic_count);
     find_driven(world, pairs);
-    if (pairs.empty()) return found_;
+    if (is_empty) return found_;
     rule_out(world);
     bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     return found_;
@@ -152,86 +178,149 @@ void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& 
         const Contact& c = world.contacts.found[pairs[pair].first];
         return is_kinematic(c.a) || is_kinematic(c.b);
     };
-    const auto pulls = [&](std::uint32_t link) {
-        const Joint& joint = world.joints.joints[joint_of(link)];
-        return is_kinematic(joint.a) || is_kinematic(joint.b);
+    const auto pulls = [&](std::uint32_t i) {
+        bool any = false;
+        each_body(world, ties_[i], [&](std::uint32_t body) { any |= is_kinematic(body); });
+        return any;
     };
     for (const ContactIsland& island : found_.islands()) {
         const auto pair = found_.pairs().begin();
-        const auto link = found_.links().begin();
+        const auto tie = found_.ties().begin();
         if (std::none_of(pair + island.first_pair, pair + island.last_pair, touches) &&
-            std::none_of(link + island.first_link, link + island.last_link, pulls))
+            std::none_of(tie + island.first_tie, tie + island.last_tie, pulls))
             continue;
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
             driven_[static_cast<std::size_t>(found_.bodies()[i])] = 1;
     }
 }
 
-void IslandChoice::find_links(const World& world) {
+void IslandChoice::find_ties(const World& world) {
+    ties_.clear(), tied_rows_.clear();
     const auto row_of = [&](std::uint32_t body) {
         return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
     };
-    for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
-        const Joint& joint = world.joints.joints[i];
-        if (!joint.broken) links_.push_back({row_of(joint.a), row_of(joint.b), i, 1});
+    const auto add = [&](TieKind kind, std::uint32_t i, std::uint32_t a, std::uint32_t b) {
+        if (!holds(world, {kind, i})) return;
+        ties_.push_back({kind, i});
+        tied_rows_.push_back({row_of(a), row_of(b), i, 1});
+    };
+    const std::vector<Joint>& joints = world.joints.joints;
+    for (std::uint32_t i = 0; i < joints.size(); ++i)
+        add(TieKind::joint, i, joints[i].a, joints[i].b);
+    first_seed_ = move_loops_back(world);
+    for (std::uint32_t i = 0; i < world.links.size(); ++i) {
+        const Link& link = world.links[i];
+        if (link.is_between_bodies()) add(TieKind::link, i, link.a.body, link.b.body);
+    }
+    // two trees of joints become one
+    const auto mover = [&](const Joint& joint) {
+        const bool moves =
+            joint.b == kNoIndex || world.bodies.motion[joint.a] == Motion::dynamic;
+        return moves ? joint.a : joint.b;
+    };
+    for (std::uint32_t i = 0; i < world.joints.couplings.size(); ++i) {
+        const JointCoupling& c = world.joints.couplings[i];
+        add(TieKind::coupling, i, mover(joints[c.joint_a]), mover(joints[c.joint_b]));
     }
 }
 
-/// Called for one link after another: whether those before tie its bodies together already. What is
+/// Moves the joints behind the others that close loops; returns where they begin.
+std::size_t IslandChoice::move_loops_back(const World& world) {
+    tied_.resize(static_cast<std::size_t>(world.dynamic_count) + 1);
+    std::iota(tied_.begin(), tied_.end(), std::size_t{0});
+    loops_.clear();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < ties_.size(); ++i) {
+        if (closes_loop(tied_rows_[i])) {
+            loops_.emplace_back(ties_[i], tied_rows_[i]);
+            continue;
+        }
+        ties_[kept] = ties_[i], tied_rows_[kept++] = tied_rows_[i];
+    }
+    for (std::size_t i = 0; i < loops_.size(); ++i)
+        std::tie(ties_[kept + i], tied_rows_[kept + i]) = loops_[i];
+    return kept;
+}
+
+/// Called for one joint after another: whether those before tie its bodies together already. What is
 /// immovable is one body.
-bool IslandChoice::closes_loop(const BodyPair& link) {
+bool IslandChoice::closes_loop(const BodyPair& joint) {
     const auto root = [this](std::int32_t row) {
         auto at = static_cast<std::size_t>(row);
         at = std::min(at, tied_.size() - 1);
         while (tied_[at] != at) at = tied_[at] = tied_[tied_[at]];
         return at;
     };
-    const std::size_t a = root(link.row_a), b = root(link.row_b);
+    const std::size_t a = root(joint.row_a), b = root(joint.row_b);
     tied_[a] = b;
     return a == b;
 }
 
-/// Marks bodies that others have to solve.
+/// Marks the bodies of what exact islands are not made for.
 void IslandChoice::rule_out(const World& world) {
-    ruled_out_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
-    tied_.resize(static_cast<std::size_t>(world.dynamic_count) + 1);
-    std::iota(tied_.begin(), tied_.end(), std::size_t{0});
-    const auto mark = [&](std::uint32_t body) {
-        if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
-            ruled_out_[world.bodies.row[body]] = 1;
+    obstacles_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+    const auto mark = [&](const Tie& tie, std::uint8_t obstacle) {
+        each_body(world, tie, [&](std::uint32_t body) { put(world, body, obstacle); });
     };
-    const auto mark_joint = [&](std::uint32_t joint) {
-        mark(world.joints.joints[joint].a), mark(world.joints.joints[joint].b);
-    };
-    world.each_body_among_particles(mark);
+    world.each_body_among_particles([&](std::uint32_t body) { put(world, body, kBeyond); });
     const double h = substep_of(world.settings);
     const bool iterated = world.settings.joints == JointMethod::iterate;
-    for (const BodyPair& link : links_) {
-        const Joint& joint = world.joints.joints[link.first];
-        if (iterated || joint.island_rest.steps > 0 || closes_loop(link) ||
-            !is_gentle(world, joint, h))
-            mark_joint(link.first);
+    for (const Tie& tie : ties_) {
+        if (tie.kind == TieKind::coupling) continue;
+        const bool is_joint = tie.kind == TieKind::joint;
+        const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)
+                                      : load_of(world, world.links[tie.index], h);
+        const IslandRest& rest = is_joint ? world.joints.joints[tie.index].island_rest
+                                          : world.links[tie.index].island_rest;
+        if (is_joint && iterated) mark(tie, kBeyond);
+        if (load.pull > kHardPull || load.turn > kFarthestTurn) mark(tie, kHard);
+        if (load.turn > kFarTurn) mark(tie, kFast);
+        if (rest.steps > 0) mark(tie, kRests);
     }
-    for (const JointCoupling& c : world.joints.couplings)
-        mark_joint(c.joint_a), mark_joint(c.joint_b);
     for (const JointDrive& drive : world.joints.drives)
-        if (is_boundless(world, drive)) mark_joint(drive.joint);
+        if (is_boundless(world, drive)) mark({TieKind::joint, drive.joint}, kBeyond);
+}
+
+void IslandChoice::put(const World& world, std::uint32_t body, std::uint8_t obstacle) {
+    if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
+        obstacles_[world.bodies.row[body]] |= obstacle;
+}
+
+/// What its bodies are marked with.
+std::uint8_t IslandChoice::obstacles_of(const ContactIsland& island) const {
+    std::uint8_t all = 0;
+    for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
+        all |= obstacles_[found_.bodies()[i]];
+    return all;
+}
+
+bool IslandChoice::can_do_work(const World& world, const ContactIsland& island) const {
+    const auto first = found_.ties().begin();
+    return std::any_of(first + island.first_tie, first + island.last_tie,
+                       [&](std::uint32_t i) { return plumb::can_do_work(world, ties_[i]); });
+}
+
+bool IslandChoice::is_meshed(const ContactIsland& island) const {
+    return island.first_tie < island.last_tie && found_.ties()[island.last_tie - 1] >= first_seed_;
 }
 
 bool IslandChoice::is_loose_heap(const ContactIsland& island) const {
     return island.last_body - island.first_body > kVerySmall &&
-           island.first_link == island.last_link && !is_driven(island);
+           island.first_tie == island.last_tie && !is_driven(island);
 }
 
 IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
                                const std::vector<BodyPair>& pairs) {
     const std::uint32_t n = island.last_body - island.first_body;
-    const bool jointed = island.first_link < island.last_link;
-    if (n == 1 && !jointed &&
+    const bool is_tied = island.first_tie < island.last_tie;
+    if (n == 1 && !is_tied &&
         !is_slow(world, world.contacts.found[pairs[found_.pairs()[island.first_pair]].first]))
         return IslandWay::left;
-    for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
-        if (ruled_out_[found_.bodies()[i]]) return IslandWay::left;
+    const std::uint8_t obstacles = obstacles_of(island);
+    const bool meshed = is_meshed(island);
+    if ((obstacles & kBeyond) || (meshed ? can_do_work(world, island) : obstacles != 0))
+        return IslandWay::left;
+    if (obstacles & (kRests | kHard)) return IslandWay::swept;
     upset_.clear();
     if (n <= std::min(kVerySmall, world.settings.exact_islands) && flies(world, island, pairs))
         return IslandWay::exact;
@@ -256,8 +345,8 @@ bool IslandChoice::flies(const World& world, const ContactIsland& island,
     };
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
         if (!is_free(pairs[found_.pairs()[i]])) return false;
-    for (std::uint32_t i = island.first_link; i < island.last_link; ++i)
-        if (!is_free(links_[found_.links()[i]])) return false;
+    for (std::uint32_t i = island.first_tie; i < island.last_tie; ++i)
+        if (!is_free(tied_rows_[found_.ties()[i]])) return false;
     return true;
 }
 
@@ -345,7 +434,7 @@ bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
             pull = std::max(pull, pull_on(world, body));
         }
     }
-    return std::sqrt(squares / contacts) <= calm_speed(world, radius, pull);
+    return contacts == 0 || std::sqrt(squares / contacts) <= calm_speed(world, radius, pull);
 }
 
 bool IslandChoice::goes_on(const World& world, std::uint32_t contact) const {

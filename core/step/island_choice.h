@@ -6,17 +6,20 @@
 /// there. Sweeps are enough for a body that rolls or slides on what is immovable; one that hardly
 /// moves shall not creep.
 ///
-/// Joints hold an island together as contacts do, and are solved with it. Left to others are
-/// islands with couplings, with joints that close a loop, with motors that nothing can stop, with
-/// joints that turn far within a substep or pull so hard that levers have to turn with them
-/// (constraints/joint_lever.h), and for a while those whose joints could not be closed.
+/// Ties hold an island together as contacts do, and are solved with it; links between bodies and
+/// couplings, and joints that close a loop, are so even where nothing touches: others only iterate
+/// them. Left to others are islands with motors that nothing can stop, with links to particles, with
+/// joints or links that turn far within a substep or pull so hard that levers have to turn with them
+/// (constraints/joint_lever.h, constraints/link.h), and for a while those whose ties could not be
+/// closed. Of these last three, what links, couplings or loops tie and nothing drives is swept here,
+/// where it is seen to that it gains nothing; what something drives is left to others as a whole.
 ///
 /// What overlaps deeply is left to others, too, where it is squeezed, jointed or very small. A heap
 /// that is left to itself is swept here until it is out: its sweeps find more than others do.
 #pragma once
 
 #include "schedule/contact_islands.h"
-#include "world/world.h"
+#include "world/tie.h"
 
 #include <vector>
 
@@ -33,11 +36,11 @@ enum class IslandWay : std::uint8_t { exact, swept, left };
 
 class IslandChoice {
 public:
-    /// Once a step, before the others: finds the islands that pairs make.
+    /// Once a step, before the others: finds the islands that pairs and ties make.
     const ContactIslands& find(const World& world, const std::vector<BodyPair>& pairs);
 
-    /// The joint of a link of the islands.
-    std::uint32_t joint_of(std::uint32_t link) const { return links_[link].first; }
+    /// A tie of the islands.
+    const Tie& tie(std::uint32_t i) const { return ties_[i]; }
 
     IslandWay way_of(const World& world, const ContactIsland& island,
                      const std::vector<BodyPair>& pairs);
@@ -73,10 +76,21 @@ public:
     const std::vector<std::uint32_t>& jammed() const { return jammed_; }
 
 private:
-    void find_links(const World& world);
+    void find_ties(const World& world);
     void find_driven(const World& world, const std::vector<BodyPair>& pairs);
-    bool closes_loop(const BodyPair& link);
+    std::size_t move_loops_back(const World& world);
+    bool closes_loop(const BodyPair& joint);
+    // What keeps an island from being solved exactly: what is beyond its solver, what turns far
+    // within a substep, and what could not be solved a while ago.
+    static constexpr std::uint8_t kBeyond = 1, kFast = 2, kHard = 4, kRests = 8;
     void rule_out(const World& world);
+    void put(const World& world, std::uint32_t body, std::uint8_t obstacle);
+    std::uint8_t obstacles_of(const ContactIsland& island) const;
+
+    bool can_do_work(const World& world, const ContactIsland& island) const;
+
+    /// Whether links, couplings or joints that close a loop tie it: others only iterate those.
+    bool is_meshed(const ContactIsland& island) const;
     bool is_slow(const World& world, const Contact& contact) const;
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
@@ -90,9 +104,12 @@ private:
 
     ContactIslands found_;
     double stuck_share_ = 1;               ///< of an overlap, from which it counts as left
-    std::vector<BodyPair> links_;          // of joints, and which
+    std::vector<Tie> ties_;                // joints, those that close loops, links, couplings
+    std::vector<BodyPair> tied_rows_;      // [tie]
+    std::size_t first_seed_ = 0;           // of ties_: those from it on need nothing that touches
+    std::vector<std::pair<Tie, BodyPair>> loops_;
     std::vector<std::size_t> tied_;        // [dynamic row, then the ground] see closes_loop
-    std::vector<std::uint8_t> ruled_out_;  // [dynamic row]
+    std::vector<std::uint8_t> obstacles_;  // [dynamic row] bits, see rule_out
     std::vector<std::uint8_t> driven_;     // [dynamic row], see is_driven
     std::vector<double> bears_;            // [dynamic row], see goes_on [N s]
     std::vector<std::uint8_t> weighed_;    // [body of an island]

@@ -5,8 +5,8 @@
 #include "constraints/contact.h"
 #include "constraints/friction.h"
 #include "contacts/contact_measures.h"
-#include "step/driven_axes.h"
 #include "step/joint_geometry.h"
+#include "step/tie_work.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,13 +26,19 @@ constexpr double kLocked = 0.1;
 /// A joint may bear so many times more: levers and toggles multiply what they bear.
 constexpr double kLever = 100;
 
-/// How often an island is solved until its joints are closed.
-constexpr int kCloses = 8;
+/// How often an island is solved until its ties are closed; and at most, as long as each time leaves
+/// no more than this share of what was open: near to where a linkage is stretched out it is slow.
+constexpr int kCloses = 8, kMostCloses = 40;
+constexpr double kClosing = 0.8;
 
 /// An island whose joints stay open by so many tolerances is given up for this long [s], twice as
 /// long with each time that it fails again.
 constexpr double kAjar = 100, kRest = 0.1;
 constexpr std::uint32_t kMostMisses = 8;
+
+/// Ties may be closed at other velocities, too, than those that a substep leads to: such that turn
+/// bodies about. They are known by the energy that they add, as a share of what there is.
+constexpr double kOtherRoot = 0.25;
 
 /// Bodies that fly about and overlap part at least at this share of their radius [1/s].
 constexpr double kDrift = 0.3;
@@ -60,17 +66,10 @@ double closing_velocity(double gap, double h, const PushOut& push_out) {
     return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
 }
 
-/// Whether a joint may give its bodies energy.
-bool can_do_work(const World& world, std::uint32_t index) {
-    const Joint& joint = world.joints.joints[index];
-    bool can = joint.compliance > 0 || joint.angular_compliance > 0;
-    each_driven_axis(world.joints, index, [&](std::uint32_t first, std::uint32_t last) {
-        for (std::uint32_t i = first; i < last; ++i) {
-            const DriveKind kind = world.joints.drives[i].kind;
-            can |= kind == DriveKind::motor || kind == DriveKind::spring;
-        }
-    });
-    return can;
+/// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
+bool closes(const IslandRow& row) {
+    return !row.drive && !(row.highest == 0 && row.wanted > 0) &&
+           !(row.lowest == 0 && row.wanted < 0);
 }
 
 double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
@@ -100,9 +99,9 @@ double greatest_impulse(const IslandRow& row) {
 
 }  // namespace
 
-IslandGroup::IslandGroup(const Plan& plan, Workers& workers, std::vector<std::uint8_t>& in_island)
+IslandGroup::IslandGroup(const Plan& plan, Workers& workers, SolvedTies& solved)
     : workers_(workers),
-      in_island_(in_island),
+      solved_(solved),
       has_friction_(plan.runs(Effect::friction)),
       resists_rolling_(plan.runs(Effect::turning_friction)),
       solvers_(workers.count()) {}
@@ -112,10 +111,8 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers, std::vector<std::ui
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0;
     bodies_.clear(), points_.clear(), locked_.clear(), parting_.clear(), contacts_.clear(),
-        joints_.clear();
-    std::fill(in_island_.begin(), in_island_.end(), 0);
+        ties_.clear(), solved_.clear();
     const ContactIslands& found = choice_.find(world, pairs);
-    if (pairs.empty()) return;
     taken_.assign(pairs.size(), 0);
     for (const ContactIsland& island : found.islands()) {
         const IslandWay way = choice_.way_of(world, island, pairs);
@@ -143,7 +140,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     const std::uint32_t n = island.last_body - island.first_body;
     member.first_body = static_cast<std::uint32_t>(bodies_.size());
     member.first_point = static_cast<std::uint32_t>(points_.size());
-    member.first_joint = joints_.size();
+    ties_.begin_island(member.ties);
     member.given_up = false;
     member.may_be_disputed = choice_.is_loose_heap(island);
     member.gains_nothing = !choice_.is_driven(island);
@@ -166,18 +163,23 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
         if (a != kImmovable && b != kImmovable) pattern_.emplace_back(a, b);
         for (std::uint32_t k = 0; k < pair.count; ++k) add_point(world, pair.first + k, a, b);
     }
-    for (std::uint32_t i = island.first_link; i < island.last_link; ++i) {
-        const std::uint32_t index = choice_.joint_of(found.links()[i]);
-        const Joint& joint = world.joints.joints[index];
-        const std::uint32_t a = place(joint.a), b = place(joint.b);
-        if (a != kImmovable && b != kImmovable) pattern_.emplace_back(a, b);
-        joints_.add(world, index, a, b);
-        in_island_[index] = 1;
-        member.gains_nothing &= !can_do_work(world, index);
+    for (std::uint32_t i = island.first_tie; i < island.last_tie; ++i) {
+        const Tie& tie = choice_.tie(found.ties()[i]);
+        tied_.clear();
+        each_body(world, tie, [&](std::uint32_t body) {
+            const std::uint32_t here = place(body);
+            if (here == kImmovable) return;
+            for (const std::uint32_t other : tied_)
+                if (other != here) pattern_.emplace_back(other, here);
+            tied_.push_back(here);
+        });
+        ties_.add(world, found, tie);
+        solved_[tie] = 1;
+        member.gains_nothing &= !can_do_work(world, tie);
     }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
-    member.last_joint = joints_.size();
+    ties_.end_island(member.ties);
     if (member.system.rows() == n && member.pattern == pattern_) return;
     member.pattern = pattern_;
     member.system.analyse(n, pattern_);
@@ -278,17 +280,20 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
         start_[i] << world.bodies.velocity[body], world.bodies.angular_velocity[body];
         velocity_[i] = start_[i];
     }
-    joints_.begin(world, substep_time(world, h));
+    ties_.begin();
+    for (std::size_t i = 0; i < count_; ++i)
+        ties_.begin(world, substep_time(world, h), members_[i].ties);
     if (!world.settings.warm_start) forget_impulses();
     apply_impulses();
     std::uint32_t clamped = 0;
     for (std::size_t i = 0; i < count_; ++i) {
         Member& member = members_[i];
-        joints_.ask(member.first_joint, member.last_joint, velocities_of(member));
+        member.was_open = open_at_start(member) > kAjar * world.settings.joint_tolerance;
+        ties_.ask(member.ties, velocities_of(member));
         member.speed = speed_of(world, member, h, push_out);
         const double most = strongest(world, member, h);
         const double thrust = thrust_of(world, member, h);
-        for (IslandRow& row : joints_.rows(member.first_joint, member.last_joint)) {
+        for (IslandRow& row : ties_.rows(member.ties)) {
             row.most = kLever * most * row.length;
             if (row.softness == 0 && thrust > 0)
                 row.softness =
@@ -318,9 +323,8 @@ double IslandGroup::speed_of(const World& world, const Member& member, double h,
         const double normal = to_eigen(contact.normal).dot(relative_velocity(world, contacts_[k]));
         speed = std::max({speed, std::abs(normal), closing_velocity(overlap, h, push_out)});
     }
-    const std::span<const Vector6d> start(start_.data() + member.first_body,
-                                          member.last_body - member.first_body);
-    for (const IslandRow& row : joints_.rows(member.first_joint, member.last_joint)) {
+    const std::span<const Vector6d> start = starts_of(member);
+    for (const IslandRow& row : ties_.rows(member.ties)) {
         IslandRow bare = row;
         bare.impulse = 0, bare.most = std::numeric_limits<double>::infinity();
         const double asked = answer_of(bare, rate_of(row, start), row.mass).impulse;
@@ -344,7 +348,7 @@ double IslandGroup::strongest(const World& world, const Member& member, double h
         mass += bodies_[i].mass;
         weight += bodies_[i].mass * pull_on(world, bodies_[i].body);
     }
-    for (const IslandRow& row : joints_.rows(member.first_joint, member.last_joint))
+    for (const IslandRow& row : ties_.rows(member.ties))
         if (row.drive) driven += greatest_impulse(row) / row.length;
     return kThrust * weight * h + kBlow * mass * member.speed + kBlow * driven;
 }
@@ -395,9 +399,16 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     if (p.cone.turns()) p.wanted.tail<3>() = -p.length * (p.frame.transpose() * turning);
 }
 
+/// By how much the worst tie is open that is to be closed [m], [rad].
+double IslandGroup::open_at_start(const Member& member) {
+    if (member.ties.empty()) return 0;
+    force_.assign(force_.size(), Vector6d::Zero());
+    return ties_.ask_to_close(member.ties, {force_.data() + member.first_body, starts_of(member).size()});
+}
+
 void IslandGroup::forget_impulses() {
     for (IslandPoint& p : points_) p.impulse.setZero();
-    for (IslandRow& row : joints_.rows(0, joints_.size())) row.impulse = 0;
+    for (IslandRow& row : ties_.rows()) row.impulse = 0;
 }
 
 /// The impulses that the substep starts from, to the velocities.
@@ -408,7 +419,7 @@ void IslandGroup::apply_impulses() {
         const std::span<Vector6d> sums(force_.data() + m.first_body, m.last_body - m.first_body);
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
             add_impulse(points_[k], points_[k].impulse, sums);
-        for (const IslandRow& row : joints_.rows(m.first_joint, m.last_joint))
+        for (const IslandRow& row : ties_.rows(m.ties))
             add_impulse(row, row.impulse, sums);
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i)
@@ -420,7 +431,11 @@ Island IslandGroup::island_of(const Member& m) {
     return {{bodies_.data() + m.first_body, bodies},
             {velocity_.data() + m.first_body, bodies},
             {points_.data() + m.first_point, points},
-            joints_.rows(m.first_joint, m.last_joint)};
+            ties_.rows(m.ties)};
+}
+
+std::span<const Vector6d> IslandGroup::starts_of(const Member& m) const {
+    return {start_.data() + m.first_body, m.last_body - m.first_body};
 }
 
 std::span<const Vector6d> IslandGroup::velocities_of(const Member& m) const {
@@ -435,41 +450,79 @@ void IslandGroup::solve(const World& world, StepReport& report) {
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& member = members_[i];
         report.unsolved_islands += !member.solved;
-        if (member.open > world.settings.joint_tolerance)
-            report.open_trees.push_back({joints_.joint(member.first_joint), member.open});
+        if (member.open > world.settings.joint_tolerance) note_open(report, member);
     }
 }
 
-/// Joints are not linear: what a solution leaves open of them is asked for again. One that does not
-/// close them must add no energy.
+void IslandGroup::note_open(StepReport& report, const Member& member) const {
+    const Tie& tie = ties_.first_of(member.ties);
+    if (tie.kind == TieKind::joint)
+        report.open_trees.push_back({tie.index, member.open});
+}
+
+/// Ties are not linear: what a solution leaves open of them is asked for again.
 void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     const double tolerance = world.settings.joint_tolerance;
     const Island island = island_of(m);
+    const auto gains = [&](double share = 0) {
+        return !(kinetic_energy(island.bodies, island.velocity) <=
+                 (1 + share) * kinetic_energy(island.bodies, starts_of(m)));
+    };
+    const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
     if (m.effort == IslandEffort::swept) {
         solver.sweep(island);
-        m.solved = true, m.open = 0;
+        ask();
+        m.solved = true;
+        if (!m.ties.empty() && m.gains_nothing && gains()) close_gently(solver, m);
         return;
     }
-    const auto ask = [&] { m.open = joints_.ask(m.first_joint, m.last_joint, island.velocity); };
-    for (int i = 0; i < kCloses; ++i) {
+    for (int i = 0; i < kMostCloses; ++i) {
+        const double before = m.open;
         m.solved = solver.solve(island, m.system, m.speed, m.effort).solved;
         ask();
         if (!(m.open > tolerance) || (!m.solved && i > 0)) break;
+        if (i >= kCloses && !(m.open <= kClosing * before)) break;
     }
     if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
         m.disputed = kDisputed;
         m.effort = IslandEffort::swept;
     }
     if (m.parts) bound_energy(solver, m), ask();
-    if (m.first_joint == m.last_joint || (m.solved && !(m.open > tolerance))) return;
-    m.given_up |= !(m.open <= kAjar * tolerance);
-    const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
-    if (kinetic_energy(island.bodies, island.velocity) <= kinetic_energy(island.bodies, start))
-        return;
+    if (m.ties.empty()) return;
+    if (m.gains_nothing && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
+    if (m.solved && !(m.open > tolerance)) return;
+    const bool ajar = m.open <= kAjar * tolerance;
+    m.given_up |= !ajar;
+    if ((m.solved && ajar) || !gains()) return;
     m.given_up = true;
-    std::copy(start.begin(), start.end(), island.velocity.begin());
-    solver.sweep_anew(island, ask);
-    ask();
+    close_gently(solver, m);
+}
+
+/// Ties that were not closed must add no energy: from nothing, and at rates that are linear in the
+/// velocities, they are closed by as large a share as there is energy for. It grows with the share
+/// at least in proportion.
+void IslandGroup::close_gently(IslandSolver& solver, Member& m) {
+    const Island island = island_of(m);
+    const std::span<const Vector6d> start = starts_of(m);
+    const double before = kinetic_energy(island.bodies, start);
+    const auto begin = [&] { std::copy(start.begin(), start.end(), island.velocity.begin()); };
+    const auto ask = [&](double share) {
+        ties_.ask(m.ties, island.velocity);
+        for (IslandRow& row : island.rows)
+            if (closes(row)) row.wanted *= share;
+    };
+    const auto close = [&](double share) {
+        begin(), solver.forget(island), ask(share);
+        if (!solver.solve(island, m.system, m.speed, m.effort).solved)
+            begin(), solver.sweep_anew(island, [&] { ask(share); });
+        return kinetic_energy(island.bodies, island.velocity);
+    };
+    const double whole = close(1);
+    if (!(whole <= before)) {
+        const double least = close(0);
+        if (least < before) close((before - least) / (whole - least));
+    }
+    m.open = ties_.ask(m.ties, island.velocity);
 }
 
 /// Where friction turns slip about, the speeds that restitution asks for can be more energy than
@@ -479,7 +532,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
 /// same.
 void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
     const Island island = island_of(m);
-    const std::span<const Vector6d> start(start_.data() + m.first_body, island.bodies.size());
+    const std::span<const Vector6d> start = starts_of(m);
     const double before = kinetic_energy(island.bodies, start);
     const double whole = kinetic_energy(island.bodies, island.velocity);
     if (whole <= before) return;
@@ -514,24 +567,28 @@ void IslandGroup::add_impulses(ContactSums& sums) const {
     }
 }
 
-void IslandGroup::store_impulses(JointTable& joints) const {
-    for (std::size_t i = 0; i < count_; ++i) {
-        const Member& m = members_[i];
-        joints_.store_impulses(m.first_joint, m.last_joint, velocities_of(m), joints);
-    }
+void IslandGroup::store_tie_impulses(World& world) const {
+    for (std::size_t i = 0; i < count_; ++i)
+        ties_.store_impulses(members_[i].ties, velocities_of(members_[i]), world);
 }
 
-void IslandGroup::rest_joints(const Settings& settings, JointTable& joints) const {
-    for (Joint& joint : joints.joints)
-        if (joint.island_rest.steps > 0) --joint.island_rest.steps;
+void IslandGroup::rest_ties(World& world) const {
+    const auto go_on = [](IslandRest& rest) {
+        if (rest.steps > 0) --rest.steps;
+    };
+    for (Joint& joint : world.joints.joints) go_on(joint.island_rest);
+    for (Link& link : world.links) go_on(link.island_rest);
     for (std::size_t i = 0; i < count_; ++i)
-        for (std::uint32_t k = members_[i].first_joint; k < members_[i].last_joint; ++k) {
-            IslandRest& rest = joints.joints[joints_.joint(k)].island_rest;
+        ties_.each(members_[i].ties, [&](const Tie& tie) {
+            if (tie.kind == TieKind::coupling) return;  // its joints rest
+            IslandRest& rest = tie.kind == TieKind::joint
+                                   ? world.joints.joints[tie.index].island_rest
+                                   : world.links[tie.index].island_rest;
             rest.misses = members_[i].given_up ? std::min(rest.misses + 1, kMostMisses) : 0;
             if (rest.misses > 0)
                 rest.steps = static_cast<std::uint32_t>(
-                    std::ceil(kRest * std::exp2(rest.misses) / settings.dt));
-        }
+                    std::ceil(kRest * std::exp2(rest.misses) / world.settings.dt));
+        });
 }
 
 void IslandGroup::store_impulses(ContactTable& contacts) const {

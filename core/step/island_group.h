@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// The islands that are solved exactly: from the world's tables to the solver's, and back.
 ///
-/// Their contacts are taken out of the sweeps, and their joints out of the trees and iterations.
+/// Their contacts are taken out of the sweeps, and their ties out of the trees and iterations.
 #pragma once
 
 #include "constraints/contact.h"
@@ -11,8 +11,8 @@
 #include "schedule/workers.h"
 #include "step/island_choice.h"
 #include "step/island_effort.h"
-#include "step/island_joints.h"
 #include "step/island_solver.h"
+#include "step/island_ties.h"
 #include "world/world.h"
 
 #include <vector>
@@ -21,8 +21,8 @@ namespace plumb {
 
 class IslandGroup {
 public:
-    /// `in_island` [joint]: which joints are solved here, written once a step.
-    IslandGroup(const Plan& plan, Workers& workers, std::vector<std::uint8_t>& in_island);
+    /// `solved`: which ties are solved here, written once a step.
+    IslandGroup(const Plan& plan, Workers& workers, SolvedTies& solved);
 
     /// Once a step: takes the pairs of its islands out of `pairs`, and the impulses that their
     /// contacts remember.
@@ -44,17 +44,18 @@ public:
     /// Adds what the contacts bear in this substep.
     void add_impulses(ContactSums& sums) const;
 
-    /// Once a substep, impulses of joints; once a step, those of contacts.
-    void store_impulses(JointTable& joints) const;
+    /// Once a substep, impulses of ties; once a step, those of contacts.
+    void store_tie_impulses(World& world) const;
     void store_impulses(ContactTable& contacts) const;
 
-    /// Once a step: which joints are left to others for a while.
-    void rest_joints(const Settings& settings, JointTable& joints) const;
+    /// Once a step: which ties are left to others for a while.
+    void rest_ties(World& world) const;
 
 private:
     struct Member {
-        std::uint32_t first_body, last_body, first_point, last_point, first_joint, last_joint;
-        double speed;  // at which its contacts and joints would part in this substep [m/s]
+        std::uint32_t first_body, last_body, first_point, last_point;
+        IslandTieRange ties;
+        double speed;  // at which its contacts and ties would part in this substep [m/s]
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
         bool may_be_disputed;
@@ -65,8 +66,9 @@ private:
         bool solved;
         bool bounces;   // in this substep
         bool parts;     // in this substep, and must gain nothing by it
-        double open;    // the worst joint [m], [rad]
-        bool given_up;  // in this step, its joints could not be closed
+        bool was_open;  // at the start of this substep
+        double open;    // the worst tie [m], [rad]
+        bool given_up;  // in this step, its ties could not be closed
     };
     void take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
@@ -77,19 +79,23 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
+    void note_open(StepReport& report, const Member& member) const;
+    void close_gently(IslandSolver& solver, Member& member);
     void bound_energy(IslandSolver& solver, Member& member);
     double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
     double strongest(const World& world, const Member& member, double h);
     double thrust_of(const World& world, const Member& member, double h) const;
     void ask(const World& world, const Member& member, std::size_t point, double h,
              const PushOut& push_out);
+    double open_at_start(const Member& member);
     void forget_impulses();
     void apply_impulses();
     Island island_of(const Member& member);
+    std::span<const Vector6d> starts_of(const Member& member) const;
     std::span<const Vector6d> velocities_of(const Member& member) const;
 
     Workers& workers_;
-    std::vector<std::uint8_t>& in_island_;
+    SolvedTies& solved_;
     bool has_friction_, resists_rolling_;
     IslandChoice choice_;
     std::vector<std::uint8_t> taken_;  // [pair]
@@ -103,7 +109,8 @@ private:
     std::vector<IslandPoint> points_;
     std::vector<std::uint8_t> locked_;  // [point] whether it is pushed out no more
     std::vector<double> parting_;       // [point] of the speed asked for, what may be too much
-    IslandJoints joints_;
+    IslandTies ties_;
+    std::vector<std::uint32_t> tied_;  // bodies of one tie
     std::vector<std::uint32_t> contacts_;  // [point] in the contact table
     std::vector<IslandSolver> solvers_;    // [worker]
 };

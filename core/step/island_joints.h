@@ -8,9 +8,8 @@
 
 #include "constraints/axis_drive.h"
 #include "constraints/joint_rows.h"
-#include "step/island.h"
+#include "step/island_rows.h"
 #include "step/substep_time.h"
-#include "world/world.h"
 
 #include <span>
 #include <vector>
@@ -21,27 +20,25 @@ class IslandJoints {
 public:
     void clear();
 
-    /// Adds a joint of an island, in which its bodies have these indices or are kImmovable.
-    void add(const World& world, std::uint32_t joint, std::uint32_t a, std::uint32_t b);
+    /// Adds a joint of one of the islands.
+    void add(const World& world, const ContactIslands& islands, std::uint32_t joint);
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(joints_.size()); }
     /// Index in the world's table.
     std::uint32_t joint(std::uint32_t i) const { return joints_[i].joint; }
 
-    /// Once a substep: rows at its start, with the impulses of the one before.
-    void begin(const World& world, const SubstepTime& time);
+    /// Once a substep: adds the rows of a joint at its start, with the impulses of the one before.
+    void begin(const World& world, const SubstepTime& time, std::uint32_t i,
+               std::vector<IslandRow>& rows);
 
-    // of the joints [first, last), those of one island
-
-    std::span<IslandRow> rows(std::uint32_t first, std::uint32_t last);
-
-    /// Asks the rows to close what is open at the preview of the velocities. Returns how far the
-    /// worst is open [m], [rad].
-    double ask(std::uint32_t first, std::uint32_t last, std::span<const Vector6d> velocity);
+    /// Asks its rows to close what is open at the preview of the velocities. Returns how far it is
+    /// open [m], [rad].
+    double ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
+               std::vector<IslandRow>& rows) const;
 
     /// Impulses of the substep, into the world's table.
-    void store_impulses(std::uint32_t first, std::uint32_t last, std::span<const Vector6d> velocity,
-                        JointTable& table) const;
+    void store_impulses(std::uint32_t i, std::span<const Vector6d> velocity,
+                        const std::vector<IslandRow>& rows, JointTable& table) const;
 
 private:
     /// All that drives one axis of a joint.
@@ -52,23 +49,17 @@ private:
     struct Member {
         std::uint32_t joint, a, b;            ///< in the world's table; of the island
         std::uint32_t first_axis, last_axis;  ///< of axes_
-        std::uint32_t first_row = 0, first_axis_row = 0, last_row = 0;
-        Velocity<double> held_a, held_b;  ///< of what is immovable
+        std::uint32_t first_row = 0, first_axis_row = 0;  ///< those it takes away, then its axes
+        Velocity<double> scripted_a, scripted_b;          ///< of what is immovable
         JointGeometry<double> geometry;
         double deferred[6];  ///< old error that is left for later [m], [rad]
     };
 
-    void begin(const World& world, const SubstepTime& time, Member& member);
-    void add_axis_row(const World& world, const SubstepTime& time, const Member& member,
-                      std::uint32_t axis);
-    void add_row(const World& world, const Member& member, const Vector3d& along,
-                 const Vector3d& turn_a, const Vector3d& turn_b);
-    double ask(Member& member, std::span<const Vector6d> velocity);
+    IslandRow axis_row(const World& world, const SubstepTime& time, const Member& member,
+                       Axis& axis) const;
 
     std::vector<Member> joints_;
     std::vector<Axis> axes_;
-    std::vector<IslandRow> rows_;  // by joint: those that it takes away, then its axes
-    double h_ = 0;
 };
 
 }  // namespace plumb

@@ -247,11 +247,8 @@ void IslandSolver::sweep_both_ways() {
 /// The same of a row, which remembers it.
 void IslandSolver::push(IslandRow& row, double impulse) {
     row.impulse += impulse;
-    const auto push_body = [&](std::uint32_t i, const Vector6d& on) {
-        if (i != kImmovable) island_.velocity[i] += response(island_.bodies[i], impulse * on);
-    };
-    push_body(row.a, row.on_a);
-    push_body(row.b, row.on_b);
+    for (const RowSide& side : row.sides())
+        island_.velocity[side.body] += response(island_.bodies[side.body], impulse * side.on);
 }
 
 /// One projected Gauss–Seidel sweep.
@@ -293,7 +290,7 @@ void IslandSolver::begin_round(double softness, double error) {
     }
     row_work_.clear();
     for (const IslandRow& row : island_.rows) {
-        const double hardest = row.mass / (row.drive ? softness : kJoint);
+        const double hardest = row.mass / (row.drive || row.is_one_sided() ? softness : kJoint);
         double gentle = hardest;
         if (row.drive)
             gentle = std::max(span_of(*row.drive) * row.length / error, row.mass / kGentle);
@@ -391,11 +388,13 @@ void IslandSolver::assemble() {
         const IslandRow& row = island_.rows[k];
         const double slope = answer_of(row, row_work_[k].rate, row_work_[k].stiffness).slope;
         if (slope == 0) continue;
-        const Vector6d on_a = slope * row.on_a, on_b = slope * row.on_b;
-        if (row.a != kImmovable) system_->add(row.a, on_a * row.on_a.transpose());
-        if (row.b != kImmovable) system_->add(row.b, on_b * row.on_b.transpose());
-        if (row.a != kImmovable && row.b != kImmovable)
-            system_->add(row.a, row.b, on_a * row.on_b.transpose());
+        for (std::uint32_t i = 0; i < row.count; ++i) {
+            const RowSide& a = row.side[i];
+            system_->add(a.body, slope * a.on * a.on.transpose());
+            for (std::uint32_t j = i + 1; j < row.count; ++j)
+                system_->add(a.body, row.side[j].body,
+                             slope * a.on * row.side[j].on.transpose());
+        }
     }
 }
 

@@ -44,13 +44,18 @@ public:
     /// Sweeps from the impulses and velocities that there are.
     void sweep(const Island& island);
 
+    /// Takes all impulses away, and leaves the velocities.
+    static void forget(const Island& island) {
+        for (IslandPoint& p : island.points) p.impulse.setZero();
+        for (IslandRow& row : island.rows) row.impulse = 0;
+    }
+
     /// Where nothing was found: sweeps from impulses of 0, which can make no more of it than there
     /// is. `ask()` comes before each.
     template <class Ask>
     void sweep_anew(const Island& island, Ask ask) {
         island_ = island;
-        for (IslandPoint& p : island_.points) p.impulse.setZero();
-        for (IslandRow& row : island_.rows) row.impulse = 0;
+        forget(island);
         for (int i = 0; i < kSweepsAnew; ++i) ask(), sweep_both_ways();
     }
 

@@ -9,6 +9,7 @@
 #include "step/coupling_solver.h"
 #include "step/drive_state.h"
 #include "step/velocity_table.h"
+#include "world/tie.h"
 
 #include <vector>
 
@@ -17,11 +18,14 @@ namespace plumb {
 template <class Real, int W>
 class JointSolver final : public ConstraintGroup<Real> {
 public:
-    /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another; `in_island`
-    /// [joint]: the same in this step.
+    /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another; `in_islands`:
+    /// the same in this step.
     JointSolver(const World& world, const std::vector<std::uint8_t>& elsewhere,
-                const std::vector<std::uint8_t>& in_island, Workers& workers)
-        : kernels_(joint_kernels<Real, W>()), in_island_(in_island), workers_(workers) {
+                const SolvedTies& in_islands, Workers& workers)
+        : kernels_(joint_kernels<Real, W>()),
+          in_island_(in_islands.joints),
+          workers_(workers),
+          couplings_(in_islands.couplings) {
         lay_out(world, elsewhere);
     }
 

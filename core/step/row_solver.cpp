@@ -66,18 +66,18 @@ public:
           shocks_(plan.runs(Effect::shock_propagation)),
           has_impacts_(plan.runs(Effect::impacts)),
           warm_start_(settings_.warm_start && !shocks_),
-          in_island_(world.joints.size(), 0),
+          solved_ties_(world),
           impacts_(carry_momentum(settings_, plan.runs(Effect::gyroscopic))),
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         make_groups(world, plan);
         if (shocks_) shock_.emplace(plan, workers);
-        if (plan.runs(Effect::exact_islands)) islands_.emplace(plan, workers, in_island_);
+        if (plan.runs(Effect::exact_islands)) islands_.emplace(plan, workers, solved_ties_);
     }
 
     void load(const World& world) override {
         IslandGroup* exact = islands_ ? &*islands_ : nullptr;
-        for (const auto& group : groups_) group->load(world);
         contacts_->load(world, nullptr, exact);
+        for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
         if (has_impacts_) impacts_.reserve(world, contacts_->pairs()), contacts_->reserve_impacts();
         if (!shocks_) return;
@@ -210,14 +210,14 @@ public:
             const auto share = share_of(*group, ledger, Stage::joints);
             group->end_substep(world);
         }
-        if (islands_) islands_->store_impulses(world.joints);
+        if (islands_) islands_->store_tie_impulses(world);
     }
 
     void end_step(World& world) override {
         for (const auto& group : groups_) group->end_step(world);
         if (!islands_) return;
         islands_->store_impulses(world.contacts);
-        islands_->rest_joints(settings_, world.joints);
+        islands_->rest_ties(world);
     }
 
 private:
@@ -239,17 +239,17 @@ private:
             const JointForest forest = grows ? find_forest(world) : JointForest();
             add<JointSolver<Real, W>>(
                 world, grows ? forest.in_tree : std::vector<std::uint8_t>(world.joints.size(), 0),
-                in_island_, workers_);
+                solved_ties_, workers_);
             if (grows && is_narrow(forest))
-                trees_ = add<JointTreeGroup<Real, 1>>(world, forest, in_island_, workers_);
+                trees_ = add<JointTreeGroup<Real, 1>>(world, forest, solved_ties_.joints, workers_);
             else if (grows)
-                trees_ = add<JointTreeGroup<Real, W>>(world, forest, in_island_, workers_);
+                trees_ = add<JointTreeGroup<Real, W>>(world, forest, solved_ties_.joints, workers_);
         }
         if (plan.runs(Effect::exact_deformables))
             add<ExactDeformableGroup<Real>>(world, workers_);
         else if (plan.runs(Effect::deformables))
             add<DeformableGroup<Real, W>>(world, workers_);
-        if (plan.runs(Effect::links)) add<LinkGroup<Real>>(world, workers_);
+        if (plan.runs(Effect::links)) add<LinkGroup<Real>>(world, solved_ties_.links, workers_);
         if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
         if (plan.runs(Effect::particle_contacts))
@@ -285,7 +285,7 @@ private:
     bool warm_start_;
     VelocityTable<Real> table_;
     PassSettings<Real> pass_{};
-    std::vector<std::uint8_t> in_island_;  ///< [joint] whether an exact island has it in this step
+    SolvedTies solved_ties_;
     std::vector<std::unique_ptr<Group>> groups_;  ///< in the order of an iteration
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;

@@ -2,6 +2,7 @@
 #include "world/build_links.h"
 
 #include "scene/error.h"
+#include "world/build_joints.h"
 #include "world/point_place.h"
 
 #include <string>
@@ -57,6 +58,30 @@ void attach(World& world, const AttachmentSpec& spec, const std::string& place) 
     }
 }
 
+/// Whether a link is a distance joint: rigid, and between bodies. Trees of joints know more of such
+/// than links do: how bodies turn at its ends within a substep, and what heavy loads do to light
+/// ones.
+bool is_rod(const World& world, const Link& link) {
+    const auto moves = [&](const WorldPoint& p) {
+        return p.body != kNoIndex && world.bodies.motion[p.body] == Motion::dynamic;
+    };
+    return link.is_between_bodies() && link.shortest == link.longest && link.compliance == 0 &&
+           (moves(link.a) || moves(link.b));
+}
+
+JointDraft rod_joint(const World& world, const Link& link, const std::string& place) {
+    JointSpec spec;
+    spec.kind = JointKind::distance;
+    const bool swapped = link.a.body == kNoIndex;
+    const WorldPoint &a = swapped ? link.b : link.a, &b = swapped ? link.a : link.b;
+    spec.body_a = a.body, spec.body_b = b.body;
+    spec.anchor = place_of(world, a), spec.anchor_b = place_of(world, b);
+    spec.collide = true;
+    JointDraft draft = make_joint(world, spec, place);
+    draft.joint.length = link.longest;
+    return draft;
+}
+
 }  // namespace
 
 void build_links(World& world, const Scene& scene) {
@@ -69,16 +94,19 @@ void build_links(World& world, const Scene& scene) {
         link.a = world_point(world, spec.a, place + "/a");
         link.b = world_point(world, spec.b, place + "/b");
         const double apart = (place_of(world, link.a) - place_of(world, link.b)).norm();
-        const bool is_rod = !spec.shortest && !spec.longest;
-        link.shortest = is_rod ? apart : spec.shortest.value_or(0);
-        link.longest = is_rod ? apart : spec.longest.value_or(std::max(apart, 1e9));
+        const bool keeps_length = !spec.shortest && !spec.longest;
+        link.shortest = keeps_length ? apart : spec.shortest.value_or(0);
+        link.longest = keeps_length ? apart : spec.longest.value_or(std::max(apart, 1e9));
         link.compliance = spec.compliance, link.damping = spec.damping;
         if (!(link.shortest >= 0) || !(link.longest >= link.shortest) || !(link.longest > 0))
             throw SceneError("", place,
                              "its lengths must be 0 ≤ shortest ≤ longest, and not both 0");
         if (!(link.compliance >= 0) || !(link.damping >= 0))
             throw SceneError("", place, "compliance and damping must not be negative");
-        world.links.push_back(link);
+        if (is_rod(world, link))
+            append_joint(world, rod_joint(world, link, place));
+        else
+            world.links.push_back(link);
     }
 }
 

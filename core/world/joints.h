@@ -9,6 +9,7 @@
 
 #include "math/types.h"
 #include "scene/joint.h"
+#include "world/island_rest.h"
 
 #include <array>
 #include <cmath>
@@ -31,13 +32,6 @@ struct TreePace {
     /// Whether the tree is advanced by itself: it is also in the first substep that is whole again,
     /// since its velocity is that of the middle of a part.
     bool is_divided() const { return parts > 0 || before > 1; }
-};
-
-/// For how long a joint is left out of the islands that are solved exactly, since one that held it
-/// was not: what contradicts itself is left to sweeps, and tried again ever more seldom.
-struct IslandRest {
-    std::uint32_t steps = 0;   ///< that are left
-    std::uint32_t misses = 0;  ///< without a success between them
 };
 
 struct Joint {

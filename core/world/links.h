@@ -4,6 +4,7 @@
 
 #include "math/types.h"
 #include "scene/geometry.h"
+#include "world/island_rest.h"
 
 #include <cstdint>
 #include <vector>
@@ -23,6 +24,11 @@ struct Link {
     double shortest = 0, longest = 0;     ///< [m]
     double compliance = 0, damping = 0;   ///< [m/N], [N s/m]
     Vector3d impulse = Vector3d::Zero();  ///< on a, of the last substep [N s]
+    IslandRest island_rest;
+
+    bool is_between_bodies() const {
+        return a.particle == kNoIndex && b.particle == kNoIndex && !joins;
+    }
 };
 
 }  // namespace plumb

@@ -60,16 +60,21 @@ struct World {
     }
     /// Rows that change: of dynamic bodies and of particles.
     std::int32_t moving_count() const { return particle_row(particles.size()); }
-    /// Calls visit(body) for each body that a particle touches or a link ends on, as often as one
-    /// does.
+    /// Calls visit(body) for each body that a particle touches or is linked to, as often as one is.
     template <class Visit>
     void each_body_among_particles(Visit visit) const {
         for (const Contact& c : particle_contacts.found) visit(c.b);
         for (const SurfaceContact& c : surface_contacts)
             if (c.point.body != kNoIndex) visit(c.point.body);
+        each_linked_body(false, visit);
+    }
+    /// The same for each end of a link between bodies, or of one with particles.
+    template <class Visit>
+    void each_linked_body(bool between_bodies, Visit visit) const {
         for (const Link& link : links)
             for (const WorldPoint* p : {&link.a, &link.b})
-                if (p->body != kNoIndex) visit(p->body);
+                if (link.is_between_bodies() == between_bodies && p->body != kNoIndex)
+                    visit(p->body);
     }
     std::int32_t zero_row() const { return moving_count() + kinematic_count; }
 };

@@ -158,9 +158,9 @@ struct Train {
 private:
     void add_row(std::uint32_t a, std::uint32_t b) {
         IslandRow& row = rows.emplace_back();
-        row.a = a, row.b = b, row.length = 1, row.most = 1e6;
-        row.on_a << 1, 0, 0, 0, 0, 0;
-        row.on_b = -row.on_a;
+        row.most = 1e6;
+        const Vector6d along = Vector6d::Unit(0);
+        row.add_side(a, along), row.add_side(b, -along);
         row.mass = 1 / (1 / bodies[a].mass + (b == kImmovable ? 0 : 1 / bodies[b].mass));
     }
 };
@@ -190,6 +190,48 @@ TEST(IslandSolver, DrivesHoldUpToTheirBounds) {
         for (const Vector6d& v : train.velocity)
             EXPECT_NEAR(v[0], 2 * (1 - std::min(share, 1.0)), 1e-5) << share;
     }
+}
+
+/// Ropes pull and do not push: a train that is pulled apart stays together, one that is pushed
+/// together closes up.
+TEST(IslandSolver, RopesPullAndDoNotPush) {
+    for (const bool pulled : {true, false}) {
+        Train train(6);
+        for (IslandRow& row : train.rows)
+            if (!row.drive) row.highest = 0;
+        train.velocity[pulled ? 5 : 0][0] = 3;  // the last is at the front
+        IslandSolver solver;
+        EXPECT_TRUE(solver.solve(train.island(), train.system, 3).solved);
+        for (std::size_t i = 0; i < 6; ++i)
+            EXPECT_NEAR(train.velocity[i][0], pulled ? 18 / train.mass() : i == 0 ? 3 : 0, 1e-5);
+        for (const IslandRow& row : train.rows)
+            if (!row.drive) {
+                EXPECT_LE(row.impulse, 0);
+            }
+    }
+}
+
+/// A row of four bodies, as of two coupled joints: v₀ − v₁ = v₂ − v₃.
+TEST(IslandSolver, ARowHasUpToFourBodies) {
+    Train train(4);
+    train.rows.resize(1);
+    IslandRow& row = train.rows[0];
+    row.count = 0, row.mass = 0;
+    for (std::uint32_t i = 0; i < 4; ++i) {
+        row.add_side(i, (i == 0 || i == 3 ? 1 : -1) * Vector6d::Unit(0));
+        row.mass += 1 / train.bodies[i].mass;
+    }
+    row.mass = 1 / row.mass;
+    BlockCholesky::Pattern all;
+    for (std::uint32_t i = 0; i < 4; ++i)
+        for (std::uint32_t j = 0; j < i; ++j) all.emplace_back(i, j);
+    train.system.analyse(4, all);
+    train.velocity[0][0] = 3;
+    IslandSolver solver;
+    EXPECT_TRUE(solver.solve(train.island(), train.system, 3).solved);
+    const std::vector<Vector6d>& v = train.velocity;
+    EXPECT_NEAR(v[0][0] - v[1][0] - v[2][0] + v[3][0], 0, 1e-6);
+    EXPECT_NEAR(row.impulse, -3 * row.mass, 1e-5);
 }
 
 /// Two rods between the same balls that ask for different things: bounded, and the mean of both.

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+/// The links (constraints/link.h) between bodies of islands that are solved exactly. Impulses act
+/// along the line of the start of a substep, and the rows are asked to close what is still open at
+/// the preview poses, as those of joints are.
+#pragma once
+
+#include "constraints/link.h"
+#include "step/island_rows.h"
+#include "step/substep_time.h"
+
+#include <span>
+#include <vector>
+
+namespace plumb {
+
+class IslandLinks {
+public:
+    void clear() { links_.clear(); }
+
+    /// Adds a link of one of the islands.
+    void add(const World& world, const ContactIslands& islands, std::uint32_t link);
+
+    std::uint32_t size() const { return static_cast<std::uint32_t>(links_.size()); }
+    /// Index in the world's table.
+    std::uint32_t link(std::uint32_t i) const { return links_[i].link; }
+
+    /// Once a substep: adds the rows of a link at its start, with the impulse of the one before.
+    void begin(const World& world, const SubstepTime& time, std::uint32_t i,
+               std::vector<IslandRow>& rows);
+
+    /// Asks its rows to close what is open at the preview of the velocities. Returns how far it is
+    /// open [m].
+    double ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
+               std::vector<IslandRow>& rows) const;
+
+    /// The impulse of the substep, into the world's table.
+    void store_impulses(std::uint32_t i, const std::vector<IslandRow>& rows,
+                        std::vector<Link>& links) const;
+
+private:
+    struct Member {
+        std::uint32_t link, a, b;  ///< in the world's table; of the island
+        LinkedPoint at_a, at_b;
+        Velocity<double> scripted_a, scripted_b;  ///< of what is immovable
+        Vector3d line;                            ///< out of b towards a, at the start
+        double length, lag;                       ///< at the start [m]; see point_lag
+        std::uint32_t first_row = 0, last_row = 0;
+        double rest[2];  ///< length that a row keeps [m]
+    };
+    std::vector<Member> links_;
+};
+
+}  // namespace plumb

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+/// Ties: what holds two or more bodies together for as long as it lives, unlike a contact.
+#pragma once
+
+#include "world/world.h"
+
+#include <cstdint>
+
+namespace plumb {
+
+enum class TieKind : std::uint8_t { joint, link, coupling };
+
+/// An entry of the world's joints, links or couplings.
+struct Tie {
+    TieKind kind;
+    std::uint32_t index;
+};
+
+/// Visits the bodies that a tie holds together, and kNoIndex for the world; a body of two coupled
+/// joints twice.
+template <class Visit>
+void each_body(const World& world, const Tie& tie, Visit visit) {
+    const auto of_joint = [&](std::uint32_t i) {
+        visit(world.joints.joints[i].a), visit(world.joints.joints[i].b);
+    };
+    switch (tie.kind) {
+        case TieKind::joint:
+            return of_joint(tie.index);
+        case TieKind::link:
+            return visit(world.links[tie.index].a.body), visit(world.links[tie.index].b.body);
+        case TieKind::coupling:
+            of_joint(world.joints.couplings[tie.index].joint_a);
+            of_joint(world.joints.couplings[tie.index].joint_b);
+    }
+}
+
+/// Whether a tie holds anything: nothing that is broken does.
+inline bool holds(const World& world, const Tie& tie) {
+    const auto is_whole = [&](std::uint32_t i) { return !world.joints.joints[i].broken; };
+    if (tie.kind == TieKind::joint) return is_whole(tie.index);
+    if (tie.kind == TieKind::link) return true;
+    const JointCoupling& c = world.joints.couplings[tie.index];
+    return is_whole(c.joint_a) && is_whole(c.joint_b);
+}
+
+/// What exact islands solve in a step, so that others leave it alone: by index in the world's
+/// tables.
+struct SolvedTies {
+    std::vector<std::uint8_t> joints, links, couplings;
+
+    explicit SolvedTies(const World& world)
+        : joints(world.joints.size(), 0),
+          links(world.links.size(), 0),
+          couplings(world.joints.couplings.size(), 0) {}
+
+    std::uint8_t& operator[](const Tie& tie) {
+        if (tie.kind == TieKind::joint) return joints[tie.index];
+        return tie.kind == TieKind::link ? links[tie.index] : couplings[tie.index];
+    }
+    void clear() {
+        for (auto* column : {&joints, &links, &couplings})
+            std::fill(column->begin(), column->end(), 0);
+    }
+};
+
+}  // namespace plumb

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+/// Rods between bodies, in chains and in loops, and coupled wheels: they keep their lengths and
+/// energy at settings drawn at random.
+#include "support/random.h"
+#include "support/scenes.h"
+#include "support/soft.h"
+
+#include <cmath>
+
+namespace plumb::test {
+namespace {
+
+class Trusses : public InEachPrecision {};
+INSTANTIATE_TEST_SUITE_P(, Trusses, each_precision(), precision_name);
+
+void draw_settings(Settings& s, Random& random, int draw) {
+    if (draw % 3 == 0) return;
+    if (draw % 3 == 1) return use_fine_steps(s);
+    s.dt = random.number(0.001, 0.01);
+    s.substeps = 1 + random.below(12);
+    s.velocity_iterations = s.position_iterations = 1 + random.below(10);
+}
+
+double drawn_mass(Random& random, double most) {
+    return std::exp(random.number(0, std::log(most)));
+}
+
+/// Two to six bodies, from 1 to 50 kg, each on a rod of the one before, thrown or hung.
+TEST_P(Trusses, ChainsOfRodsKeepTheirEnergyAndLength) {
+    Random random(5);
+    for (int draw = 0; draw < 30; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.forbid = {"contacts"};
+        const bool hangs = draw % 2 == 0;
+        if (!hangs) s.settings.gravity.setZero();
+        const std::uint32_t count = 2 + random.below(5);
+        double lowest = 0;  // potential energy of the chain that hangs straight down, about
+        Vector before = Vector::Zero();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vector way = hangs ? Vector(std::sin(0.5), -std::cos(0.5), 0)
+                                     : Vector(random.direction());
+            const Vector at = before + 0.8 * way;
+            BodySpec& body = add_body(s, sphere(0.15), at);
+            body.mass = drawn_mass(random, 50);
+            if (!hangs) body.velocity = random.vector();
+            lowest -= *body.mass * kGravity * 0.8 * (i + 1);
+            if (i > 0)
+                add_link(s, on_body(i, at), on_body(i - 1, before));
+            else if (hangs)
+                add_link(s, on_body(i, at), in_the_world(before));
+            before = at;
+        }
+        draw_settings(s.settings, random, draw);
+        SCOPED_TRACE(draw);
+        Simulation simulation(s, colliders(), "reference");
+        const double base = hangs ? lowest : 0;
+        double widest = 0, first = 0, last = 0;
+        int of_first = 0, of_last = 0;
+        while (simulation.time() < 10) {
+            simulation.step();
+            for (const double e : joint_errors(simulation.world())) widest = std::max(widest, e);
+            const double energy = total_energy(simulation) - base;
+            if (simulation.time() < 2) first += energy, ++of_first;
+            if (simulation.time() > 8) last += energy, ++of_last;
+        }
+        EXPECT_NEAR((last / of_last) / (first / of_first), 1, 0.01);
+        EXPECT_LT(widest, 1e-5);
+    }
+}
+
+/// Triangles and tetrahedra of rods, whose loops are closed exactly, tumble in free space.
+TEST_P(Trusses, LoopsOfRodsKeepTheirEnergyAndLength) {
+    Random random(6);
+    for (int draw = 0; draw < 30; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.forbid = {"contacts"};
+        s.settings.gravity.setZero();
+        const Vector corners[] = {{0, 0, 0}, {1, 0, 0}, {0.5, 0, 0.87}, {0.5, 0.82, 0.29}};
+        const std::uint32_t count = 3 + draw % 2;
+        const Rotation turn = random.rotation();
+        const Vector spin = random.vector(2);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vector at = turn * corners[i];
+            BodySpec& body = add_body(s, sphere(0.1), at);
+            body.mass = drawn_mass(random, 50);
+            body.velocity = spin.cross(at);
+            for (std::uint32_t j = 0; j < i; ++j)
+                add_link(s, on_body(i, at), on_body(j, turn * corners[j]));
+        }
+        draw_settings(s.settings, random, draw);
+        SCOPED_TRACE(draw);
+        Simulation simulation(s, colliders(), "reference");
+        const double start = total_energy(simulation);
+        double widest = 0;
+        while (simulation.time() < 10) {
+            simulation.step();
+            for (const double e : joint_errors(simulation.world())) widest = std::max(widest, e);
+        }
+        EXPECT_NEAR(total_energy(simulation) / start, 1, 0.01);
+        EXPECT_LT(widest, 1e-5);
+    }
+}
+
+/// Wheels that are out of balance and geared to each other swing about their lowest place.
+TEST_P(Trusses, CoupledWheelsKeepTheirEnergy) {
+    Random random(7);
+    for (int draw = 0; draw < 20; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.forbid = {"contacts"};
+        const std::uint32_t count = 2 + random.below(3);
+        double lowest = 0;
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Vector centre(i, 0, 0);
+            const double arm = random.number(0.1, 0.3), angle = random.number(0, 6);
+            BodySpec& body = add_body(s, box(0.2, 0.1, 0.05),
+                                      centre + arm * Vector(std::cos(angle), std::sin(angle), 0));
+            body.mass = drawn_mass(random, 50), body.mask = body.group = 0;
+            lowest -= *body.mass * kGravity * arm;
+            JointSpec hinge;
+            hinge.kind = JointKind::hinge, hinge.body_a = i, hinge.anchor = centre;
+            hinge.frame = rotation_between(Vector::UnitX(), Vector::UnitZ());
+            s.joints.push_back(hinge);
+            if (i == 0) continue;
+            CouplingSpec gear;
+            gear.joint_a = i - 1, gear.joint_b = i;
+            gear.ratio = (random.below(2) ? 1 : -1) * random.number(0.3, 3);
+            s.couplings.push_back(gear);
+        }
+        draw_settings(s.settings, random, draw);
+        SCOPED_TRACE(draw);
+        Simulation simulation(s, colliders(), "reference");
+        double first = 0, last = 0;
+        int of_first = 0, of_last = 0;
+        while (simulation.time() < 20) {
+            simulation.step();
+            const double energy = total_energy(simulation) - lowest;
+            if (simulation.time() < 4) first += energy, ++of_first;
+            if (simulation.time() > 16) last += energy, ++of_last;
+        }
+        EXPECT_NEAR((last / of_last) / (first / of_first), 1, 0.02);
+    }
+}
+
+}  // namespace
+}  // namespace plumb::test
