@@ -21,8 +21,8 @@ struct ContactIsland {
 /// and ties of an island in their own.
 class ContactIslands {
 public:
-    /// `ties`: bodies that are held together. Where nothing touches there is no island, but for what
-    /// the ties from `first_seed` on hold.
+    /// `ties`: bodies that are held together. Where nothing touches there is no island, but for
+    /// what the ties from `first_seed` on hold.
     void find(const std::vector<BodyPair>& pairs, const std::vector<BodyPair>& ties,
               std::size_t first_seed, std::int32_t dynamic_count);
 

@@ -62,8 +62,8 @@ public:
 private:
     struct Row {
         CouplingRow formula;
-        std::array<std::int32_t, 4> at{};       ///< rows of its bodies
-        std::array<Vector3d, 4> to_v, to_w;     ///< what an impulse of 1 does to them
+        std::array<std::int32_t, 4> at{};    ///< rows of its bodies
+        std::array<Vector3d, 4> to_v, to_w;  ///< what an impulse of 1 does to them
         double mass = 0, lambda = 0;
     };
 

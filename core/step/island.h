@@ -60,10 +60,10 @@ struct IslandRow {
     static constexpr std::uint32_t kMostSides = 4;  ///< two joints that are coupled
 
     std::array<RowSide, kMostSides> side;
-    std::uint32_t count = 0;  ///< of sides
-    double mass = 0;          ///< effective [kg], [kg m²]
-    double length = 1;        ///< that makes a velocity of the rate: 1, or [m]
-    double moving = 0;        ///< rate of what is immovable and moves by itself
+    std::uint32_t count = 0;          ///< of sides
+    double mass = 0;                  ///< effective [kg], [kg m²]
+    double length = 1;                ///< that makes a velocity of the rate: 1, or [m]
+    double moving = 0;                ///< rate of what is immovable and moves by itself
     double wanted = 0, softness = 0;  ///< of a row that is taken away: rate − wanted + softness λ
                                       ///< is 0 [m/s], [1/kg], or of turning
     double most = 0;  ///< more than such a row bears unless others contradict it [N s], [N m s]
@@ -118,8 +118,8 @@ inline RowAnswer answer_of(const IslandRow& row, double rate, double stiffness) 
         const double slope = stiffness / (1 + stiffness * row.softness);
         const double impulse =
             row.impulse + slope * (row.wanted - rate - row.softness * row.impulse);
-        const double within = std::clamp(impulse, std::max(row.lowest, -row.most),
-                                         std::min(row.highest, row.most));
+        const double within =
+            std::clamp(impulse, std::max(row.lowest, -row.most), std::min(row.highest, row.most));
         return {within, within == impulse ? slope : 0};
     }
     const AxisAnswer met = answer_of(*row.drive, rate + row.moving, row.impulse, 1 / stiffness);

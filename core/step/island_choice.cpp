@@ -37,8 +37,8 @@ constexpr double kJam = 0.0025, kStuck = 0.25;
 /// What rests has been pulled on for a substep already; what is hardly faster counts as resting.
 constexpr double kPulled = 1.05;
 
-/// How far joints may turn within a substep [rad], also where others are worse at it, and the square
-/// of h ω of what they pull.
+/// How far joints may turn within a substep [rad], also where others are worse at it, and the
+/// square of h ω of what they pull.
 constexpr double kFarTurn = 0.2, kFarthestTurn = 1, kHardPull = 2;
 
 /// A motor is boundless that lifts so many times the weight of the bodies that it drives.
@@ -214,8 +214,7 @@ void IslandChoice::find_ties(const World& world) {
     }
     // two trees of joints become one
     const auto mover = [&](const Joint& joint) {
-        const bool moves =
-            joint.b == kNoIndex || world.bodies.motion[joint.a] == Motion::dynamic;
+        const bool moves = joint.b == kNoIndex || world.bodies.motion[joint.a] == Motion::dynamic;
         return moves ? joint.a : joint.b;
     };
     for (std::uint32_t i = 0; i < world.joints.couplings.size(); ++i) {
@@ -242,8 +241,8 @@ std::size_t IslandChoice::move_loops_back(const World& world) {
     return kept;
 }
 
-/// Called for one joint after another: whether those before tie its bodies together already. What is
-/// immovable is one body.
+/// Called for one joint after another: whether those before tie its bodies together already. What
+/// is immovable is one body.
 bool IslandChoice::closes_loop(const BodyPair& joint) {
     const auto root = [this](std::int32_t row) {
         auto at = static_cast<std::size_t>(row);

@@ -8,11 +8,12 @@
 ///
 /// Ties hold an island together as contacts do, and are solved with it; links between bodies and
 /// couplings, and joints that close a loop, are so even where nothing touches: others only iterate
-/// them. Left to others are islands with motors that nothing can stop, with links to particles, with
-/// joints or links that turn far within a substep or pull so hard that levers have to turn with them
-/// (constraints/joint_lever.h, constraints/link.h), and for a while those whose ties could not be
-/// closed. Of these last three, what links, couplings or loops tie and nothing drives is swept here,
-/// where it is seen to that it gains nothing; what something drives is left to others as a whole.
+/// them. Left to others are islands with motors that nothing can stop, with links to particles,
+/// with joints or links that turn far within a substep or pull so hard that levers have to turn
+/// with them (constraints/joint_lever.h, constraints/link.h), and for a while those whose ties
+/// could not be closed. Of these last three, what links, couplings or loops tie and nothing drives
+/// is swept here, where it is seen to that it gains nothing; what something drives is left to
+/// others as a whole.
 ///
 /// What overlaps deeply is left to others, too, where it is squeezed, jointed or very small. A heap
 /// that is left to itself is swept here until it is out: its sweeps find more than others do.
@@ -103,10 +104,10 @@ private:
                      const std::vector<BodyPair>& pairs);
 
     ContactIslands found_;
-    double stuck_share_ = 1;               ///< of an overlap, from which it counts as left
-    std::vector<Tie> ties_;                // joints, those that close loops, links, couplings
-    std::vector<BodyPair> tied_rows_;      // [tie]
-    std::size_t first_seed_ = 0;           // of ties_: those from it on need nothing that touches
+    double stuck_share_ = 1;           ///< of an overlap, from which it counts as left
+    std::vector<Tie> ties_;            // joints, those that close loops, links, couplings
+    std::vector<BodyPair> tied_rows_;  // [tie]
+    std::size_t first_seed_ = 0;       // of ties_: those from it on need nothing that touches
     std::vector<std::pair<Tie, BodyPair>> loops_;
     std::vector<std::size_t> tied_;        // [dynamic row, then the ground] see closes_loop
     std::vector<std::uint8_t> obstacles_;  // [dynamic row] bits, see rule_out

@@ -26,8 +26,9 @@ constexpr double kLocked = 0.1;
 /// A joint may bear so many times more: levers and toggles multiply what they bear.
 constexpr double kLever = 100;
 
-/// How often an island is solved until its ties are closed; and at most, as long as each time leaves
-/// no more than this share of what was open: near to where a linkage is stretched out it is slow.
+/// How often an island is solved until its ties are closed; and at most, as long as each time
+/// leaves no more than this share of what was open: near to where a linkage is stretched out it is
+/// slow.
 constexpr int kCloses = 8, kMostCloses = 40;
 constexpr double kClosing = 0.8;
 
@@ -403,7 +404,8 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
 double IslandGroup::open_at_start(const Member& member) {
     if (member.ties.empty()) return 0;
     force_.assign(force_.size(), Vector6d::Zero());
-    return ties_.ask_to_close(member.ties, {force_.data() + member.first_body, starts_of(member).size()});
+    return ties_.ask_to_close(member.ties,
+                              {force_.data() + member.first_body, starts_of(member).size()});
 }
 
 void IslandGroup::forget_impulses() {
@@ -419,8 +421,7 @@ void IslandGroup::apply_impulses() {
         const std::span<Vector6d> sums(force_.data() + m.first_body, m.last_body - m.first_body);
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
             add_impulse(points_[k], points_[k].impulse, sums);
-        for (const IslandRow& row : ties_.rows(m.ties))
-            add_impulse(row, row.impulse, sums);
+        for (const IslandRow& row : ties_.rows(m.ties)) add_impulse(row, row.impulse, sums);
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         velocity_[i] += response(bodies_[i], force_[i]);
@@ -456,8 +457,7 @@ void IslandGroup::solve(const World& world, StepReport& report) {
 
 void IslandGroup::note_open(StepReport& report, const Member& member) const {
     const Tie& tie = ties_.first_of(member.ties);
-    if (tie.kind == TieKind::joint)
-        report.open_trees.push_back({tie.index, member.open});
+    if (tie.kind == TieKind::joint) report.open_trees.push_back({tie.index, member.open});
 }
 
 /// Ties are not linear: what a solution leaves open of them is asked for again.

@@ -110,7 +110,7 @@ private:
     std::vector<std::uint8_t> locked_;  // [point] whether it is pushed out no more
     std::vector<double> parting_;       // [point] of the speed asked for, what may be too much
     IslandTies ties_;
-    std::vector<std::uint32_t> tied_;  // bodies of one tie
+    std::vector<std::uint32_t> tied_;      // bodies of one tie
     std::vector<std::uint32_t> contacts_;  // [point] in the contact table
     std::vector<IslandSolver> solvers_;    // [worker]
 };

@@ -124,8 +124,8 @@ void IslandJoints::store_impulses(std::uint32_t i, std::span<const Vector6d> vel
         joint.rows[k] = m.geometry.lock[k] > 0 ? rows[at++].impulse : 0;
     for (std::uint32_t axis = m.first_axis; axis < m.last_axis; ++axis, ++at) {
         const IslandRow& row = rows[at];
-        AxisAnswer met = answer_of(*row.drive, rate_of(row, velocity) + row.moving, row.impulse,
-                                   1 / row.mass);
+        AxisAnswer met =
+            answer_of(*row.drive, rate_of(row, velocity) + row.moving, row.impulse, 1 / row.mass);
         met.impulse = row.impulse;
         double shares[AxisDrive::kMostRows] = {};
         share_impulse(*row.drive, met, shares);

@@ -47,8 +47,8 @@ private:
         AxisDrive drive;
     };
     struct Member {
-        std::uint32_t joint, a, b;            ///< in the world's table; of the island
-        std::uint32_t first_axis, last_axis;  ///< of axes_
+        std::uint32_t joint, a, b;                        ///< in the world's table; of the island
+        std::uint32_t first_axis, last_axis;              ///< of axes_
         std::uint32_t first_row = 0, first_axis_row = 0;  ///< those it takes away, then its axes
         Velocity<double> scripted_a, scripted_b;          ///< of what is immovable
         JointGeometry<double> geometry;

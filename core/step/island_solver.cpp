@@ -392,8 +392,7 @@ void IslandSolver::assemble() {
             const RowSide& a = row.side[i];
             system_->add(a.body, slope * a.on * a.on.transpose());
             for (std::uint32_t j = i + 1; j < row.count; ++j)
-                system_->add(a.body, row.side[j].body,
-                             slope * a.on * row.side[j].on.transpose());
+                system_->add(a.body, row.side[j].body, slope * a.on * row.side[j].on.transpose());
         }
     }
 }

@@ -94,7 +94,7 @@ private:
 
     Island island_;
     BlockCholesky* system_ = nullptr;
-    double creep_ = 0;               ///< slip that is not shifted away [m/s]
+    double creep_ = 0;  ///< slip that is not shifted away [m/s]
     IslandEffort effort_ = IslandEffort::full;
     bool shifts_ = true;             ///< whether what slides is shifted (de Saxcé)
     std::vector<PointWork> work_;    // [point]

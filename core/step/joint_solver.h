@@ -18,8 +18,8 @@ namespace plumb {
 template <class Real, int W>
 class JointSolver final : public ConstraintGroup<Real> {
 public:
-    /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another; `in_islands`:
-    /// the same in this step.
+    /// `elsewhere` [joint]: 1 where a joint, with what drives it, is solved by another;
+    /// `in_islands`: the same in this step.
     JointSolver(const World& world, const std::vector<std::uint8_t>& elsewhere,
                 const SolvedTies& in_islands, Workers& workers)
         : kernels_(joint_kernels<Real, W>()),

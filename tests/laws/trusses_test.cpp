@@ -38,8 +38,8 @@ TEST_P(Trusses, ChainsOfRodsKeepTheirEnergyAndLength) {
         double lowest = 0;  // potential energy of the chain that hangs straight down, about
         Vector before = Vector::Zero();
         for (std::uint32_t i = 0; i < count; ++i) {
-            const Vector way = hangs ? Vector(std::sin(0.5), -std::cos(0.5), 0)
-                                     : Vector(random.direction());
+            const Vector way =
+                hangs ? Vector(std::sin(0.5), -std::cos(0.5), 0) : Vector(random.direction());
             const Vector at = before + 0.8 * way;
             BodySpec& body = add_body(s, sphere(0.15), at);
             body.mass = drawn_mass(random, 50);
