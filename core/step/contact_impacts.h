@@ -70,8 +70,8 @@ public:
         return !given_.empty();
     }
 
-    /// Takes the impulses that were put aside up again. What parts after an impact does so at its own
-    /// speed: the recovery of overlap adds nothing, for it would come on top of it.
+    /// Takes the impulses that were put aside up again. What parts after an impact does so at its
+    /// own speed: the recovery of overlap adds nothing, for it would come on top of it.
     void end(World& world, Batches& batches) {
         resting_.give(batches.arrays(), batches.row_count());
         ContactTable& c = world.contacts;

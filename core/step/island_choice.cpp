@@ -319,7 +319,8 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     const bool meshed = is_meshed(island);
     if ((obstacles & kBeyond) || (meshed ? can_do_work(world, island) : obstacles != 0))
         return IslandWay::left;
-    if (obstacles & (kRests | kHard)) return IslandWay::swept;
+    if ((obstacles & (kRests | kHard)) && n <= world.settings.exact_islands)
+        return IslandWay::swept;
     upset_.clear();
     if (n <= std::min(kVerySmall, world.settings.exact_islands) && flies(world, island, pairs))
         return IslandWay::exact;

@@ -50,6 +50,9 @@ public:
     /// that nothing drives and no joint holds.
     bool is_loose_heap(const ContactIsland& island) const;
 
+    /// Whether links, couplings or joints that close a loop tie it: others only iterate those.
+    bool is_meshed(const ContactIsland& island) const;
+
     /// Whether it touches and hangs by nothing that is immovable.
     bool flies(const World& world, const ContactIsland& island,
                const std::vector<BodyPair>& pairs) const;
@@ -89,9 +92,6 @@ private:
     std::uint8_t obstacles_of(const ContactIsland& island) const;
 
     bool can_do_work(const World& world, const ContactIsland& island) const;
-
-    /// Whether links, couplings or joints that close a loop tie it: others only iterate those.
-    bool is_meshed(const ContactIsland& island) const;
     bool is_slow(const World& world, const Contact& contact) const;
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;

@@ -36,9 +36,12 @@ inline constexpr std::uint8_t kDisputed = kSweptSteps + kLightSteps;
 /// Steps that are left after one. A dispute lasts while what is asked lightly is solved.
 inline std::uint8_t disputed_after(std::uint8_t disputed, bool solved) {
     switch (effort_of(disputed)) {
-        case IslandEffort::full: return solved ? 0 : kDisputed;
-        case IslandEffort::swept: return disputed - 1;
-        case IslandEffort::light: break;
+        case IslandEffort::full:
+            return solved ? 0 : kDisputed;
+        case IslandEffort::swept:
+            return disputed - 1;
+        case IslandEffort::light:
+            break;
     }
     return solved ? disputed : disputed - 1;
 }

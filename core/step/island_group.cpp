@@ -145,6 +145,7 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.given_up = false;
     member.may_be_disputed = choice_.is_loose_heap(island);
     member.gains_nothing = !choice_.is_driven(island);
+    member.is_meshed = choice_.is_meshed(island) && !choice_.is_driven(island);
     member.flies = choice_.flies(world, island, pairs);
     bodies_.resize(bodies_.size() + n);
 
@@ -402,7 +403,7 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
 
 /// By how much the worst tie is open that is to be closed [m], [rad].
 double IslandGroup::open_at_start(const Member& member) {
-    if (member.ties.empty()) return 0;
+    if (!member.is_meshed) return 0;
     force_.assign(force_.size(), Vector6d::Zero());
     return ties_.ask_to_close(member.ties,
                               {force_.data() + member.first_body, starts_of(member).size()});
@@ -473,10 +474,11 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         solver.sweep(island);
         ask();
         m.solved = true;
-        if (!m.ties.empty() && m.gains_nothing && gains()) close_gently(solver, m);
+        if (m.is_meshed && gains()) close_gently(solver, m);
         return;
     }
-    for (int i = 0; i < kMostCloses; ++i) {
+    const int most = m.is_meshed ? kMostCloses : kCloses;
+    for (int i = 0; i < most; ++i) {
         const double before = m.open;
         m.solved = solver.solve(island, m.system, m.speed, m.effort).solved;
         ask();
@@ -489,13 +491,17 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     }
     if (m.parts) bound_energy(solver, m), ask();
     if (m.ties.empty()) return;
-    if (m.gains_nothing && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
+    if (m.is_meshed && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
     if (m.solved && !(m.open > tolerance)) return;
     const bool ajar = m.open <= kAjar * tolerance;
     m.given_up |= !ajar;
-    if ((m.solved && ajar) || !gains()) return;
+    if ((m.is_meshed && m.solved && ajar) || !gains()) return;
     m.given_up = true;
-    close_gently(solver, m);
+    if (m.is_meshed) return close_gently(solver, m);
+    const std::span<const Vector6d> start = starts_of(m);
+    std::copy(start.begin(), start.end(), island.velocity.begin());
+    solver.sweep_anew(island, ask);
+    ask();
 }
 
 /// Ties that were not closed must add no energy: from nothing, and at rates that are linear in the

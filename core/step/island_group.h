@@ -59,6 +59,7 @@ private:
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
         bool may_be_disputed;
+        bool is_meshed;         // by ties that others only iterate, and nothing drives it
         bool gains_nothing;     // no lid, motor or spring does work on it
         bool flies;             // it touches and hangs by nothing that is immovable
         std::uint8_t disputed;  // steps that are left, see island_effort.h

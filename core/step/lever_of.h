@@ -96,9 +96,8 @@ inline void turn_line(JointGeometry<double>& g, const World& world, const Joint&
     add(joint.a, g.r_a, 1), add(joint.b, g.r_b, -1);
     const double load = h * load_of(joint, kAlongX, solve) * response / joint.length;
     const Vector3d turn = moved / joint.length;
-    const JointLever<double> line =
-        exact_lever<double>(load, turn.squaredNorm(), turn,
-                            [&]() -> Vector3d { return moved_before / joint.length; });
+    const JointLever<double> line = exact_lever<double>(
+        load, turn.squaredNorm(), turn, [&]() -> Vector3d { return moved_before / joint.length; });
     g.line_share = line.share, g.line_lag = line.lag * joint.length;
 }
 
