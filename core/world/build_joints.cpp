@@ -210,7 +210,7 @@ JointCoupling make_coupling(const World& world, const CouplingSpec& spec,
             spec.ratio,
             spec.offset.value_or(offset),
             0,
-            0};
+            offset - spec.offset.value_or(offset)};
 }
 
 void append_coupling(World& world, JointCoupling coupling) {
