@@ -404,9 +404,9 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
 /// By how much the worst tie is open that is to be closed [m], [rad].
 double IslandGroup::open_at_start(const Member& member) {
     if (!member.is_meshed) return 0;
-    force_.assign(force_.size(), Vector6d::Zero());
-    return ties_.ask_to_close(member.ties,
-                              {force_.data() + member.first_body, starts_of(member).size()});
+    const std::span<Vector6d> rest(force_.data() + member.first_body, starts_of(member).size());
+    std::fill(rest.begin(), rest.end(), Vector6d::Zero());
+    return ties_.ask_to_close(member.ties, rest);
 }
 
 void IslandGroup::forget_impulses() {
