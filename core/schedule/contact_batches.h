@@ -49,12 +49,15 @@ public:
     /// Calls visit(ContactPlace) for all contacts of the pairs that were laid out, in their order.
     template <class Visit>
     void each_contact(const std::vector<BodyPair>& pairs, Visit visit) const {
-        for (std::size_t p = 0; p < pairs.size(); ++p) {
-            const auto [block, lane] = slots_[p];
-            const std::uint32_t first = blocks_[block].first_row;
-            for (std::uint32_t i = 0; i < pairs[p].count; ++i)
-                visit(ContactPlace{pairs[p].first + i, p, block, first + i, lane});
-        }
+        for (std::size_t p = 0; p < pairs.size(); ++p) each_contact(pairs, p, visit);
+    }
+    /// The same for those of one pair.
+    template <class Visit>
+    void each_contact(const std::vector<BodyPair>& pairs, std::size_t pair, Visit visit) const {
+        const auto [block, lane] = slots_[pair];
+        const std::uint32_t first = blocks_[block].first_row;
+        for (std::uint32_t i = 0; i < pairs[pair].count; ++i)
+            visit(ContactPlace{pairs[pair].first + i, pair, block, first + i, lane});
     }
 
     const std::vector<BlockRange>& ranges() const { return ranges_; }

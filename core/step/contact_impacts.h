@@ -3,12 +3,11 @@
 /// begins from, the restitution after it, and the way back to the substep.
 #pragma once
 
-#include "constraints/connector.h"
 #include "contacts/contact_measures.h"
 #include "contacts/impacts.h"
 #include "schedule/contact_batches.h"
 #include "step/contact_impulses.h"
-#include "step/velocity_table.h"
+#include "step/contact_sides.h"
 #include "world/world.h"
 
 #include <algorithm>
@@ -63,8 +62,10 @@ public:
         });
         for (const ContactPlace& at : given_) {
             NormalRow<Real, W>& row = rows.normals[at.row];
+            const ContactSides<Real> sides = sides_of(rows, at);
             row.restitution_velocity[at.lane] =
-                std::max(Real(0), row.velocity[at.lane] + change_along(bodies, sides_of(rows, at)));
+                std::max(Real(0), row.velocity[at.lane] +
+                                      sides.normal.dot(change_between(bodies, sides)));
             c.bounced[at.contact] = 1;
         }
         return !given_.empty();
@@ -82,36 +83,6 @@ public:
     }
 
 private:
-    /// A body of a pair, and a contact's point on it.
-    struct Side {
-        std::int32_t row;
-        InverseMass<Real> mass;
-        Vector3<Real> arm;
-    };
-    struct Sides {
-        Side a, b;
-        Vector3<Real> normal;
-    };
-
-    static Vector3<Real> lane_of(const Real (&x)[3][W], std::uint32_t lane) {
-        return {x[0][lane], x[1][lane], x[2][lane]};
-    }
-    static Symmetric3<Real> lane_of(const Real (&x)[6][W], std::uint32_t lane) {
-        return {x[0][lane], x[1][lane], x[2][lane], x[3][lane], x[4][lane], x[5][lane]};
-    }
-    static Sides sides_of(const ContactArrays<Real, W>& rows, const ContactPlace& at) {
-        const PairBlock<Real, W>& block = rows.blocks[at.block];
-        const NormalRow<Real, W>& row = rows.normals[at.row];
-        const std::uint32_t lane = at.lane;
-        return {{block.row_a[lane],
-                 {block.inverse_mass_a[lane], lane_of(block.inverse_inertia_a, lane)},
-                 lane_of(row.arm_a, lane)},
-                {block.row_b[lane],
-                 {block.inverse_mass_b[lane], lane_of(block.inverse_inertia_b, lane)},
-                 lane_of(row.arm_b, lane)},
-                lane_of(row.normal, lane)};
-    }
-
     /// e times what a contact bore in compression, if it collided and touches [N s].
     static Real restitution(const World& world, const ContactArrays<Real, W>& rows,
                             const ContactPlace& at) {
@@ -125,8 +96,8 @@ private:
     }
 
     /// Opposite impulses along the normal [N s].
-    static void push(const BodyRows<Real>& bodies, const Sides& sides, Real impulse) {
-        const auto take = [&](const Side& side, const Vector3<Real>& p) {
+    static void push(const BodyRows<Real>& bodies, const ContactSides<Real>& sides, Real impulse) {
+        const auto take = [&](const ContactSide<Real>& side, const Vector3<Real>& p) {
             if (side.row >= bodies.dynamic_count) return;
             Velocity<Real> change = velocity_in(bodies.change, side.row);
             apply_impulse<Real>(change, side.mass, side.arm, p);
@@ -134,14 +105,6 @@ private:
         };
         take(sides.a, sides.normal * impulse);
         take(sides.b, sides.normal * -impulse);
-    }
-
-    /// How the separating velocity has changed since the start of the substep [m/s].
-    static Real change_along(const BodyRows<Real>& bodies, const Sides& sides) {
-        const auto change = [&](const Side& side) {
-            return velocity_at<Real>(velocity_in(bodies.change, side.row), side.arm);
-        };
-        return sides.normal.dot(change(sides.a) - change(sides.b));
     }
 
     ContactImpulses<Real, W> resting_;

@@ -16,6 +16,7 @@
 #include "solve/fill_mass.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
+#include "step/contact_work.h"
 #include "step/island_group.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
@@ -138,11 +139,25 @@ public:
     /// Adds what the contacts of impacts bore, before their end.
     void add_impacts(const Impacts& impacts, ContactSums& sums) {
         impacts.each_taken([&](std::size_t pair, double share) {
-            const auto at = batches_.slot(pair);
-            for (std::uint32_t i = 0; i < pairs_[pair].count; ++i) {
-                const RowImpulse p = impulse_of(batches_.arrays(), row_of(at.block, i), at.lane);
-                sums.add(pairs_[pair].first + i, share * p.normal, share * p.friction());
-            }
+            each_place(pair, [&](const ContactPlace& at) {
+                const RowImpulse p = impulse_of(batches_.arrays(), at.row, at.lane);
+                sums.add(at.contact, share * p.normal, share * p.friction());
+            });
+        });
+    }
+
+    /// The work of a pair's contacts; parameters as in step/contact_work.h.
+    void add_pair_work(ContactWork& work, std::size_t pair, const BodyRows<Real>& bodies,
+                       const PushOut& push_out, double h) {
+        each_place(pair, [&](const ContactPlace& at) {
+            add_work(work, batches_.arrays(), at, bodies, push_out, h);
+        });
+    }
+    /// Keeps a share of a pair's impulses.
+    void scale_impulses(std::size_t pair, double share) {
+        each_place(pair, [&](const ContactPlace& at) {
+            each_sum(batches_.arrays(), at.row,
+                     [&](Real* sum) { sum[at.lane] *= static_cast<Real>(share); });
         });
     }
 
@@ -241,6 +256,12 @@ private:
     void each_contact(Visit visit) {
         batches_.each_contact(pairs_,
                               [&](const ContactPlace& at) { visit(at.contact, at.row, at.lane); });
+    }
+
+    /// Calls visit(ContactPlace) for the contacts of a pair.
+    template <class Visit>
+    void each_place(std::size_t pair, Visit visit) {
+        batches_.each_contact(pairs_, pair, visit);
     }
 
     /// Velocities at contacts are those over the whole substep.

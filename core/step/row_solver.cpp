@@ -12,6 +12,7 @@
 #include "solve/particle_contact_group.h"
 #include "solve/surface_contact_group.h"
 #include "step/contact_solver.h"
+#include "step/energy_bound.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
 
@@ -77,6 +78,7 @@ public:
     void load(const World& world) override {
         IslandGroup* exact = islands_ ? &*islands_ : nullptr;
         contacts_->load(world, nullptr, exact);
+        energy_.forget();
         for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
         if (has_impacts_) impacts_.reserve(world, contacts_->pairs()), contacts_->reserve_impacts();
@@ -169,6 +171,11 @@ public:
         });
         iterations_ += settings_.position_iterations;
         for (const auto& group : groups_) group->report(report);
+    }
+
+    void bound_energy(const World& world, double h) override {
+        const PushOut push = push_out(settings_, share_of_substep(settings_), h);
+        energy_.apply(world, *contacts_, table_.rows(), push, h);
     }
 
     void solve_islands(const World& world, StepReport& report) override {
@@ -294,6 +301,7 @@ private:
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;
     Impacts impacts_;
+    EnergyBound<Real, W> energy_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t iterations_ = 0;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+/// Sees to it that iterations of contacts add no energy (step/contact_work.h): where those of an
+/// island do, only a share of their impulses is taken, and remembered.
+///
+/// It looks at islands in which a body is fast, for what rests may converge as it likes; not at
+/// those that joints, links or particles hold, whose impulses would have to follow.
+#pragma once
+
+#include "contacts/contact_measures.h"
+#include "schedule/contact_islands.h"
+#include "step/contact_solver.h"
+#include "world/tie.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace plumb {
+
+template <class Real, int W>
+class EnergyBound {
+public:
+    /// Once a step: contacts are others.
+    void forget() { found_ = false; }
+
+    /// After the passes of a substep of h [s]; bodies: their rows.
+    void apply(const World& world, ContactSolver<Real, W>& contacts, const BodyRows<Real>& bodies,
+               const PushOut& push_out, double h) {
+        if (contacts.empty()) return;
+        const double threshold = std::max(collision_threshold(world.settings),
+                                          2 * h * world.settings.gravity.norm());
+        if (!find_fast(world, bodies, threshold)) return;
+        if (!found_) find_islands(world, contacts.pairs());
+        for (const ContactIsland& island : islands_.islands()) {
+            if (!is_watched(island)) continue;
+            ContactWork work;
+            for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+                contacts.add_pair_work(work, islands_.pairs()[i], bodies, push_out, h);
+            const double share = work.share();
+            if (!(share < 1)) continue;
+            for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+                contacts.scale_impulses(islands_.pairs()[i], share);
+            for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+                const std::int32_t row = islands_.bodies()[i];
+                Velocity<Real> change = velocity_in(bodies.change, row);
+                change.v *= static_cast<Real>(share), change.w *= static_cast<Real>(share);
+                put_velocity(bodies.change, row, change);
+            }
+        }
+    }
+
+private:
+    /// Marks the dynamic bodies that move faster than the threshold [m/s]; whether any does.
+    bool find_fast(const World& world, const BodyRows<Real>& rows, double threshold) {
+        const Bodies& b = world.bodies;
+        fast_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+        bool any = false;
+        for (std::size_t i = 0; i < b.size(); ++i) {
+            if (b.motion[i] != Motion::dynamic) continue;
+            const Velocity<Real> change = velocity_in(rows.change, b.row[i]);
+            const Vector3d v = b.velocity[i] + change.v.template cast<double>(),
+                           w = b.angular_velocity[i] + change.w.template cast<double>();
+            const double radius = b.bounding_radius[i];
+            const double square = v.squaredNorm() + radius * radius * w.squaredNorm();
+            any |= fast_[b.row[i]] = square > threshold * threshold;
+        }
+        return any;
+    }
+
+    void find_islands(const World& world, const std::vector<BodyPair>& pairs) {
+        found_ = true;
+        islands_.find(pairs, {}, 0, world.dynamic_count);
+        held_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+        const auto hold = [&](std::uint32_t body) {
+            if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
+                held_[world.bodies.row[body]] = 1;
+        };
+        world.each_body_among_particles(hold);
+        for (std::uint32_t i = 0; i < world.joints.size(); ++i)
+            if (holds(world, {TieKind::joint, i})) each_body(world, {TieKind::joint, i}, hold);
+        world.each_linked_body(true, hold);
+    }
+
+    bool is_watched(const ContactIsland& island) const {
+        bool fast = false;
+        for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+            const std::int32_t row = islands_.bodies()[i];
+            if (held_[row]) return false;
+            fast |= fast_[row] != 0;
+        }
+        return fast;
+    }
+
+    ContactIslands islands_;
+    bool found_ = false;
+    std::vector<std::uint8_t> fast_, held_;  // [dynamic row]
+};
+
+}  // namespace plumb
