@@ -159,8 +159,7 @@ int compare(const CompareArguments& o) {
     check(o);
     Prepared p(o);
     std::optional<WholeFile> json_file = opened(o.json), page_file = opened(o.page);
-    const Settings& s = p.scene.settings;
-    const auto steps = static_cast<std::uint64_t>(std::llround(s.duration / s.dt));
+    const std::uint64_t steps = step_count(p.scene.settings);
 
     catch_interrupts();
     const study::ComparisonResult result = compared(o, p, steps);

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -130,4 +131,7 @@ int program(int argc, char** argv) {
 
 }  // namespace plumb::app
 
-int main(int argc, char** argv) { return plumb::app::program(argc, argv); }
+int main(int argc, char** argv) {
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is one that cannot be written
+    return plumb::app::program(argc, argv);
+}

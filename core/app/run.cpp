@@ -145,6 +145,11 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const Statist
             "trees of joints were left open in {} solves, by {:.3g} m or rad at the most, that of "
             "joint {}; more substeps, or \"joints\": \"iterate\", may help",
             statistics.unsolved_trees, statistics.tree_error, statistics.open_joint));
+    if (statistics.stretched_links > 0)
+        warnings.push_back(fmt::format(
+            "links were more than 1 % too long or too short at the end of {} of their steps, by "
+            "{:.3g} m at the most; more substeps may help",
+            statistics.stretched_links, statistics.link_error));
     return warnings;
 }
 
@@ -212,8 +217,10 @@ int run(const Outputs& outputs) {
     Recorder recorder(outputs.files, outputs.summary, scene, simulation);
     greet(simulation, outputs);
 
-    const auto steps =
-        static_cast<std::uint64_t>(std::llround(scene.settings.duration / scene.settings.dt));
+    const std::uint64_t steps = step_count(scene.settings);
+    if (steps == 0 && scene.settings.duration > 0)
+        logger()->warn("a duration of {} s is less than half a step of {} s: nothing is run",
+                       scene.settings.duration, scene.settings.dt);
     Statistics statistics(simulation);
     catch_interrupts();
     Progress progress(steps, outputs.quiet);

@@ -15,8 +15,8 @@ double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nano
 Sample sample_of(const World& world) {
     const Vector3d g = world.settings.gravity;
     const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
-    Sample sample{world.time, penetrations(world), joint_errors(world), {}, {}, {}, strains(world),
-                  {}};
+    Sample sample{world.time, penetrations(world), joint_errors(world), link_errors(world), {}, {}, {},
+                  strains(world), {}};
     for (const double error : volume_errors(world)) sample.volume_error.push_back(std::abs(error));
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         if (world.bodies.motion[i] != Motion::dynamic) continue;
@@ -67,6 +67,8 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     torn += report.torn_elements;
     if (report.tree_error > tree_error)
         tree_error = report.tree_error, open_joint = world.joints.joints[report.open_joint].id;
+    stretched_links += report.stretched_links;
+    link_error = std::max(link_error, report.link_error);
     rejected_contacts += report.rejected_contacts;
     for (std::size_t i = 0; i < kContactFaultCount; ++i) faults[i] += report.faults[i];
     if (report.collider_failed && collider_failures == 0) first_failure = report.message;

@@ -205,6 +205,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["deformables"] = world.deformables.size();
     j["particles"] = world.particles.size();
     j["joints"] = world.joints.size();
+    j["links"] = world.links.size();
     j["contacts"] = {{"mean", s.contact_sum / steps},
                      {"max", s.contact_max},
                      {"end", world.contacts.found_before.size()}};
@@ -226,6 +227,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
                         {"p99", percentile(penetration, 0.99)},
                         {"max", percentile(penetration, 1)}};
     j["joint_error"] = mean_and_max(s.over_last_fifth(&Sample::joint_error));
+    j["link_error"] = mean_and_max(s.over_last_fifth(&Sample::link_error));
     j["speed"] = speeds_json(s.over_last_fifth(&Sample::speed));
     j["speed_near"] = speeds_json(s.over_last_fifth(&Sample::near_speed));
     j["speed_near"]["radius"] = Statistics::kNearRadius;
@@ -240,6 +242,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["clamps"] = {
         {"recovery", s.clamped_recoveries},         {"unsolved_islands", s.unsolved_islands},
         {"unsolved_trees", s.unsolved_trees},       {"tree_error_m", s.tree_error},
+        {"stretched_links", s.stretched_links},     {"link_error_m", s.link_error},
         {"rejected_contacts", s.rejected_contacts}, {"collider_failures", s.collider_failures}};
     j["state_hash"] = hex(state_hash(world));
     j["effects"] = effects_summary(simulation, s);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/impacts.h"
 
-#include "contacts/contact_measures.h"
+#include "contacts/contact_work.h"
 #include "world/body_momentum.h"
 
 #include <algorithm>
@@ -48,9 +48,7 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
 
 bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, double h) {
     colliding_.clear();
-    // what forces make of a body at rest within two substeps is no impact
-    const double threshold =
-        std::max(collision_threshold(world.settings), 2 * h * world.settings.gravity.norm());
+    const double threshold = resting_speed(world.settings, h);
     if (!may_collide(world, threshold)) return false;
     hit_.assign(pairs.size(), 0);
     bool any = false;
@@ -104,19 +102,18 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
         const BodyPair& pair = pairs[islands_.pairs()[i]];
         if (is_driven(pair.row_a) || is_driven(pair.row_b)) return 1;
     }
-    // along v + s Δv the energy changes by s b + s² a
     const Bodies& bodies = world.bodies;
-    double a = 0, b = 0;
+    ContactWork work;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
         const std::int32_t row = islands_.bodies()[i];
         const std::uint32_t body = body_of_[row];
         const Change& d = changes_[row];
         const Vector3d &v = start_[body], &w = bodies.angular_velocity_now[body];
-        b += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
-        a +=
+        work.beyond += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
+        work.of_change +=
             0.5 * (bodies.mass[body] * d.v.squaredNorm() + inertia_product(bodies, body, d.w, d.w));
     }
-    return a > 0 ? std::clamp(-b / a, 0.0, 1.0) : 1;
+    return work.share();
 }
 
 void Impacts::take(World& world, const std::vector<BodyPair>& pairs, double h) {

@@ -266,9 +266,11 @@ Plan make_plan(const World& world) {
     }
     for (std::size_t i = 0; i < settings.forbid.size(); ++i) {
         Decision& d = plan.decisions[effect_named(settings.forbid, i, "forbid")];
-        if (d.runs)
-            plan.warnings.push_back('"' + settings.forbid[i] +
-                                    "\" is forbidden, but the scene calls for it: " + d.why);
+        const std::string name = '"' + settings.forbid[i] + '"';
+        if (std::count(settings.require.begin(), settings.require.end(), settings.forbid[i]) > 0)
+            plan.warnings.push_back(name + " is both required and forbidden: it does not run");
+        else if (d.runs)
+            plan.warnings.push_back(name + " is forbidden, but the scene calls for it: " + d.why);
         d.why = "forbidden" + (d.runs ? ", although: " + d.why : std::string());
         d.runs = false;
     }

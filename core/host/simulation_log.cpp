@@ -32,6 +32,9 @@ void Simulation::Parts::tell_step(const StepReport& report) const {
     if (report.unsolved_trees > 0)
         to->trace("step {}: {} trees of joints were left open, by {:.3g} at the most", world.steps,
                   report.unsolved_trees, report.tree_error);
+    if (report.stretched_links > 0)
+        to->trace("step {}: {} links are too long or too short, by {:.3g} m at the most",
+                  world.steps, report.stretched_links, report.link_error);
     if (report.clamped_recoveries > 0)
         to->trace("step {}: {} overlaps are deeper than a substep pushes out", world.steps,
                   report.clamped_recoveries);

@@ -4,6 +4,7 @@
 #include "math/fnv1a.h"
 #include "step/joint_state.h"
 #include "world/body_momentum.h"
+#include "world/link_error.h"
 
 #include <algorithm>
 
@@ -81,6 +82,12 @@ std::vector<double> joint_turn_errors(const World& world) {
     std::vector<double> errors;
     for (const Joint& joint : world.joints.joints)
         errors.push_back(joint_turn_gap(world.bodies, joint));
+    return errors;
+}
+
+std::vector<double> link_errors(const World& world) {
+    std::vector<double> errors;
+    for (const Link& link : world.links) errors.push_back(link_error(world, link));
     return errors;
 }
 

@@ -26,6 +26,9 @@ std::vector<double> joint_errors(const World& world);
 /// How far each joint's bodies have turned against each other about what it locks [rad].
 std::vector<double> joint_turn_errors(const World& world);
 
+/// How far each link's points are from where it holds them [m]; 0 of links that give way.
+std::vector<double> link_errors(const World& world);
+
 /// 64-bit hash (FNV-1a) of all bodies' positions, orientations and velocities, bit for bit.
 std::uint64_t state_hash(const World& world);
 

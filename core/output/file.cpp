@@ -26,6 +26,14 @@ std::string temporary_name(const std::string& path) {
     return path + ".partial";
 }
 
+/// Where a file of that name is written: a link stays, and what it leads to is replaced.
+std::string place_of(const std::string& path) {
+    std::error_code error;
+    if (!std::filesystem::is_symlink(path, error)) return path;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(path, error);
+    return error ? path : place.string();
+}
+
 }  // namespace
 
 AppendFile::AppendFile(std::string path)
@@ -49,7 +57,8 @@ void AppendFile::close() {
     }
 }
 
-WholeFile::WholeFile(std::string path) : path_(std::move(path)), file_(temporary_name(path_)) {}
+WholeFile::WholeFile(std::string path)
+    : path_(std::move(path)), place_(place_of(path_)), file_(temporary_name(place_)) {}
 
 WholeFile::~WholeFile() {
     if (!committed_) std::remove(file_.path().c_str());
@@ -57,7 +66,7 @@ WholeFile::~WholeFile() {
 
 void WholeFile::commit() {
     file_.close();
-    if (std::rename(file_.path().c_str(), path_.c_str()) != 0) {
+    if (std::rename(file_.path().c_str(), place_.c_str()) != 0) {
         throw OutputError(path_, with_reason("cannot be written", errno));
     }
     committed_ = true;

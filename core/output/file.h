@@ -33,7 +33,7 @@ private:
 };
 
 /// A file that appears whole or not at all: it is written under a temporary name beside its own,
-/// and renamed.
+/// and renamed. Where the path is a symbolic link, all this is done where that leads.
 class WholeFile {
 public:
     /// Opens the temporary file, so that a path that cannot be written is known before the run.
@@ -51,7 +51,7 @@ public:
     const std::string& path() const { return path_; }
 
 private:
-    std::string path_;
+    std::string path_, place_;
     AppendFile file_;
     bool committed_ = false;
 };

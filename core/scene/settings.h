@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -74,6 +75,11 @@ struct Settings {
     std::vector<std::string> require;  ///< effects that run although nothing seems to call for them
     std::vector<std::string> forbid;   ///< effects that never run
 };
+
+/// Steps that come nearest to the duration.
+inline std::uint64_t step_count(const Settings& s) {
+    return static_cast<std::uint64_t>(std::llround(s.duration / s.dt));
+}
 
 /// The paper's step to the letter: no warm start, no alternating iterations, friction bounds of
 /// each pass apart, no anchors, sums of each pass apart, explicit gyroscopic term, contacts

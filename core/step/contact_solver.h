@@ -16,8 +16,8 @@
 #include "solve/fill_mass.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
-#include "step/contact_work.h"
 #include "step/island_group.h"
+#include "step/row_work.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
 
@@ -146,7 +146,7 @@ public:
         });
     }
 
-    /// The work of a pair's contacts; parameters as in step/contact_work.h.
+    /// The work of a pair's contacts; parameters as in step/row_work.h.
     void add_pair_work(ContactWork& work, std::size_t pair, const BodyRows<Real>& bodies,
                        const PushOut& push_out, double h) {
         each_place(pair, [&](const ContactPlace& at) {

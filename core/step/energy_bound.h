@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-/// Sees to it that iterations of contacts add no energy (step/contact_work.h): where those of an
+/// Sees to it that iterations of contacts add no energy (contacts/contact_work.h): where those of an
 /// island do, only a share of their impulses is taken, and remembered.
 ///
 /// It looks at islands in which a body is fast, for what rests may converge as it likes; not at
 /// those that joints, links or particles hold, whose impulses would have to follow.
 #pragma once
 
-#include "contacts/contact_measures.h"
+#include "contacts/contact_work.h"
 #include "schedule/contact_islands.h"
 #include "step/contact_solver.h"
 #include "world/tie.h"
@@ -26,9 +26,7 @@ public:
     void apply(const World& world, ContactSolver<Real, W>& contacts, const BodyRows<Real>& bodies,
                const PushOut& push_out, double h) {
         if (contacts.empty()) return;
-        const double threshold = std::max(collision_threshold(world.settings),
-                                          2 * h * world.settings.gravity.norm());
-        if (!find_fast(world, bodies, threshold)) return;
+        if (!find_fast(world, bodies, resting_speed(world.settings, h))) return;
         if (!found_) find_islands(world, contacts.pairs());
         for (const ContactIsland& island : islands_.islands()) {
             if (!is_watched(island)) continue;

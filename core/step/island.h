@@ -173,4 +173,11 @@ inline Vector6d momentum(const IslandBody& body, const Vector6d& v) {
     return p;
 }
 
+/// Of bodies that move by `v` [J].
+inline double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector6d> v) {
+    double twice = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) twice += v[i].dot(momentum(bodies[i], v[i]));
+    return 0.5 * twice;
+}
+
 }  // namespace plumb

@@ -44,10 +44,6 @@ constexpr double kOtherRoot = 0.25;
 /// Bodies that fly about and overlap part at least at this share of their radius [1/s].
 constexpr double kDrift = 0.3;
 
-/// And they overlap at rest if they move, about their common centre, with less than this share of
-/// the energy with which they are to part.
-constexpr double kAtRest = 0.25;
-
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
 
@@ -65,28 +61,6 @@ double largest(const Symmetric3<double>& k) {
 double closing_velocity(double gap, double h, const PushOut& push_out) {
     const double left = overlap_left(gap, push_out.most);
     return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
-}
-
-/// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
-bool closes(const IslandRow& row) {
-    return !row.drive && !(row.highest == 0 && row.wanted > 0) &&
-           !(row.lowest == 0 && row.wanted < 0);
-}
-
-double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
-    double twice = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        twice += velocity[i].dot(momentum(bodies[i], velocity[i]));
-    return 0.5 * twice;
-}
-
-/// Of all mass in its common centre.
-double energy_of_centre(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
-    double mass = 0;
-    Vector3d sum = Vector3d::Zero();
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        mass += bodies[i].mass, sum += bodies[i].mass * velocity[i].head<3>();
-    return 0.5 * sum.squaredNorm() / mass;
 }
 
 /// Of a driven axis, as far as its bounds or the substep before tell.
@@ -475,6 +449,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         ask();
         m.solved = true;
         if (m.is_meshed && gains()) close_gently(solver, m);
+        if (m.may_be_disputed) bound_work(world, m);
         return;
     }
     const int most = m.is_meshed ? kMostCloses : kCloses;
@@ -502,58 +477,6 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     std::copy(start.begin(), start.end(), island.velocity.begin());
     solver.sweep_anew(island, ask);
     ask();
-}
-
-/// Ties that were not closed must add no energy: from nothing, and at rates that are linear in the
-/// velocities, they are closed by as large a share as there is energy for. It grows with the share
-/// at least in proportion.
-void IslandGroup::close_gently(IslandSolver& solver, Member& m) {
-    const Island island = island_of(m);
-    const std::span<const Vector6d> start = starts_of(m);
-    const double before = kinetic_energy(island.bodies, start);
-    const auto begin = [&] { std::copy(start.begin(), start.end(), island.velocity.begin()); };
-    const auto ask = [&](double share) {
-        ties_.ask(m.ties, island.velocity);
-        for (IslandRow& row : island.rows)
-            if (closes(row)) row.wanted *= share;
-    };
-    const auto close = [&](double share) {
-        begin(), solver.forget(island), ask(share);
-        if (!solver.solve(island, m.system, m.speed, m.effort).solved)
-            begin(), solver.sweep_anew(island, [&] { ask(share); });
-        return kinetic_energy(island.bodies, island.velocity);
-    };
-    const double whole = close(1);
-    if (!(whole <= before)) {
-        const double least = close(0);
-        if (least < before) close((before - least) / (whole - least));
-    }
-    m.open = ties_.ask(m.ties, island.velocity);
-}
-
-/// Where friction turns slip about, the speeds that restitution asks for can be more energy than
-/// there was (Kane and Levinson 1985); and what flies about finds overlap wherever it turned into
-/// another body, whose push-out is. Then only a share of what is asked for beyond rest is given:
-/// energy grows with the share at least in proportion. What overlaps at rest is pushed out all the
-/// same.
-void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
-    const Island island = island_of(m);
-    const std::span<const Vector6d> start = starts_of(m);
-    const double before = kinetic_energy(island.bodies, start);
-    const double whole = kinetic_energy(island.bodies, island.velocity);
-    if (whole <= before) return;
-    if (!m.bounces) {
-        const double centre = energy_of_centre(island.bodies, start);
-        if (before - centre < kAtRest * (whole - centre)) return;
-    }
-    const auto ask_for_more = [&](double share) {
-        for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
-            points_[k].wanted[0] += share * parting_[k];
-        m.solved &= solver.solve(island, m.system, m.speed, m.effort).solved;
-        return kinetic_energy(island.bodies, island.velocity);
-    };
-    const double least = ask_for_more(-1);
-    if (least < before) ask_for_more((before - least) / (whole - least));
 }
 
 void IslandGroup::take_changes(Bodies& bodies) const {

@@ -44,6 +44,9 @@ void move_particles(World& world, double h);
 /// may touch from the next step on.
 void break_joints(World& world, const Plan& plan, Proximity& proximity, StepReport& report);
 
+/// Counts the links that the step left too long or too short.
+void note_stretched_links(const World& world, StepReport& report);
+
 /// Takes elements that are strained too far out of their deformables. The stepper is then of the
 /// world before.
 void tear(World& world, StepReport& report);

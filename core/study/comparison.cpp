@@ -113,7 +113,7 @@ ComparisonResult compare_colliders(const ComparisonPlan& plan, Simulation& simul
     ComparisonResult result = empty_result(plan, simulation.world());
     Look look(plan, result);
     const Settings& settings = plan.scene.settings;
-    const auto steps = static_cast<std::uint64_t>(std::llround(settings.duration / settings.dt));
+    const std::uint64_t steps = step_count(settings);
     for (std::uint64_t i = 0; i <= steps && !result.was_interrupted; ++i) {
         if (i % plan.every == 0) look.at(simulation.world());
         if (i == steps) break;

@@ -88,7 +88,7 @@ FreeRuns free_runs(const Scene& scene, const ColliderLibrary& colliders,
         for (std::size_t j = i + 1; j < runs.size(); ++j) result.drifts.push_back({i, j, {}, {}});
 
     const Settings& s = scene.settings;
-    const auto steps = static_cast<std::uint64_t>(std::llround(s.duration / s.dt));
+    const std::uint64_t steps = step_count(s);
     const std::uint64_t every = std::max<std::uint64_t>(1, steps / kSamples);
     take_sample(result, runs);
     for (std::uint64_t i = 1; i <= steps && !result.was_interrupted; ++i) {

@@ -48,7 +48,7 @@ Outcome ended(Status status, std::string note) { return {status, std::move(note)
 
 Outcome made(const Subject& subject, Simulation& simulation, bool judged, const Stop& stop) {
     const Settings& s = simulation.world().settings;
-    const auto steps = static_cast<std::uint64_t>(std::llround(s.duration / s.dt));
+    const std::uint64_t steps = step_count(s);
     std::vector<std::unique_ptr<Judge>> judges;
     if (judged) judges = judges_of(subject);
     std::uint64_t total = 0, solver = 0;

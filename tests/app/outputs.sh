@@ -16,7 +16,7 @@ for file in html png csv plumb; do [ -s "$work/x.$file" ]; done
 "$json_has" "$work/summary.json" /scene /collider/name /collider/version /method /precision /threads /lanes /dt /substeps \
   /velocity_iterations /position_iterations /steps /simulated_time /bodies /deformables /particles /joints /contacts/mean /contacts/max \
   /time_ms/detect/median /time_ms/solve/mean /time_ms/step/p99 /time_ms/stages/positions /energy/start /energy/end \
-  /momentum/linear /momentum/angular /penetration/mean /penetration/p99 /penetration/max /joint_error/mean /joint_error/max \
+  /momentum/linear /momentum/angular /penetration/mean /penetration/p99 /penetration/max /joint_error/mean /joint_error/max /link_error/max \
   /speed/median /speed/p90 /speed/rms /speed/max /speed_near/left_out /particle_speed/p90 /final_height/mean /fallen_through /clamps \
   /state_hash /effects/0/name /effects/0/ran /effects/0/why /effects/0/ms /build/compiler
 [ "$("$json_has" "$work/summary.json" --print /fallen_through)" = 0 ]

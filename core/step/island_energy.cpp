@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: MIT
+/// What keeps an island from gaining energy that nothing gives it.
+#include "contacts/contact_work.h"
+#include "step/island_group.h"
+#include "step/island_solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// Bodies overlap at rest if they move, about their common centre, with less than this share of
+/// the energy with which they are to part.
+constexpr double kAtRest = 0.25;
+
+/// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
+bool closes(const IslandRow& row) {
+    return !row.drive && !(row.highest == 0 && row.wanted > 0) &&
+           !(row.lowest == 0 && row.wanted < 0);
+}
+
+/// Of all mass in its common centre.
+double energy_of_centre(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
+    double mass = 0;
+    Vector3d sum = Vector3d::Zero();
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        mass += bodies[i].mass, sum += bodies[i].mass * velocity[i].head<3>();
+    return 0.5 * sum.squaredNorm() / mass;
+}
+
+/// The greatest share of a change, at most 1, with which a velocity is no more than `most` [m/s];
+/// `before`: without it, no more than that.
+double share_within(double most, const Vector3d& before, const Vector3d& change) {
+    const double a = change.squaredNorm(), b = before.dot(change),
+                 c = before.squaredNorm() - most * most;
+    if (!(a + 2 * b + c > 0)) return 1;
+    return (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a;
+}
+
+}  // namespace
+
+/// Ties that were not closed must add no energy: from nothing, and at rates that are linear in the
+/// velocities, they are closed by as large a share as there is energy for. It grows with the share
+/// at least in proportion.
+void IslandGroup::close_gently(IslandSolver& solver, Member& m) {
+    const Island island = island_of(m);
+    const std::span<const Vector6d> start = starts_of(m);
+    const double before = kinetic_energy(island.bodies, start);
+    const auto begin = [&] { std::copy(start.begin(), start.end(), island.velocity.begin()); };
+    const auto ask = [&](double share) {
+        ties_.ask(m.ties, island.velocity);
+        for (IslandRow& row : island.rows)
+            if (closes(row)) row.wanted *= share;
+    };
+    const auto close = [&](double share) {
+        begin(), solver.forget(island), ask(share);
+        if (!solver.solve(island, m.system, m.speed, m.effort).solved)
+            begin(), solver.sweep_anew(island, [&] { ask(share); });
+        return kinetic_energy(island.bodies, island.velocity);
+    };
+    const double whole = close(1);
+    if (!(whole <= before)) {
+        const double least = close(0);
+        if (least < before) close((before - least) / (whole - least));
+    }
+    m.open = ties_.ask(m.ties, island.velocity);
+}
+
+/// Where friction turns slip about, the speeds that restitution asks for can be more energy than
+/// there was (Kane and Levinson 1985); and what flies about finds overlap wherever it turned into
+/// another body, whose push-out is. Then only a share of what is asked for beyond rest is given:
+/// energy grows with the share at least in proportion. What overlaps at rest is pushed out all the
+/// same.
+void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
+    const Island island = island_of(m);
+    const std::span<const Vector6d> start = starts_of(m);
+    const double before = kinetic_energy(island.bodies, start);
+    const double whole = kinetic_energy(island.bodies, island.velocity);
+    if (whole <= before) return;
+    if (!m.bounces) {
+        const double centre = energy_of_centre(island.bodies, start);
+        if (before - centre < kAtRest * (whole - centre)) return;
+    }
+    const auto ask_for_more = [&](double share) {
+        for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
+            points_[k].wanted[0] += share * parting_[k];
+        m.solved &= solver.solve(island, m.system, m.speed, m.effort).solved;
+        return kinetic_energy(island.bodies, island.velocity);
+    };
+    const double least = ask_for_more(-1);
+    if (least < before) ask_for_more((before - least) / (whole - least));
+}
+
+/// Sweeps of a heap that was squeezed, and is left to itself, may add more energy than what is
+/// asked for, as other iterations may. And what is wedged between surfaces that are all but
+/// parallel leaves many times as fast as those part: nothing is pushed out faster than overlap may
+/// be, unless something was as fast before.
+void IslandGroup::bound_work(const World& world, const Member& m) {
+    const Island island = island_of(m);
+    const std::span<const Vector6d> start = starts_of(m);
+    const double resting = resting_speed(world.settings, substep_of(world.settings));
+    const auto is_fast = [&](const Vector6d& v) { return v.head<3>().norm() > resting; };
+    if (std::none_of(island.velocity.begin(), island.velocity.end(), is_fast)) return;
+    ContactWork work;
+    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
+        const Vector6d change = momentum(island.bodies[i], island.velocity[i] - start[i]);
+        work.beyond += start[i].dot(change);
+        work.of_change += 0.5 * (island.velocity[i] - start[i]).dot(change);
+    }
+    for (const IslandPoint& p : island.points) {
+        const double u = velocity_of(p, start)[0];
+        work.beyond -= p.impulse[0] * granted_speed(u, std::max(0.0, p.wanted[0])) +
+                       p.impulse.tail<5>().dot(p.wanted.tail<5>());
+    }
+    double most = world.settings.recovery_speed;
+    for (const Vector6d& v : start) most = std::max(most, v.head<3>().norm());
+    double share = work.share();
+    for (std::size_t i = 0; i < island.bodies.size(); ++i)
+        share = std::min(share, share_within(most, start[i].head<3>(),
+                                             (island.velocity[i] - start[i]).head<3>()));
+    if (!(share < 1)) return;
+    for (IslandPoint& p : island.points) p.impulse *= share;
+    for (std::size_t i = 0; i < island.bodies.size(); ++i)
+        island.velocity[i] = start[i] + share * (island.velocity[i] - start[i]);
+}
+
+}  // namespace plumb
