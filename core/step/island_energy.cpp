@@ -14,6 +14,9 @@ namespace {
 /// the energy with which they are to part.
 constexpr double kAtRest = 0.25;
 
+/// By which share more is still as fast.
+constexpr double kAsFast = 1e-6;
+
 /// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
 bool closes(const IslandRow& row) {
     return !row.drive && !(row.highest == 0 && row.wanted > 0) &&
@@ -29,13 +32,13 @@ double energy_of_centre(std::span<const IslandBody> bodies, std::span<const Vect
     return 0.5 * sum.squaredNorm() / mass;
 }
 
-/// The greatest share of a change, at most 1, with which a velocity is no more than `most` [m/s];
-/// `before`: without it, no more than that.
+/// The greatest share of a change, at most 1, with which a velocity is no more than `most` [m/s].
+/// `before`: without it, less than that.
 double share_within(double most, const Vector3d& before, const Vector3d& change) {
     const double a = change.squaredNorm(), b = before.dot(change),
                  c = before.squaredNorm() - most * most;
     if (!(a + 2 * b + c > 0)) return 1;
-    return (-b + std::sqrt(std::max(0.0, b * b - a * c))) / a;
+    return std::clamp((-b + std::sqrt(b * b - a * c)) / a, 0.0, 1.0);
 }
 
 }  // namespace
@@ -114,7 +117,7 @@ void IslandGroup::bound_work(const World& world, const Member& m) {
                        p.impulse.tail<5>().dot(p.wanted.tail<5>());
     }
     double most = world.settings.recovery_speed;
-    for (const Vector6d& v : start) most = std::max(most, v.head<3>().norm());
+    for (const Vector6d& v : start) most = std::max(most, (1 + kAsFast) * v.head<3>().norm());
     double share = work.share();
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
         share = std::min(share, share_within(most, start[i].head<3>(),
