@@ -6,6 +6,7 @@
 #include "contacts/contact_measures.h"
 #include "solve/linked_point.h"
 #include "step/joint_state.h"
+#include "step/substep_time.h"
 #include "step/tie_work.h"
 
 #include <algorithm>
@@ -46,9 +47,6 @@ constexpr double kBoundless = 3e4;
 
 /// An arm that is none [m].
 constexpr double kNoArm = 1e-15;
-
-/// Length of a substep [s].
-double substep_of(const Settings& settings) { return settings.dt / settings.substeps; }
 
 /// kCalm of a body, with what a pull [m/s²] makes of rest in a substep or two [m/s].
 double calm_speed(const World& world, double radius, double pull) {
@@ -334,6 +332,7 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
             return IslandWay::swept;
         }
     }
+    if (meshed && n <= world.settings.exact_islands && !is_driven(island)) return IslandWay::swept;
     mark_what_goes_on(world, island, pairs);
     return IslandWay::left;
 }

@@ -3,6 +3,7 @@
 #include "contacts/contact_work.h"
 #include "step/island_group.h"
 #include "step/island_solver.h"
+#include "step/substep_time.h"
 
 #include <algorithm>
 #include <cmath>

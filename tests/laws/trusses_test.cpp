@@ -103,6 +103,36 @@ TEST_P(Trusses, LoopsOfRodsKeepTheirEnergyAndLength) {
     }
 }
 
+/// Twelve balls, each on rods to all near ones, which are more than hold them: they fall, and are
+/// braced and shaken, but not driven.
+TEST_P(Trusses, ALatticeThatFallsGainsNothing) {
+    Random random(8);
+    for (int draw = 0; draw < 9; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        add_ground(s);
+        const Rotation turn = random.rotation();
+        std::vector<Vector> places;
+        const double most = std::pow(10, random.number(0, 2));
+        for (std::uint32_t i = 0; i < 12; ++i) {
+            places.push_back(turn * Vector(i % 3, i / 3 % 2, i / 6) + Vector(0, 3, 0));
+            add_body(s, sphere(0.1), places[i]).mass = drawn_mass(random, most);
+            for (std::uint32_t j = 0; j < i; ++j)
+                if ((places[i] - places[j]).norm() < 1.5)
+                    add_link(s, on_body(1 + i, places[i]), on_body(1 + j, places[j]));
+        }
+        draw_settings(s.settings, random, draw);
+        SCOPED_TRACE(draw);
+        Simulation simulation(s, colliders(), "reference");
+        const double start = total_energy(simulation);
+        while (simulation.time() < 4) {
+            simulation.step();
+            ASSERT_LT(total_energy(simulation), 1.001 * start);
+            for (const double e : joint_errors(simulation.world())) ASSERT_LT(e, 0.05);
+        }
+    }
+}
+
 /// Wheels that are out of balance and geared to each other swing about their lowest place.
 TEST_P(Trusses, CoupledWheelsKeepTheirEnergy) {
     Random random(7);
