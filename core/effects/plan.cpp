@@ -102,7 +102,7 @@ Wish still_ground(const World& w) {
     return counted(
         count_bodies(w, stands),
         "bodies that are fixed, or kinematic and at rest, give no energy to what touches them",
-        "nothing with a shape is fixed");
+        "nothing with a shape is fixed or kinematic");
 }
 Wish exact_islands(const World& w) {
     const bool is_tied = w.joints.size() > 1 || !w.joints.couplings.empty() ||

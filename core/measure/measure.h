@@ -20,10 +20,10 @@ Vector3d angular_momentum(const World& world);  ///< about the origin [kg m²/s]
 /// detection.
 std::vector<double> penetrations(const World& world);
 
-/// How far each joint's points have parted along what it locks [m].
+/// How far each joint's points have parted along what it locks [m]; 0 of broken ones.
 std::vector<double> joint_errors(const World& world);
 
-/// How far each joint's bodies have turned against each other about what it locks [rad].
+/// How far each joint's bodies have turned against each other about what it locks [rad]; the same.
 std::vector<double> joint_turn_errors(const World& world);
 
 /// How far each link's points are from where it holds them [m]; 0 of links that give way.

@@ -5,6 +5,7 @@
 
 #include "schedule/contact_rows.h"
 #include "step/coupling_row.h"
+#include "world/tie.h"
 
 #include <cstdint>
 #include <vector>
@@ -21,7 +22,7 @@ public:
 
     void begin(const World& world, double h) {
         rows_.resize(world.joints.couplings.size());
-        for (std::size_t i = 0; i < rows_.size(); ++i) {
+        for (std::uint32_t i = 0; i < rows_.size(); ++i) {
             const JointCoupling& coupling = world.joints.couplings[i];
             Row row;
             row.formula = coupling_row(world, coupling, h);
@@ -32,9 +33,8 @@ public:
                 row.to_w[k] = world.bodies.world_inverse_inertia[side.body] * side.turn;
             }
             const double response = row.formula.response(world.bodies);
-            const bool whole = !world.joints.joints[coupling.joint_a].broken &&
-                               !world.joints.joints[coupling.joint_b].broken;
-            row.mass = whole && response > 0 && !in_island_[i] ? 1 / response : 0;
+            const bool acts = holds(world, {TieKind::coupling, i}) && !in_island_[i];
+            row.mass = acts && response > 0 ? 1 / response : 0;
             rows_[i] = row;
         }
     }

@@ -267,12 +267,10 @@ void IslandChoice::rule_out(const World& world) {
         const bool is_joint = tie.kind == TieKind::joint;
         const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)
                                       : load_of(world, world.links[tie.index], h);
-        const IslandRest& rest = is_joint ? world.joints.joints[tie.index].island_rest
-                                          : world.links[tie.index].island_rest;
         if (is_joint && iterated) mark(tie, kBeyond);
         if (load.pull > kHardPull || load.turn > kFarthestTurn) mark(tie, kHard);
         if (load.turn > kFarTurn) mark(tie, kFast);
-        if (rest.steps > 0) mark(tie, kRests);
+        if (rest_of(world, tie).steps > 0) mark(tie, kRests);
     }
     for (const JointDrive& drive : world.joints.drives)
         if (is_boundless(world, drive)) mark({TieKind::joint, drive.joint}, kBeyond);

@@ -509,10 +509,9 @@ void IslandGroup::rest_ties(World& world) const {
     for (Link& link : world.links) go_on(link.island_rest);
     for (std::size_t i = 0; i < count_; ++i)
         ties_.each(members_[i].ties, [&](const Tie& tie) {
-            if (tie.kind == TieKind::coupling) return;  // its joints rest
-            IslandRest& rest = tie.kind == TieKind::joint
-                                   ? world.joints.joints[tie.index].island_rest
-                                   : world.links[tie.index].island_rest;
+            // nothing is learnt by sweeps, and of a coupling the joints rest
+            if (tie.kind == TieKind::coupling || members_[i].effort == IslandEffort::swept) return;
+            IslandRest& rest = rest_of(world, tie);
             rest.misses = members_[i].given_up ? std::min(rest.misses + 1, kMostMisses) : 0;
             if (rest.misses > 0)
                 rest.steps = static_cast<std::uint32_t>(

@@ -43,6 +43,13 @@ inline bool holds(const World& world, const Tie& tie) {
     return is_whole(c.joint_a) && is_whole(c.joint_b);
 }
 
+/// For how long exact islands leave a joint or a link alone; of a coupling its joints tell.
+template <class SomeWorld>
+auto& rest_of(SomeWorld& world, const Tie& tie) {
+    return tie.kind == TieKind::joint ? world.joints.joints[tie.index].island_rest
+                                      : world.links[tie.index].island_rest;
+}
+
 /// What exact islands solve in a step, so that others leave it alone: by index in the world's
 /// tables.
 struct SolvedTies {
