@@ -48,7 +48,7 @@ void check(const CompareArguments& o) {
     const std::string ending = std::filesystem::path(o.page).extension().string();
     if (!o.page.empty() && ending != ".html")
         throw UsageError("--out " + o.page + ": a comparison is written to a .html file");
-    check_distinct({o.page, o.json});
+    check_distinct({o.page, o.json}, o.run.scene);
     const std::set<std::string> distinct(o.colliders.begin(), o.colliders.end());
     if (o.colliders.empty())
         throw UsageError("--colliders is required; write --colliders ode,bullet");

@@ -7,8 +7,8 @@
 
 namespace plumb::app {
 
-/// Throws UsageError where two outputs are one file, which they would write over each other. ""
-/// (none) and "-" (stdout) are no files.
-void check_distinct(const std::vector<std::string>& files);
+/// Throws UsageError where two outputs are one file, which they would write over each other, or one
+/// is what `input` reads. "" (none) and "-" (stdout) are no files.
+void check_distinct(const std::vector<std::string>& files, const std::string& input);
 
 }  // namespace plumb::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// plumb export: makes a replay, a picture or a table of a recording, such as one that a crash left
 /// behind.
+#include "app/distinct_files.h"
 #include "app/verbs.h"
 #include "host/log.h"
 #include "output/exporters.h"
@@ -27,6 +28,7 @@ Verb add_export(CLI::App& command) {
         ->type_name("FILE")
         ->allow_extra_args(false);
     return [options] {
+        check_distinct(options->files, options->recording);
         const Recording recording = read_recording(options->recording);
         if (recording.dropped_bytes > 0)
             logger()->warn("{}: the last {} bytes are no whole frame and are left out",

@@ -10,11 +10,11 @@
 
 namespace plumb::app {
 Recorder::Recorder(const std::vector<std::string>& files, const std::string& summary,
-                   const Scene& scene, const Simulation& simulation)
+                   const std::string& scene_file, const Scene& scene, const Simulation& simulation)
     : summary_(summary) {
     std::vector<std::string> all = files;
     all.push_back(summary);
-    check_distinct(all);
+    check_distinct(all, scene_file);
     Metadata metadata{simulation.collider_name(),
                       {{"collider_version", simulation.collider_version()}}};
     if (scene.settings.contacts == ContactOrigin::raw) metadata.values["contacts"] = "raw";

@@ -17,9 +17,9 @@ namespace plumb::app {
 class Recorder {
 public:
     /// `summary` may be empty (none) or "-" (stdout). Throws OutputError, or UsageError when two
-    /// outputs are one file.
-    Recorder(const std::vector<std::string>& files, const std::string& summary, const Scene& scene,
-             const Simulation& simulation);
+    /// outputs are one file, or one is the scene's.
+    Recorder(const std::vector<std::string>& files, const std::string& summary,
+             const std::string& scene_file, const Scene& scene, const Simulation& simulation);
 
     /// How many files of frames there are.
     std::size_t size() const { return exporters_.size(); }

@@ -214,7 +214,7 @@ int run(const Outputs& outputs) {
     const ColliderLibrary colliders(outputs.run.plugin_path);
     const std::unique_ptr<Simulation> made = start(scene, colliders, outputs.run);
     Simulation& simulation = *made;
-    Recorder recorder(outputs.files, outputs.summary, scene, simulation);
+    Recorder recorder(outputs.files, outputs.summary, outputs.run.scene, scene, simulation);
     greet(simulation, outputs);
 
     const std::uint64_t steps = step_count(scene.settings);

@@ -26,15 +26,18 @@ std::string temporary_name(const std::string& path) {
     return path + ".partial";
 }
 
-/// Where a file of that name is written: a link stays, and what it leads to is replaced.
-std::string place_of(const std::string& path) {
-    std::error_code error;
-    if (!std::filesystem::is_symlink(path, error)) return path;
-    const std::filesystem::path place = std::filesystem::weakly_canonical(path, error);
-    return error ? path : place.string();
-}
-
 }  // namespace
+
+std::string written_place(const std::string& path) {
+    constexpr int kMostLinks = 40;  // as many as the system follows
+    std::filesystem::path place = path;
+    std::error_code error;
+    for (int i = 0; i < kMostLinks && std::filesystem::is_symlink(place, error); ++i) {
+        const std::filesystem::path target = std::filesystem::read_symlink(place, error);
+        place = target.is_absolute() ? target : place.parent_path() / target;
+    }
+    return place.string();
+}
 
 AppendFile::AppendFile(std::string path)
     : path_(std::move(path)), file_(std::fopen(path_.c_str(), "wb")) {
@@ -58,7 +61,7 @@ void AppendFile::close() {
 }
 
 WholeFile::WholeFile(std::string path)
-    : path_(std::move(path)), place_(place_of(path_)), file_(temporary_name(place_)) {}
+    : path_(std::move(path)), place_(written_place(path_)), file_(temporary_name(place_)) {}
 
 WholeFile::~WholeFile() {
     if (!committed_) std::remove(file_.path().c_str());

@@ -56,6 +56,9 @@ private:
     bool committed_ = false;
 };
 
+/// Where what is written to a path arrives: symbolic links are followed, also to what is not there.
+std::string written_place(const std::string& path);
+
 /// The whole content of a file.
 std::string read_file(const std::string& path);
 

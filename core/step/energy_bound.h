@@ -2,8 +2,9 @@
 /// Sees to it that iterations of contacts add no energy (contacts/contact_work.h): where those of an
 /// island do, only a share of their impulses is taken, and remembered.
 ///
-/// It looks at islands in which a body is fast, for what rests may converge as it likes; not at
-/// those that joints, links or particles hold, whose impulses would have to follow.
+/// It looks at islands in which a body is fast, for what rests may converge as it likes, and one is
+/// much heavier than another that it touches; not at those that joints, links or particles hold,
+/// whose impulses would have to follow.
 #pragma once
 
 #include "contacts/contact_work.h"
@@ -72,14 +73,26 @@ private:
             if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
                 held_[world.bodies.row[body]] = 1;
         };
+        uneven_.clear();
+        for (const BodyPair& pair : pairs) uneven_.push_back(is_uneven(world, pair));
         world.each_body_among_particles(hold);
         for (std::uint32_t i = 0; i < world.joints.size(); ++i)
             if (holds(world, {TieKind::joint, i})) each_body(world, {TieKind::joint, i}, hold);
         world.each_linked_body(true, hold);
     }
 
+    /// Whether one of two bodies that move is much heavier than the other.
+    static bool is_uneven(const World& world, const BodyPair& pair) {
+        const Contact& c = world.contacts.found[pair.first];
+        const double a = world.bodies.mass[c.a], b = world.bodies.mass[c.b];
+        return std::min(a, b) > 0 && std::max(a, b) > kUneven * std::min(a, b);
+    }
+
     bool is_watched(const ContactIsland& island) const {
-        bool fast = false;
+        bool fast = false, uneven = false;
+        for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+            uneven |= uneven_[islands_.pairs()[i]] != 0;
+        if (!uneven) return false;
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
             const std::int32_t row = islands_.bodies()[i];
             if (held_[row]) return false;
@@ -88,9 +101,13 @@ private:
         return fast;
     }
 
+    /// Iterations converge well enough where masses are not so many times each other.
+    static constexpr double kUneven = 5;
+
     ContactIslands islands_;
     bool found_ = false;
     std::vector<std::uint8_t> fast_, held_;  // [dynamic row]
+    std::vector<std::uint8_t> uneven_;       // [pair]
 };
 
 }  // namespace plumb

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// What keeps an island from gaining energy that nothing gives it.
-#include "contacts/contact_work.h"
 #include "step/island_group.h"
 #include "step/island_solver.h"
-#include "step/substep_time.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,8 +13,9 @@ namespace {
 /// the energy with which they are to part.
 constexpr double kAtRest = 0.25;
 
-/// By which share more is still as fast.
-constexpr double kAsFast = 1e-6;
+/// How many times as fast as overlap is pushed out a body may come out of a squeezed heap, and by
+/// which share more is still as fast as it was.
+constexpr double kFlung = 4, kAsFast = 1e-6;
 
 /// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
 bool closes(const IslandRow& row) {
@@ -96,30 +95,15 @@ void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
     if (least < before) ask_for_more((before - least) / (whole - least));
 }
 
-/// Sweeps of a heap that was squeezed, and is left to itself, may add more energy than what is
-/// asked for, as other iterations may. And what is wedged between surfaces that are all but
-/// parallel leaves many times as fast as those part: nothing is pushed out faster than overlap may
-/// be, unless something was as fast before.
-void IslandGroup::bound_work(const World& world, const Member& m) {
+/// What is wedged between surfaces that are all but parallel leaves many times as fast as these part.
+/// Sweeps of a heap that was squeezed, and is left to itself, fling nothing out of it: only such a
+/// share of their impulses is taken.
+void IslandGroup::bound_speed(const World& world, const Member& m) {
     const Island island = island_of(m);
     const std::span<const Vector6d> start = starts_of(m);
-    const double resting = resting_speed(world.settings, substep_of(world.settings));
-    const auto is_fast = [&](const Vector6d& v) { return v.head<3>().norm() > resting; };
-    if (std::none_of(island.velocity.begin(), island.velocity.end(), is_fast)) return;
-    ContactWork work;
-    for (std::size_t i = 0; i < island.bodies.size(); ++i) {
-        const Vector6d change = momentum(island.bodies[i], island.velocity[i] - start[i]);
-        work.beyond += start[i].dot(change);
-        work.of_change += 0.5 * (island.velocity[i] - start[i]).dot(change);
-    }
-    for (const IslandPoint& p : island.points) {
-        const double u = velocity_of(p, start)[0];
-        work.beyond -= p.impulse[0] * granted_speed(u, std::max(0.0, p.wanted[0])) +
-                       p.impulse.tail<5>().dot(p.wanted.tail<5>());
-    }
-    double most = world.settings.recovery_speed;
+    double most = kFlung * world.settings.recovery_speed;
     for (const Vector6d& v : start) most = std::max(most, (1 + kAsFast) * v.head<3>().norm());
-    double share = work.share();
+    double share = 1;
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
         share = std::min(share, share_within(most, start[i].head<3>(),
                                              (island.velocity[i] - start[i]).head<3>()));

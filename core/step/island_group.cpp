@@ -449,7 +449,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         ask();
         m.solved = true;
         if (m.is_meshed && gains()) close_gently(solver, m);
-        if (m.may_be_disputed) bound_work(world, m);
+        if (m.may_be_disputed) bound_speed(world, m);
         return;
     }
     const int most = m.is_meshed ? kMostCloses : kCloses;

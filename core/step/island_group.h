@@ -83,7 +83,7 @@ private:
     void note_open(StepReport& report, const Member& member) const;
     void close_gently(IslandSolver& solver, Member& member);
     void bound_energy(IslandSolver& solver, Member& member);
-    void bound_work(const World& world, const Member& member);
+    void bound_speed(const World& world, const Member& member);
     double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
     double strongest(const World& world, const Member& member, double h);
     double thrust_of(const World& world, const Member& member, double h) const;

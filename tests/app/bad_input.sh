@@ -136,6 +136,26 @@ expect 2 "Allowed: run, colliders" "$plumb" walk
 expect 2 "did you mean \"--collider\"" "$plumb" run "$scenes/stack.json" --colider ode
 expect 2 "did you mean \"--substeps\"" "$plumb" run "$scenes/stack.json" --substep=3
 expect 2 "named twice" "$plumb" run "$scenes/stack.json" --out "$work/x.csv" --out "$work/./x.csv"
+# an output must not be what is read, nor another output, by whatever name
+cp "$scenes/stack.json" "$work/own.json"
+ln "$work/own.json" "$work/hard.json"
+ln -s own.json "$work/soft.json"
+for own in own hard soft; do
+  expect 2 "is what is read" "$plumb" run "$work/own.json" --collider ode --duration 0.1 --summary "$work/$own.json"
+done
+"$plumb" run "$scenes/stack.json" --collider ode --duration 0.1 --quiet --out "$work/own.plumb"
+ln -s own.plumb "$work/soft.csv"
+expect 2 "is what is read" "$plumb" export "$work/own.plumb" --out "$work/soft.csv"
+ln -s absent.csv "$work/dangling.csv"
+expect 2 "named twice" "$plumb" run "$scenes/stack.json" --out "$work/absent.csv" --out "$work/dangling.csv"
+"$plumb" run "$scenes/stack.json" --collider ode --duration 0.1 --quiet --out "$work/dangling.csv"
+if [ ! -L "$work/dangling.csv" ] || [ ! -s "$work/absent.csv" ]; then
+  echo "FAILED: an output that is a link is not written where that leads"
+  failures=$((failures + 1))
+fi
+expect 6 "cannot be written" bash -c 'ulimit -f 1; "$@"' limited "$plumb" run "$scenes/pyramid.json" --collider ode --duration 0.5 --quiet --out "$work/x.csv"
+expect 0 "nothing is run" "$plumb" run "$scenes/stack.json" --collider ode --duration 0.001
+expect 0 "both required and forbidden" "$plumb" check "$scenes/stack.json" --set 'require=["friction"]' --set 'forbid=["friction"]'
 expect 2 "must be a number above 0" "$plumb" run "$scenes/stack.json" --fps 0
 expect 2 "--substeps many: must be" "$plumb" run "$scenes/stack.json" --substeps many
 expect 2 "--substeps 0: must be" "$plumb" run "$scenes/stack.json" --substeps 0
