@@ -37,6 +37,22 @@ inline double gap_in_substep(const ContactTable& c, std::size_t i) {
     return c.is_passing(i) ? kOutOfReach : c.gap[i];
 }
 
+/// The same without overlap that is not to be pushed out: that of bodies that pass each other so many
+/// times as fast as overlap is pushed out is made anew in each step, and pushing it out would throw
+/// them to and fro ever faster where they are squeezed.
+inline double gap_to_solve_for(const World& world, std::size_t i) {
+    constexpr double kPassing = 2, kNoticed = 0.1;
+    const ContactTable& c = world.contacts;
+    const Settings& s = world.settings;
+    const double gap = gap_in_substep(c, i);
+    if (-gap * s.substeps < kNoticed * s.recovery_speed * s.dt) return gap;
+    const Bodies& b = world.bodies;
+    const Vector3d u =
+        relative_velocity(b, b.velocity_now, b.angular_velocity_now, c.found[i], c.point[i]);
+    const double most = kPassing * s.recovery_speed;
+    return u.squaredNorm() > most * most ? 0 : gap;
+}
+
 /// Separating speed that restitution asks of a contact [m/s]; 0: none.
 inline double restitution_velocity_of(const ContactTable& c, std::size_t i) {
     return c.restitution_velocity.empty() ? 0 : c.restitution_velocity[i];

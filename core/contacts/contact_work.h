@@ -12,19 +12,24 @@
 #include "contacts/contact_measures.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb {
 
-/// Sums over contacts [J].
+/// Sums over the contacts of an island [J].
 struct ContactWork {
-    double beyond = 0;     ///< λ (u − p)
-    double of_change = 0;  ///< λ Δu / 2, never negative over all contacts of an island
+    double at_start = 0;   ///< λ u, and λ (u − w) of bounces and anchors
+    double of_change = 0;  ///< λ Δu / 2, never negative
+    double granted = 0;    ///< λ p, of overlap that is pushed out
 
-    /// The greatest share of all impulses, at most 1, that adds no more energy than is asked for:
-    /// velocities change in proportion.
-    double share() const {
-        if (!(beyond + of_change > 0) || !(of_change > 0)) return 1;
-        return std::clamp(-beyond / of_change, 0.0, 1.0);
+    /// The greatest share s of all impulses, at most 1, that adds no more energy than is granted, and
+    /// no more than `most` [J] in all: velocities change in proportion, and energy by
+    /// s at_start + s² of_change.
+    double share(double most) const {
+        if (!(of_change > 0)) return 1;
+        const double enough = (granted - at_start) / of_change;
+        const double root = std::sqrt(at_start * at_start + 4 * of_change * most);
+        return std::clamp(std::min(enough, (root - at_start) / (2 * of_change)), 0.0, 1.0);
     }
 };
 
@@ -35,6 +40,25 @@ inline double granted_speed(double u, double w) { return u < w ? std::max(0.0, (
 /// converged carry it up and down by as much. h: of the substep [s].
 inline double resting_speed(const Settings& settings, double h) {
     return std::max(collision_threshold(settings), 2 * h * settings.gravity.norm());
+}
+
+/// What overlaps deeply, wedged between surfaces that are all but parallel, would leave many times as
+/// fast as these part: it comes out no faster than this [m/s].
+inline double flung_speed(const Settings& settings) {
+    constexpr double kFlung = 4;
+    return kFlung * settings.recovery_speed;
+}
+
+/// By which share more is still as fast.
+inline constexpr double kAsFast = 1e-6;
+
+/// The greatest share of a change, at most 1, with which a velocity is no more than `most` [m/s].
+/// `before`: without it, less than that.
+inline double share_within(double most, const Vector3d& before, const Vector3d& change) {
+    const double a = change.squaredNorm(), b = before.dot(change),
+                 c = before.squaredNorm() - most * most;
+    if (!(a + 2 * b + c > 0)) return 1;
+    return std::clamp((-b + std::sqrt(b * b - a * c)) / a, 0.0, 1.0);
 }
 
 }  // namespace plumb

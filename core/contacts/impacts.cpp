@@ -109,11 +109,11 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
         const std::uint32_t body = body_of_[row];
         const Change& d = changes_[row];
         const Vector3d &v = start_[body], &w = bodies.angular_velocity_now[body];
-        work.beyond += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
+        work.at_start += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
         work.of_change +=
             0.5 * (bodies.mass[body] * d.v.squaredNorm() + inertia_product(bodies, body, d.w, d.w));
     }
-    return work.share();
+    return work.share(0);
 }
 
 void Impacts::take(World& world, const std::vector<BodyPair>& pairs, double h) {

@@ -21,6 +21,7 @@
 #include "step/velocity_table.h"
 #include "world/world.h"
 
+#include <tuple>
 #include <vector>
 
 namespace plumb {
@@ -95,19 +96,23 @@ public:
     void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                double) override {
         clamped_ = 0;
+        deep_.assign(pairs_.size(), 0);
         if (pairs_.empty()) return;
         if (!is_fresh_) fill_geometry(world);
         is_fresh_ = false;
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
         const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
-        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+        batches_.each_contact(pairs_, [&](const ContactPlace& at) {
+            const auto [contact, k, lane] = std::tuple(at.contact, at.row, at.lane);
             NormalRow<Real, W>& row = rows.normals[k];
-            row.gap[lane] = static_cast<Real>(gap_in_substep(c, contact));
+            row.gap[lane] = static_cast<Real>(gap_to_solve_for(world, contact));
             row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
             clamped_ += -static_cast<Real>(c.gap[contact]) > pass.recovery;
-            if (-c.gap[contact] > trusted_[contact])
+            if (-c.gap[contact] > trusted_[contact]) {
                 damp_impulses(rows, k, lane, -c.gap[contact] / trusted_[contact]);
+                deep_[at.pair] = 1;
+            }
             if (!rows.frictions || c.anchor_slip.empty()) return;
             FrictionRow<Real, W>& across = rows.frictions[k];
             const auto [x, y] = tangents_of(row, across, lane);
@@ -145,6 +150,9 @@ public:
             });
         });
     }
+
+    /// Whether a contact of a pair overlaps by more than its impulses can be trusted with.
+    bool is_deep(std::size_t pair) const { return deep_[pair] != 0; }
 
     /// The work of a pair's contacts; parameters as in step/row_work.h.
     void add_pair_work(ContactWork& work, std::size_t pair, const BodyRows<Real>& bodies,
@@ -371,7 +379,8 @@ private:
     Colouring colouring_;
     ContactBatches<Real, W> batches_;
     ContactImpacts<Real, W> impacts_;
-    std::vector<double> trusted_;  // [contact] overlap [m]
+    std::vector<double> trusted_;      // [contact] overlap [m]
+    std::vector<std::uint8_t> deep_;   // [pair]
     const std::vector<std::uint32_t>* levels_ = nullptr;
     std::uint32_t clamped_ = 0;
     bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins

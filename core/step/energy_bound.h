@@ -3,13 +3,14 @@
 /// island do, only a share of their impulses is taken, and remembered.
 ///
 /// It looks at islands in which a body is fast, for what rests may converge as it likes, and one is
-/// much heavier than another that it touches; not at those that joints, links or particles hold,
+/// much heavier than another that it touches, or is moved by others; not at those that joints, links or particles hold,
 /// whose impulses would have to follow.
 #pragma once
 
 #include "contacts/contact_work.h"
 #include "schedule/contact_islands.h"
 #include "step/contact_solver.h"
+#include "world/body_momentum.h"
 #include "world/tie.h"
 
 #include <algorithm>
@@ -34,7 +35,11 @@ public:
             ContactWork work;
             for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
                 contacts.add_pair_work(work, islands_.pairs()[i], bodies, push_out, h);
-            const double share = work.share();
+            double share = 1;
+            if (work.at_start + work.of_change > 0)
+                share = work.share(most_granted(world, island));
+            if (is_deep(contacts, island))
+                share = std::min(share, share_within_flung(world, bodies, island));
             if (!(share < 1)) continue;
             for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
                 contacts.scale_impulses(islands_.pairs()[i], share);
@@ -69,6 +74,9 @@ private:
         found_ = true;
         islands_.find(pairs, {}, 0, world.dynamic_count);
         held_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
+        body_of_.resize(held_.size());
+        for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+            if (world.bodies.motion[i] == Motion::dynamic) body_of_[world.bodies.row[i]] = i;
         const auto hold = [&](std::uint32_t body) {
             if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
                 held_[world.bodies.row[body]] = 1;
@@ -81,24 +89,68 @@ private:
         world.each_linked_body(true, hold);
     }
 
-    /// Whether one of two bodies that move is much heavier than the other.
+    /// Whether one of two bodies is much heavier than the other, or is moved by others.
     static bool is_uneven(const World& world, const BodyPair& pair) {
+        const Bodies& bodies = world.bodies;
         const Contact& c = world.contacts.found[pair.first];
-        const double a = world.bodies.mass[c.a], b = world.bodies.mass[c.b];
+        if (bodies.motion[c.a] == Motion::kinematic || bodies.motion[c.b] == Motion::kinematic)
+            return true;
+        const double a = bodies.mass[c.a], b = bodies.mass[c.b];
         return std::min(a, b) > 0 && std::max(a, b) > kUneven * std::min(a, b);
     }
 
     bool is_watched(const ContactIsland& island) const {
-        bool fast = false, uneven = false;
-        for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
-            uneven |= uneven_[islands_.pairs()[i]] != 0;
-        if (!uneven) return false;
+        const auto first = islands_.pairs().begin();
+        if (std::none_of(first + island.first_pair, first + island.last_pair,
+                         [&](std::uint32_t pair) { return uneven_[pair] != 0; }))
+            return false;
+        bool fast = false;
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
             const std::int32_t row = islands_.bodies()[i];
             if (held_[row]) return false;
             fast |= fast_[row] != 0;
         }
         return fast;
+    }
+
+    bool is_deep(const ContactSolver<Real, W>& contacts, const ContactIsland& island) const {
+        const auto first = islands_.pairs().begin();
+        return std::any_of(first + island.first_pair, first + island.last_pair,
+                           [&](std::uint32_t pair) { return contacts.is_deep(pair); });
+    }
+
+    /// The share of an island's changes with which nothing is flung out of it: unless something was
+    /// as fast before.
+    double share_within_flung(const World& world, const BodyRows<Real>& rows,
+                              const ContactIsland& island) const {
+        const Bodies& b = world.bodies;
+        double most = flung_speed(world.settings), share = 1;
+        const auto each = [&](auto&& visit) {
+            for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
+                visit(islands_.bodies()[i], b.velocity[body_of_[islands_.bodies()[i]]]);
+        };
+        each([&](std::int32_t, const Vector3d& v) {
+            most = std::max(most, (1 + kAsFast) * v.norm());
+        });
+        each([&](std::int32_t row, const Vector3d& v) {
+            const Vector3d change = velocity_in(rows.change, row).v.template cast<double>();
+            share = std::min(share, share_within(most, v, change));
+        });
+        return share;
+    }
+
+    /// What may come of the overlap of an island at the most [J]: the energy of all its bodies at the
+    /// speed of recovery, less what they have. What is wedged between surfaces that are all but
+    /// parallel would leave many times as fast as those part.
+    double most_granted(const World& world, const ContactIsland& island) const {
+        const Bodies& b = world.bodies;
+        const double speed = world.settings.recovery_speed;
+        double energy = 0;
+        for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+            const std::uint32_t body = body_of_[islands_.bodies()[i]];
+            energy += 0.5 * b.mass[body] * speed * speed - kinetic_energy(b, body);
+        }
+        return std::max(0.0, energy);
     }
 
     /// Iterations converge well enough where masses are not so many times each other.
@@ -108,6 +160,7 @@ private:
     bool found_ = false;
     std::vector<std::uint8_t> fast_, held_;  // [dynamic row]
     std::vector<std::uint8_t> uneven_;       // [pair]
+    std::vector<std::uint32_t> body_of_;     // [dynamic row]
 };
 
 }  // namespace plumb

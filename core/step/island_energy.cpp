@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// What keeps an island from gaining energy that nothing gives it.
+#include "contacts/contact_work.h"
 #include "step/island_group.h"
 #include "step/island_solver.h"
 
@@ -12,10 +13,6 @@ namespace {
 /// Bodies overlap at rest if they move, about their common centre, with less than this share of
 /// the energy with which they are to part.
 constexpr double kAtRest = 0.25;
-
-/// How many times as fast as overlap is pushed out a body may come out of a squeezed heap, and by
-/// which share more is still as fast as it was.
-constexpr double kFlung = 4, kAsFast = 1e-6;
 
 /// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
 bool closes(const IslandRow& row) {
@@ -30,15 +27,6 @@ double energy_of_centre(std::span<const IslandBody> bodies, std::span<const Vect
     for (std::size_t i = 0; i < bodies.size(); ++i)
         mass += bodies[i].mass, sum += bodies[i].mass * velocity[i].head<3>();
     return 0.5 * sum.squaredNorm() / mass;
-}
-
-/// The greatest share of a change, at most 1, with which a velocity is no more than `most` [m/s].
-/// `before`: without it, less than that.
-double share_within(double most, const Vector3d& before, const Vector3d& change) {
-    const double a = change.squaredNorm(), b = before.dot(change),
-                 c = before.squaredNorm() - most * most;
-    if (!(a + 2 * b + c > 0)) return 1;
-    return std::clamp((-b + std::sqrt(b * b - a * c)) / a, 0.0, 1.0);
 }
 
 }  // namespace
@@ -101,7 +89,7 @@ void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
 void IslandGroup::bound_speed(const World& world, const Member& m) {
     const Island island = island_of(m);
     const std::span<const Vector6d> start = starts_of(m);
-    double most = kFlung * world.settings.recovery_speed;
+    double most = flung_speed(world.settings);
     for (const Vector6d& v : start) most = std::max(most, (1 + kAsFast) * v.head<3>().norm());
     double share = 1;
     for (std::size_t i = 0; i < island.bodies.size(); ++i)

@@ -340,7 +340,7 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     const bool stays = member.effort == IslandEffort::light;
 
     const double bounce = restitution_velocity_of(c, contact);
-    double normal = closing_velocity(gap_in_substep(c, contact), h, push_out);
+    double normal = closing_velocity(gap_to_solve_for(world, contact), h, push_out);
     const ContactMemory& before = c.memory[contact];
     locked_[k] = choice_.is_stuck(before, -c.found[contact].gap) &&
                  (before.jammed || p.impulse[0] > kLocked * p.cone.most);

@@ -26,12 +26,15 @@ void add_work(ContactWork& work, const ContactArrays<Real, W>& rows, const Conta
     const double bounce = double(row.restitution_velocity[at.lane]);
     const double overlap = std::clamp(-double(row.gap[at.lane]), 0.0, push_out.most);
     const double u = double(row.velocity[at.lane]);
-    const double wanted = bounce > 0 ? bounce : push_out.share * overlap / h;
-    work.beyond += p.normal * (u - granted_speed(u, wanted));
+    work.at_start += p.normal * u;
+    if (bounce > 0)
+        work.at_start -= p.normal * granted_speed(u, bounce);
+    else
+        work.granted += p.normal * granted_speed(u, push_out.share * overlap / h);
     work.of_change += 0.5 * p.normal * normal.dot(change);
     if (rows.frictions) {  // whose velocities are those against what anchors ask for
         const FrictionRow<Real, W>& across = rows.frictions[at.row];
-        work.beyond += p.x * double(across.velocity_x[at.lane]) +
+        work.at_start += p.x * double(across.velocity_x[at.lane]) +
                        p.y * double(across.velocity_y[at.lane]);
         work.of_change += 0.5 * p.friction().dot(change);
     }
@@ -42,7 +45,7 @@ void add_work(ContactWork& work, const ContactArrays<Real, W>& rows, const Conta
     const Vector3d rate(double(rolling.rate_x[at.lane]), double(rolling.rate_y[at.lane]),
                         double(rolling.rate_n[at.lane]));
     const Vector3d turned = turn_between(bodies, sides).template cast<double>();
-    work.beyond += torque.dot(rate);
+    work.at_start += torque.dot(rate);
     work.of_change += 0.5 * (torque.x() * p.tangents.x.dot(turned) +
                              torque.y() * p.tangents.y.dot(turned) + torque.z() * normal.dot(turned));
 }
