@@ -37,9 +37,9 @@ inline double gap_in_substep(const ContactTable& c, std::size_t i) {
     return c.is_passing(i) ? kOutOfReach : c.gap[i];
 }
 
-/// The same without overlap that is not to be pushed out: that of bodies that pass each other so many
-/// times as fast as overlap is pushed out is made anew in each step, and pushing it out would throw
-/// them to and fro ever faster where they are squeezed.
+/// The same without overlap that is not to be pushed out: that of bodies that pass each other so
+/// many times as fast as overlap is pushed out is made anew in each step, and pushing it out would
+/// throw them to and fro ever faster where they are squeezed.
 inline double gap_to_solve_for(const World& world, std::size_t i) {
     constexpr double kPassing = 2, kNoticed = 0.1;
     const ContactTable& c = world.contacts;

@@ -22,9 +22,9 @@ struct ContactWork {
     double of_change = 0;  ///< λ Δu / 2, never negative
     double granted = 0;    ///< λ p, of overlap that is pushed out
 
-    /// The greatest share s of all impulses, at most 1, that adds no more energy than is granted, and
-    /// no more than `most` [J] in all: velocities change in proportion, and energy by
-    /// s at_start + s² of_change.
+    /// The greatest share s of all impulses, at most 1, that adds no more energy than is granted,
+    /// and no more than `most` [J] in all: velocities change in proportion, and energy by s
+    /// at_start + s² of_change.
     double share(double most) const {
         if (!(of_change > 0)) return 1;
         const double enough = (granted - at_start) / of_change;
@@ -42,8 +42,8 @@ inline double resting_speed(const Settings& settings, double h) {
     return std::max(collision_threshold(settings), 2 * h * settings.gravity.norm());
 }
 
-/// What overlaps deeply, wedged between surfaces that are all but parallel, would leave many times as
-/// fast as these part: it comes out no faster than this [m/s].
+/// What overlaps deeply, wedged between surfaces that are all but parallel, would leave many times
+/// as fast as these part: it comes out no faster than this [m/s].
 inline double flung_speed(const Settings& settings) {
     constexpr double kFlung = 4;
     return kFlung * settings.recovery_speed;

@@ -63,9 +63,8 @@ public:
         for (const ContactPlace& at : given_) {
             NormalRow<Real, W>& row = rows.normals[at.row];
             const ContactSides<Real> sides = sides_of(rows, at);
-            row.restitution_velocity[at.lane] =
-                std::max(Real(0), row.velocity[at.lane] +
-                                      sides.normal.dot(change_between(bodies, sides)));
+            row.restitution_velocity[at.lane] = std::max(
+                Real(0), row.velocity[at.lane] + sides.normal.dot(change_between(bodies, sides)));
             c.bounced[at.contact] = 1;
         }
         return !given_.empty();

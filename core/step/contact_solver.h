@@ -379,8 +379,8 @@ private:
     Colouring colouring_;
     ContactBatches<Real, W> batches_;
     ContactImpacts<Real, W> impacts_;
-    std::vector<double> trusted_;      // [contact] overlap [m]
-    std::vector<std::uint8_t> deep_;   // [pair]
+    std::vector<double> trusted_;     // [contact] overlap [m]
+    std::vector<std::uint8_t> deep_;  // [pair]
     const std::vector<std::uint32_t>* levels_ = nullptr;
     std::uint32_t clamped_ = 0;
     bool is_fresh_ = false;  ///< whether arms and masses are those of the substep that begins

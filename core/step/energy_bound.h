@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// Sees to it that iterations of contacts add no energy (contacts/contact_work.h): where those of an
-/// island do, only a share of their impulses is taken, and remembered.
+/// Sees to it that iterations of contacts add no energy (contacts/contact_work.h): where those of
+/// an island do, only a share of their impulses is taken, and remembered.
 ///
 /// It looks at islands in which a body is fast, for what rests may converge as it likes, and one is
-/// much heavier than another that it touches, or is moved by others; not at those that joints, links or particles hold,
-/// whose impulses would have to follow.
+/// much heavier than another that it touches, or is moved by others; not at those that joints,
+/// links or particles hold, whose impulses would have to follow.
 #pragma once
 
 #include "contacts/contact_work.h"
@@ -36,8 +36,7 @@ public:
             for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
                 contacts.add_pair_work(work, islands_.pairs()[i], bodies, push_out, h);
             double share = 1;
-            if (work.at_start + work.of_change > 0)
-                share = work.share(most_granted(world, island));
+            if (work.at_start + work.of_change > 0) share = work.share(most_granted(world, island));
             if (is_deep(contacts, island))
                 share = std::min(share, share_within_flung(world, bodies, island));
             if (!(share < 1)) continue;
@@ -139,8 +138,8 @@ private:
         return share;
     }
 
-    /// What may come of the overlap of an island at the most [J]: the energy of all its bodies at the
-    /// speed of recovery, less what they have. What is wedged between surfaces that are all but
+    /// What may come of the overlap of an island at the most [J]: the energy of all its bodies at
+    /// the speed of recovery, less what they have. What is wedged between surfaces that are all but
     /// parallel would leave many times as fast as those part.
     double most_granted(const World& world, const ContactIsland& island) const {
         const Bodies& b = world.bodies;

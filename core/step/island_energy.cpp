@@ -83,9 +83,9 @@ void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
     if (least < before) ask_for_more((before - least) / (whole - least));
 }
 
-/// What is wedged between surfaces that are all but parallel leaves many times as fast as these part.
-/// Sweeps of a heap that was squeezed, and is left to itself, fling nothing out of it: only such a
-/// share of their impulses is taken.
+/// What is wedged between surfaces that are all but parallel leaves many times as fast as these
+/// part. Sweeps of a heap that was squeezed, and is left to itself, fling nothing out of it: only
+/// such a share of their impulses is taken.
 void IslandGroup::bound_speed(const World& world, const Member& m) {
     const Island island = island_of(m);
     const std::span<const Vector6d> start = starts_of(m);

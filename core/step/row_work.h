@@ -34,8 +34,8 @@ void add_work(ContactWork& work, const ContactArrays<Real, W>& rows, const Conta
     work.of_change += 0.5 * p.normal * normal.dot(change);
     if (rows.frictions) {  // whose velocities are those against what anchors ask for
         const FrictionRow<Real, W>& across = rows.frictions[at.row];
-        work.at_start += p.x * double(across.velocity_x[at.lane]) +
-                       p.y * double(across.velocity_y[at.lane]);
+        work.at_start +=
+            p.x * double(across.velocity_x[at.lane]) + p.y * double(across.velocity_y[at.lane]);
         work.of_change += 0.5 * p.friction().dot(change);
     }
     if (!rows.rollings) return;
@@ -46,8 +46,9 @@ void add_work(ContactWork& work, const ContactArrays<Real, W>& rows, const Conta
                         double(rolling.rate_n[at.lane]));
     const Vector3d turned = turn_between(bodies, sides).template cast<double>();
     work.at_start += torque.dot(rate);
-    work.of_change += 0.5 * (torque.x() * p.tangents.x.dot(turned) +
-                             torque.y() * p.tangents.y.dot(turned) + torque.z() * normal.dot(turned));
+    work.of_change +=
+        0.5 * (torque.x() * p.tangents.x.dot(turned) + torque.y() * p.tangents.y.dot(turned) +
+               torque.z() * normal.dot(turned));
 }
 
 }  // namespace plumb

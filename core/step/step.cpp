@@ -121,8 +121,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     });
     if (plan.runs(Effect::joints))
         timed(Stage::joints, [&] { break_joints(world, plan, proximity, report); });
-    if (plan.runs(Effect::links))
-        timed(Stage::links, [&] { note_stretched_links(world, report); });
+    if (plan.runs(Effect::links)) timed(Stage::links, [&] { note_stretched_links(world, report); });
     if (plan.runs(Effect::tearing)) timed(Stage::tearing, [&] { tear(world, report); });
 
     world.time = static_cast<double>(++world.steps) * dt;

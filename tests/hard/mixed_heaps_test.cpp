@@ -43,9 +43,8 @@ void add_heap(Scene& s, Random& random, bool plain) {
     const std::uint32_t count = 8 + random.below(12);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Geometry shape = draw_shape(random, size, plain);
-        BodySpec& body =
-            add_body(s, shape,
-                     size * Vector(random.number(-1, 1), 1 + 1.2 * i, random.number(-1, 1)));
+        BodySpec& body = add_body(
+            s, shape, size * Vector(random.number(-1, 1), 1 + 1.2 * i, random.number(-1, 1)));
         body.placement.rotation = random.rotation();
         Material material = s.materials[0];
         material.name = "material " + std::to_string(i);
