@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Rods between bodies, in chains and in loops, and coupled wheels: they keep their lengths and
 /// energy at settings drawn at random.
+#include "support/draw_settings.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "support/soft.h"
@@ -12,14 +13,6 @@ namespace {
 
 class Trusses : public InEachPrecision {};
 INSTANTIATE_TEST_SUITE_P(, Trusses, each_precision(), precision_name);
-
-void draw_settings(Settings& s, Random& random, int draw) {
-    if (draw % 3 == 0) return;
-    if (draw % 3 == 1) return use_fine_steps(s);
-    s.dt = random.number(0.001, 0.01);
-    s.substeps = 1 + random.below(12);
-    s.velocity_iterations = s.position_iterations = 1 + random.below(10);
-}
 
 double drawn_mass(Random& random, double most) {
     return std::exp(random.number(0, std::log(most)));
