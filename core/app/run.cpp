@@ -130,6 +130,9 @@ std::string faults_in_words(const Statistics& statistics) {
     return words;
 }
 
+/// Joints that gape by more than this are worth a word [m].
+constexpr double kWide = 1e-3;
+
 /// What is worth knowing although the run went on, a sentence each.
 std::vector<std::string> warnings_of(const Simulation& simulation, const Statistics& statistics) {
     std::vector<std::string> warnings;
@@ -145,6 +148,11 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const Statist
             "trees of joints were left open in {} solves, by {:.3g} m or rad at the most, that of "
             "joint {}; more substeps, or \"joints\": \"iterate\", may help",
             statistics.unsolved_trees, statistics.tree_error, statistics.open_joint));
+    else if (statistics.worst_joint() > kWide)
+        warnings.push_back(fmt::format(
+            "joint {} was open by {:.3g} m, more than any other; more iterations or substeps, or "
+            "\"joints\": \"tree\", may help",
+            statistics.widest_joint(), statistics.worst_joint()));
     if (statistics.stretched_links > 0)
         warnings.push_back(fmt::format(
             "links were more than 1 % too long or too short at the end of {} of their steps, by "

@@ -78,7 +78,10 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
 
     for (const Contact& c : world.contacts.found_before)
         worst_penetration_ = std::max(worst_penetration_, -c.gap);
-    for (double error : joint_errors(world)) worst_joint_ = std::max(worst_joint_, error);
+    const std::vector<double> gaps = joint_errors(world);
+    for (std::size_t i = 0; i < gaps.size(); ++i)
+        if (gaps[i] > worst_joint_)
+            worst_joint_ = gaps[i], widest_joint_ = world.joints.joints[i].id;
     energy_.add(world, report);
     if (simulation.steps() % sample_every_ == 0) samples_.push_back(sample_of(world));
     while (!samples_.empty() && samples_.front().time <= 0.8 * world.time) samples_.pop_front();

@@ -47,6 +47,8 @@ public:
     /// Deepest penetration and widest joint gap so far [m].
     double worst_penetration() const { return worst_penetration_; }
     double worst_joint() const { return worst_joint_; }
+    /// Identifier of the joint that gaped by the latter, kNoIndex if none did.
+    std::uint32_t widest_joint() const { return widest_joint_; }
 
     const EnergyWatch& energy() const { return energy_; }
 
@@ -73,6 +75,7 @@ private:
     std::deque<Sample> samples_;
     bool finite_ = true;
     double worst_penetration_ = 0, worst_joint_ = 0;
+    std::uint32_t widest_joint_ = kNoIndex;
 };
 
 }  // namespace plumb::app

@@ -227,6 +227,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
                         {"p99", percentile(penetration, 0.99)},
                         {"max", percentile(penetration, 1)}};
     j["joint_error"] = mean_and_max(s.over_last_fifth(&Sample::joint_error));
+    j["joint_error"]["of_run"] = s.worst_joint();
     j["link_error"] = mean_and_max(s.over_last_fifth(&Sample::link_error));
     j["speed"] = speeds_json(s.over_last_fifth(&Sample::speed));
     j["speed_near"] = speeds_json(s.over_last_fifth(&Sample::near_speed));

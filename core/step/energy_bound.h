@@ -21,14 +21,18 @@ namespace plumb {
 template <class Real, int W>
 class EnergyBound {
 public:
-    /// Once a step: contacts are others.
-    void forget() { found_ = false; }
+    /// Once a step, before the others.
+    void load(const World& world, const std::vector<BodyPair>& pairs) {
+        uneven_.clear();
+        for (const BodyPair& pair : pairs) uneven_.push_back(is_uneven(world, pair));
+        watches_ = std::count(uneven_.begin(), uneven_.end(), 1) > 0;
+        found_ = false;
+    }
 
     /// After the passes of a substep of h [s]; bodies: their rows.
     void apply(const World& world, ContactSolver<Real, W>& contacts, const BodyRows<Real>& bodies,
                const PushOut& push_out, double h) {
-        if (contacts.empty()) return;
-        if (!find_fast(world, bodies, resting_speed(world.settings, h))) return;
+        if (!watches_ || !find_fast(world, bodies, resting_speed(world.settings, h))) return;
         if (!found_) find_islands(world, contacts.pairs());
         for (const ContactIsland& island : islands_.islands()) {
             if (!is_watched(island)) continue;
@@ -80,8 +84,6 @@ private:
             if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
                 held_[world.bodies.row[body]] = 1;
         };
-        uneven_.clear();
-        for (const BodyPair& pair : pairs) uneven_.push_back(is_uneven(world, pair));
         world.each_body_among_particles(hold);
         for (std::uint32_t i = 0; i < world.joints.size(); ++i)
             if (holds(world, {TieKind::joint, i})) each_body(world, {TieKind::joint, i}, hold);
@@ -156,7 +158,7 @@ private:
     static constexpr double kUneven = 5;
 
     ContactIslands islands_;
-    bool found_ = false;
+    bool watches_ = false, found_ = false;
     std::vector<std::uint8_t> fast_, held_;  // [dynamic row]
     std::vector<std::uint8_t> uneven_;       // [pair]
     std::vector<std::uint32_t> body_of_;     // [dynamic row]

@@ -78,7 +78,7 @@ public:
     void load(const World& world) override {
         IslandGroup* exact = islands_ ? &*islands_ : nullptr;
         contacts_->load(world, nullptr, exact);
-        energy_.forget();
+        if (has_impacts_) energy_.load(world, contacts_->pairs());
         for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
         if (has_impacts_) impacts_.reserve(world, contacts_->pairs()), contacts_->reserve_impacts();
