@@ -66,16 +66,22 @@ inline void solve_batch(ContactPass<Real, W> kernel, const ContactArrays<Real, W
     workers.barrier();
 }
 
-/// One pass over the batches in order, or backwards.
+/// One pass over ranges of blocks in order, or backwards.
+template <class Real, int W>
+inline void iterate_ranges(ContactPass<Real, W> kernel, const ContactArrays<Real, W>& rows,
+                           const std::vector<BlockRange>& ranges, const BodyRows<Real>& bodies,
+                           const PassSettings<Real>& pass, Workers& workers, std::uint32_t worker) {
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+        solve_batch(kernel, rows, bodies, pass, ranges[pass.forwards ? i : ranges.size() - 1 - i],
+                    workers, worker);
+}
+
+/// The same over all batches.
 template <class Real, int W>
 inline void iterate_batches(ContactPass<Real, W> kernel, ContactBatches<Real, W>& batches,
                             const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                             Workers& workers, std::uint32_t worker) {
-    const ContactArrays<Real, W> rows = batches.arrays();
-    const std::vector<BlockRange>& ranges = batches.ranges();
-    for (std::size_t i = 0; i < ranges.size(); ++i)
-        solve_batch(kernel, rows, bodies, pass, ranges[pass.forwards ? i : ranges.size() - 1 - i],
-                    workers, worker);
+    iterate_ranges(kernel, batches.arrays(), batches.ranges(), bodies, pass, workers, worker);
 }
 
 }  // namespace plumb

@@ -24,14 +24,18 @@ public:
     void reserve(Batches& batches, std::size_t contacts) {
         resting_.reserve(batches.arrays(), batches.row_count());
         given_.reserve(contacts), hit_.reserve(contacts);
+        is_hit_.reserve(batches.block_count()), blocks_.reserve(batches.block_count());
     }
 
     /// Puts the impulses of the substep before aside. Rows ask how fast contacts approach, and how
     /// far they may.
-    void begin(const ContactTable& c, const std::vector<BodyPair>& pairs, Batches& batches) {
+    void begin(const ContactTable& c, const Impacts& impacts, const std::vector<BodyPair>& pairs,
+               Batches& batches) {
+        find_blocks(impacts, pairs, batches);
         const ContactArrays<Real, W> rows = batches.arrays();
-        resting_.take(rows, batches.row_count());
+        resting_.take(rows, blocks_);
         batches.each_contact(pairs, [&](const ContactPlace& at) {
+            if (!impacts.is_hit(at.pair)) return;
             NormalRow<Real, W>& row = rows.normals[at.row];
             row.gap[at.lane] = static_cast<Real>(gap_in_substep(c, at.contact));
             row.restitution_velocity[at.lane] = 0;
@@ -40,6 +44,10 @@ public:
                     rows.frictions[at.row].anchor_velocity_y[at.lane] = 0;
         });
     }
+
+    /// The blocks in which there is a pair of an island in which bodies collide: the others are
+    /// left alone, and what else is in these is solved along and not taken.
+    const std::vector<BlockRange>& blocks() const { return blocks_; }
 
     /// Restitution of the contacts that collided, after their compression. Returns whether there
     /// is any.
@@ -73,7 +81,7 @@ public:
     /// Takes the impulses that were put aside up again. What parts after an impact does so at its
     /// own speed: the recovery of overlap adds nothing, for it would come on top of it.
     void end(World& world, Batches& batches) {
-        resting_.give(batches.arrays(), batches.row_count());
+        resting_.give(batches.arrays(), blocks_);
         ContactTable& c = world.contacts;
         for (const std::size_t contact : hit_)
             if (separating_velocity(world.bodies, c.found[contact], c.point[contact]) > 0)
@@ -82,6 +90,19 @@ public:
     }
 
 private:
+    void find_blocks(const Impacts& impacts, const std::vector<BodyPair>& pairs,
+                     const Batches& batches) {
+        is_hit_.assign(batches.block_count(), 0);
+        for (std::size_t p = 0; p < pairs.size(); ++p)
+            if (impacts.is_hit(p)) is_hit_[batches.slot(p).block] = 1;
+        blocks_.clear();
+        for (const BlockRange& range : batches.ranges())
+            for (std::uint32_t first = range.first, last; first < range.last; first = last + 1) {
+                for (last = first; last < range.last && is_hit_[last];) ++last;
+                if (last > first) blocks_.push_back({first, last, range.independent});
+            }
+    }
+
     /// e times what a contact bore in compression, if it collided and touches [N s].
     static Real restitution(const World& world, const ContactArrays<Real, W>& rows,
                             const ContactPlace& at) {
@@ -107,6 +128,8 @@ private:
     }
 
     ContactImpulses<Real, W> resting_;
+    std::vector<std::uint8_t> is_hit_;  // [block]
+    std::vector<BlockRange> blocks_;
     std::vector<ContactPlace> given_;  // which bounced
     std::vector<std::size_t> hit_;     // contacts of islands in which something collided
 };

@@ -2,6 +2,7 @@
 /// The summed impulses of contact rows that the next substep begins from.
 #pragma once
 
+#include "schedule/colouring.h"
 #include "schedule/contact_rows.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ inline void each_sum(const ContactArrays<Real, W>& rows, std::size_t k, Visit vi
     visit(across.lambda_position_x), visit(across.lambda_position_y);
 }
 
-/// Those of all rows, put aside while the rows serve another purpose.
+/// Those of the rows of some blocks, put aside while the rows serve another purpose.
 template <class Real, int W>
 class ContactImpulses {
 public:
@@ -29,23 +30,30 @@ public:
         sums_.reserve(count * (rows.frictions ? 6 : 2) * W);
     }
 
-    void take(const ContactArrays<Real, W>& rows, std::size_t count) {
+    void take(const ContactArrays<Real, W>& rows, const std::vector<BlockRange>& blocks) {
         sums_.clear();
-        for (std::size_t k = 0; k < count; ++k)
-            each_sum(rows, k, [&](const Real* sum) { sums_.insert(sums_.end(), sum, sum + W); });
+        each_row(rows, blocks, [&](const Real* sum) { sums_.insert(sums_.end(), sum, sum + W); });
     }
 
     /// Gives back what was taken from the same rows.
-    void give(const ContactArrays<Real, W>& rows, std::size_t count) const {
+    void give(const ContactArrays<Real, W>& rows, const std::vector<BlockRange>& blocks) const {
         auto from = sums_.begin();
-        for (std::size_t k = 0; k < count; ++k)
-            each_sum(rows, k, [&](Real* sum) {
-                std::copy_n(from, W, sum);
-                from += W;
-            });
+        each_row(rows, blocks, [&](Real* sum) {
+            std::copy_n(from, W, sum);
+            from += W;
+        });
     }
 
 private:
+    template <class Visit>
+    static void each_row(const ContactArrays<Real, W>& rows, const std::vector<BlockRange>& blocks,
+                         Visit visit) {
+        for (const BlockRange& range : blocks)
+            for (std::uint32_t b = range.first; b < range.last; ++b)
+                for (std::uint32_t k = 0; k < rows.blocks[b].row_count; ++k)
+                    each_sum(rows, rows.blocks[b].first_row + k, visit);
+    }
+
     std::vector<Real> sums_;
 };
 

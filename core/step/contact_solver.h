@@ -129,12 +129,20 @@ public:
     void reserve_impacts() { impacts_.reserve(batches_, trusted_.size()); }
 
     /// What an impact does to the rows is said in step/contact_impacts.h.
-    void begin_impacts(const World& world, const BodyRows<Real>& bodies,
+    void begin_impacts(const World& world, const Impacts& impacts, const BodyRows<Real>& bodies,
                        const PassSettings<Real>& pass) {
         if (!is_fresh_) fill_geometry(world);
         is_fresh_ = true;
-        impacts_.begin(world.contacts, pairs_, batches_);
-        run(kernels_.begin, bodies, pass);
+        impacts_.begin(world.contacts, impacts, pairs_, batches_);
+        workers_.run([&](std::uint32_t worker) {
+            iterate_ranges(kernels_.begin, batches_.arrays(), impacts_.blocks(), bodies, pass,
+                           workers_, worker);
+        });
+    }
+    void iterate_impacts(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
+                         std::uint32_t worker) {
+        iterate_ranges(kernels_.solve_velocities, batches_.arrays(), impacts_.blocks(), bodies,
+                       pass, workers_, worker);
     }
     bool give_back(World& world, const Impacts& impacts, const BodyRows<Real>& bodies) {
         return impacts_.give_back(world, impacts, pairs_, batches_, bodies);

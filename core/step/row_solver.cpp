@@ -117,7 +117,7 @@ public:
         table_.begin(world, impacts_.start(), b.angular_velocity_now);
         PassSettings<Real> pass{};
         pass.h = static_cast<Real>(h), pass.inverse_h = static_cast<Real>(1 / h);
-        contacts_->begin_impacts(world, table_.rows(), pass);
+        contacts_->begin_impacts(world, impacts_, table_.rows(), pass);
         iterate_impacts(pass);
         if (contacts_->give_back(world, impacts_, table_.rows())) iterate_impacts(pass);
         impacts_.each_row([&](std::int32_t row) {
@@ -275,7 +275,7 @@ private:
             PassSettings<Real> mine = pass;
             for (std::uint32_t i = 0; i < kImpactIterations; ++i) {
                 mine.forwards = i % 2 == 0;
-                contacts_->iterate_velocities(table_.rows(), mine, worker);
+                contacts_->iterate_impacts(table_.rows(), mine, worker);
             }
         });
     }
