@@ -42,16 +42,6 @@ inline double resting_speed(const Settings& settings, double h) {
     return std::max(collision_threshold(settings), 2 * h * settings.gravity.norm());
 }
 
-/// What overlaps deeply, wedged between surfaces that are all but parallel, would leave many times
-/// as fast as these part: it comes out no faster than this [m/s].
-inline double flung_speed(const Settings& settings) {
-    constexpr double kFlung = 4;
-    return kFlung * settings.recovery_speed;
-}
-
-/// By which share more is still as fast.
-inline constexpr double kAsFast = 1e-6;
-
 /// The greatest share of a change, at most 1, with which a velocity is no more than `most` [m/s].
 /// `before`: without it, less than that.
 inline double share_within(double most, const Vector3d& before, const Vector3d& change) {
@@ -59,6 +49,23 @@ inline double share_within(double most, const Vector3d& before, const Vector3d& 
                  c = before.squaredNorm() - most * most;
     if (!(a + 2 * b + c > 0)) return 1;
     return std::clamp((-b + std::sqrt(b * b - a * c)) / a, 0.0, 1.0);
+}
+
+/// The greatest share of changes of velocity, at most 1, with which no body is flung out: what
+/// overlaps deeply, wedged between surfaces that are all but parallel, would leave many times as
+/// fast as these part. Nothing becomes faster than so many times the speed of recovery, unless
+/// something was as fast before. `each(visit)` calls visit(velocity, change) for each body [m/s].
+template <class Each>
+double share_without_flinging(const Settings& settings, Each each) {
+    constexpr double kFlung = 4, kAsFast = 1e-6;
+    double most = kFlung * settings.recovery_speed, share = 1;
+    each([&](const Vector3d& before, const Vector3d&) {
+        most = std::max(most, (1 + kAsFast) * before.norm());
+    });
+    each([&](const Vector3d& before, const Vector3d& change) {
+        share = std::min(share, share_within(most, before, change));
+    });
+    return share;
 }
 
 }  // namespace plumb

@@ -42,7 +42,9 @@ public:
             double share = 1;
             if (work.at_start + work.of_change > 0) share = work.share(most_granted(world, island));
             if (is_deep(contacts, island))
-                share = std::min(share, share_within_flung(world, bodies, island));
+                share = std::min(share, share_without_flinging(world.settings, [&](auto visit) {
+                                     each_change(world, bodies, island, visit);
+                                 }));
             if (!(share < 1)) continue;
             for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
                 contacts.scale_impulses(islands_.pairs()[i], share);
@@ -120,24 +122,15 @@ private:
                            [&](std::uint32_t pair) { return contacts.is_deep(pair); });
     }
 
-    /// The share of an island's changes with which nothing is flung out of it: unless something was
-    /// as fast before.
-    double share_within_flung(const World& world, const BodyRows<Real>& rows,
-                              const ContactIsland& island) const {
-        const Bodies& b = world.bodies;
-        double most = flung_speed(world.settings), share = 1;
-        const auto each = [&](auto&& visit) {
-            for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
-                visit(islands_.bodies()[i], b.velocity[body_of_[islands_.bodies()[i]]]);
-        };
-        each([&](std::int32_t, const Vector3d& v) {
-            most = std::max(most, (1 + kAsFast) * v.norm());
-        });
-        each([&](std::int32_t row, const Vector3d& v) {
-            const Vector3d change = velocity_in(rows.change, row).v.template cast<double>();
-            share = std::min(share, share_within(most, v, change));
-        });
-        return share;
+    /// Calls visit(velocity, change) for the bodies of an island.
+    template <class Visit>
+    void each_change(const World& world, const BodyRows<Real>& rows, const ContactIsland& island,
+                     Visit visit) const {
+        for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+            const std::int32_t row = islands_.bodies()[i];
+            visit(world.bodies.velocity[body_of_[row]],
+                  Vector3d(velocity_in(rows.change, row).v.template cast<double>()));
+        }
     }
 
     /// What may come of the overlap of an island at the most [J]: the energy of all its bodies at

@@ -5,7 +5,6 @@
 #include "step/island_solver.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace plumb {
 namespace {
@@ -89,12 +88,10 @@ void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
 void IslandGroup::bound_speed(const World& world, const Member& m) {
     const Island island = island_of(m);
     const std::span<const Vector6d> start = starts_of(m);
-    double most = flung_speed(world.settings);
-    for (const Vector6d& v : start) most = std::max(most, (1 + kAsFast) * v.head<3>().norm());
-    double share = 1;
-    for (std::size_t i = 0; i < island.bodies.size(); ++i)
-        share = std::min(share, share_within(most, start[i].head<3>(),
-                                             (island.velocity[i] - start[i]).head<3>()));
+    const double share = share_without_flinging(world.settings, [&](auto visit) {
+        for (std::size_t i = 0; i < island.bodies.size(); ++i)
+            visit(start[i].head<3>(), (island.velocity[i] - start[i]).head<3>());
+    });
     if (!(share < 1)) return;
     for (IslandPoint& p : island.points) p.impulse *= share;
     for (std::size_t i = 0; i < island.bodies.size(); ++i)
