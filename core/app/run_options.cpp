@@ -36,7 +36,7 @@ constexpr std::array kSettingOptions{
                   "iterations over the position constraints a substep"},
     SettingOption{"--threads", "threads", "N", "workers of the solver"},
     SettingOption{"--lanes", "lanes", "N",
-                  "constraints side by side: 1, 4, 8, 16; 0 = the widest that runs here"},
+                  "constraints side by side: 1, 4, 8, 16; 0 = as the scene calls for"},
 };
 
 /// Applies one value; `said` is how the user wrote it.

@@ -3,6 +3,7 @@
 
 #include "kernels/contact_kernels.h"
 #include "measure/measure.h"
+#include "step/row_solver.h"
 
 #include <nlohmann/json.hpp>
 
@@ -193,7 +194,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["method"] = settings.method;
     j["precision"] = settings.precision == Precision::single ? "single" : "double";
     j["threads"] = settings.threads;
-    j["lanes"] = settings.lanes == 0 ? static_cast<std::uint32_t>(widest_lanes()) : settings.lanes;
+    j["lanes"] = lanes_of(world);
     j["dt"] = settings.dt;
     j["substeps"] = settings.substeps;
     j["velocity_iterations"] = settings.velocity_iterations;

@@ -44,7 +44,8 @@ inline Vector3<T> middle_rate(const Vector3<T>& momentum, const Vector3<T>& iner
                               const Vector3<T>& inverse_inertia, const T& h) {
     constexpr int kMostRounds = 12;
     const Vector3<T> start = inverse_inertia.cwiseProduct(momentum);
-    Vector3<T> rate = start;
+    const Vector3<T> turned = momentum + cross(momentum, start) * (h * T(0.5));  // to first order
+    Vector3<T> rate = inverse_inertia.cwiseProduct(turned);
     T moving = T(1), before = dot(rate, rate);
     for (int round = 0; round < kMostRounds && any_greater(moving, T(0)); ++round) {
         const Vector3<T> seen = unit_exponential<T>(Vector3<T>(rate * (h * T(-0.5)))) * momentum;

@@ -41,7 +41,7 @@ Field<S> lanes_field() {
             }
             settings.lanes = Whole<std::uint32_t>{{0, 16}}.read(node);
         },
-        "constraints solved side by side; 0: the widest that the processor runs");
+        "constraints solved side by side; 0: as many as the processor runs and the scene fills");
 }
 
 }  // namespace

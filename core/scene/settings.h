@@ -37,7 +37,7 @@ struct Settings {
         Precision::single;  ///< of the solver's iterations; states and poses are always double
     std::uint32_t threads = 1;
     std::uint32_t lanes =
-        0;  ///< constraints solved side by side: 1, 4, 8, 16; 0 = widest that the processor runs
+        0;  ///< constraints solved side by side: 1, 4, 8, 16; 0 = as the scene calls for
 
     ContactOrigin contacts = ContactOrigin::shared;
     double margin = 0.005;         ///< distance of detection [m]

@@ -6,14 +6,25 @@
 #include "step/joint_state.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb {
 namespace {
 
 /// Whether it may have turned too far: its rate at the end is known, not that of its way there.
-bool may_turn_far(const Bodies& b, std::uint32_t body, double h) {
+bool may_turn_far(const Vector3d& rate, double h) {
     constexpr double kMost = 2;  // times the rate at the end
-    return body != kNoIndex && turns_too_far<double>(b.angular_velocity[body], kMost * h) > 0;
+    return turns_too_far<double>(rate, kMost * h) > 0;
+}
+bool may_turn_far(const Bodies& b, std::uint32_t body, double h) {
+    return body != kNoIndex && may_turn_far(b.angular_velocity[body], h);
+}
+
+/// The same of the fastest body, which is quickly seen.
+bool may_any_turn_far(const Bodies& b, double h) {
+    double most = 0;
+    for (const Vector3d& rate : b.angular_velocity) most = std::max(most, rate.squaredNorm());
+    return may_turn_far(Vector3d(std::sqrt(most), 0, 0), h);
 }
 
 }  // namespace
@@ -34,6 +45,7 @@ FastJoints::FastJoints(const World& world, const Plan& plan) {
 
 void FastJoints::note_open(const World& world, double h, StepReport& report) const {
     const Bodies& b = world.bodies;
+    if (joints_.empty() || !may_any_turn_far(b, h)) return;
     for (const Item& item : joints_) {
         const Joint& joint = world.joints.joints[item.joint];
         if (!may_turn_far(b, joint.a, h) && !may_turn_far(b, joint.b, h)) continue;

@@ -156,8 +156,10 @@ Vector3d relative_velocity(const World& world, std::uint32_t contact) {
 const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs) {
     stuck_share_ = stuck_share(world.settings);
     jammed_.clear();
-    find_ties(world);
-    const bool is_empty = pairs.empty() && first_seed_ == ties_.size();
+    if (!pairs.empty() || has_seeds_) find_ties(world);
+    // ties only break
+    has_seeds_ = first_seed_ < ties_.size();
+    const bool is_empty = pairs.empty() && !has_seeds_;
     found_.find(pairs, tied_rows_, first_seed_, is_empty ? 0 : world.dynamic_count);
     find_driven(world, pairs);
     if (is_empty) return found_;

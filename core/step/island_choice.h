@@ -108,6 +108,7 @@ private:
     std::vector<Tie> ties_;            // joints, those that close loops, links, couplings
     std::vector<BodyPair> tied_rows_;  // [tie]
     std::size_t first_seed_ = 0;       // of ties_: those from it on need nothing that touches
+    bool has_seeds_ = true;            // as far as is known
     std::vector<std::pair<Tie, BodyPair>> loops_;
     std::vector<std::size_t> tied_;        // [dynamic row, then the ground] see closes_loop
     std::vector<std::uint8_t> obstacles_;  // [dynamic row] bits, see rule_out

@@ -176,10 +176,12 @@ private:
         block.length[lane] = static_cast<Real>(g.length);
     }
 
-    /// Drives stand by joint, so that its geometry is made once.
+    /// Drives stand by joint and axis, so that their geometry and coordinates are made once.
     void fill_drives(const World& world, double h) {
         std::uint32_t joint = kNoIndex;
         JointGeometry<double> geometry;
+        const JointDrive* before = nullptr;
+        JointCoordinate q;
         for (std::size_t i = 0; i < driven_.size(); ++i) {
             const JointDrive& drive = world.joints.drives[driven_[i]];
             if (drive.is_spring() && drive.joint != joint) {
@@ -187,15 +189,18 @@ private:
                 geometry =
                     joint_geometry(world, world.joints.joints[joint], substep_time(world, h));
             }
-            fill_drive(world, drive, geometry, i, h);
+            if (!before || before->joint != drive.joint || before->axis != drive.axis)
+                q = joint_coordinate(world, drive.joint, drive.axis);
+            fill_drive(world, drive, q, geometry, i, h);
+            before = &drive;
         }
     }
 
-    /// `geometry`: of the joint, where the drive is a spring.
-    void fill_drive(const World& world, const JointDrive& drive,
+    /// `q`: of its joint along or about its axis; `geometry`: of the joint, where the drive is a
+    /// spring.
+    void fill_drive(const World& world, const JointDrive& drive, const JointCoordinate& q,
                     const JointGeometry<double>& geometry, std::size_t item, double h) {
         const Joint& joint = world.joints.joints[drive.joint];
-        const JointCoordinate q = joint_coordinate(world, drive.joint, drive.axis);
         const double k = row_response(q, inverse_mass(world.bodies, joint.a),
                                       inverse_mass(world.bodies, joint.b));
         const double mass = drive.is_spring() ? driven_mass(world, joint, geometry, q) : 0;

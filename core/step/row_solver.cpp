@@ -310,7 +310,7 @@ private:
 template <class Real>
 std::unique_ptr<RowSolver> make_with_lanes(const World& world, const Plan& plan, Workers& workers) {
     const int widest = widest_lanes();
-    const int lanes = world.settings.lanes == 0 ? widest : static_cast<int>(world.settings.lanes);
+    const int lanes = lanes_of(world);
     if (lanes <= widest) {
         switch (lanes) {
             case 1:
@@ -328,10 +328,19 @@ std::unique_ptr<RowSolver> make_with_lanes(const World& world, const Plan& plan,
     throw SceneError("", "/settings/lanes",
                      std::to_string(lanes) + " lanes cannot be run here; this processor runs 1, 4" +
                          (widest >= 8 ? ", 8" : "") + (widest >= 16 ? ", 16" : "") +
-                         ", or 0 for the widest");
+                         ", or 0 for what the scene calls for");
 }
 
 }  // namespace
+
+int lanes_of(const World& world) {
+    // a colour holds about a quarter of what touches or is jointed
+    constexpr std::int32_t kColours = 4;
+    if (world.settings.lanes != 0) return static_cast<int>(world.settings.lanes);
+    const int widest = widest_lanes();
+    if (world.moving_count() < 8 * kColours) return std::min(widest, 4);
+    return world.moving_count() < 16 * kColours ? std::min(widest, 8) : widest;
+}
 
 std::unique_ptr<RowSolver> make_row_solver(const World& world, const Plan& plan, Workers& workers) {
     return world.settings.precision == Precision::single

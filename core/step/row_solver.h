@@ -51,6 +51,10 @@ public:
     virtual void end_step(World& world) = 0;
 };
 
+/// How many constraints are solved side by side: Settings::lanes, or else as many as the processor
+/// runs and the world is likely to fill, for wide lanes that stand empty only cost time.
+int lanes_of(const World& world);
+
 /// Throws SceneError when this processor cannot run Settings::lanes.
 std::unique_ptr<RowSolver> make_row_solver(const World& world, const Plan& plan, Workers& workers);
 
