@@ -7,6 +7,7 @@
 #include "step/coupling_row.h"
 #include "world/tie.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -19,6 +20,10 @@ public:
     explicit CouplingSolver(const std::vector<std::uint8_t>& in_island) : in_island_(in_island) {}
 
     bool empty() const { return rows_.empty(); }
+    bool all_in_island() const {
+        return std::all_of(in_island_.begin(), in_island_.end(),
+                           [](std::uint8_t solved) { return solved != 0; });
+    }
 
     void begin(const World& world, double h) {
         rows_.resize(world.joints.couplings.size());

@@ -11,6 +11,7 @@
 #include "step/velocity_table.h"
 #include "world/tie.h"
 
+#include <algorithm>
 #include <vector>
 
 namespace plumb {
@@ -30,14 +31,22 @@ public:
     }
 
     Stage stage() const override { return Stage::joints; }
-    bool empty() const override {
-        return balls_.empty() && blocks_.empty() && drives_.empty() && couplings_.empty();
+    bool empty() const override { return idle_; }
+
+    void load(const World&) override {
+        const auto all_in_island = [this](const std::vector<std::uint32_t>& joints) {
+            return std::all_of(joints.begin(), joints.end(),
+                               [this](std::uint32_t i) { return in_island_[i] != 0; });
+        };
+        idle_ = all_in_island(ball_joints_) && all_in_island(block_joints_) &&
+                all_in_island(driven_joints_) && couplings_.all_in_island();
     }
 
     /// Arms, errors and masses at the start of a substep. Impulses start from nothing: those of the
     /// substep before point where the bodies were, and chains that swing gain energy from them.
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
+        if (idle_) return;
         const auto& joints = world.joints.joints;
         for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
             BallFrames<W>& frames = frames_[balls_.index(i)];
@@ -68,6 +77,7 @@ public:
     }
 
     void end_substep(World& world) override {
+        if (idle_) return;
         JointTable& table = world.joints;
         for (const std::uint32_t i : driven_)
             if (!in_island_[table.drives[i].joint])
@@ -122,7 +132,7 @@ private:
         for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i) {
             const std::uint32_t joint = world.joints.drives[i].joint;
             if (elsewhere[joint]) continue;
-            driven_.push_back(i);
+            driven_.push_back(i), driven_joints_.push_back(joint);
             drives.push_back(all[joint]);
         }
         balls_.lay_out(balls, world);
@@ -223,7 +233,8 @@ private:
     const std::vector<std::uint8_t>& in_island_;
     Workers& workers_;
     std::vector<std::uint32_t> ball_joints_, block_joints_;  ///< index into JointTable::joints
-    std::vector<std::uint32_t> driven_;                      ///< index into JointTable::drives
+    std::vector<std::uint32_t> driven_, driven_joints_;      ///< into JointTable::drives, joints
+    bool idle_ = false;  ///< exact islands solve all of them in this step
     LaneBlocks<BallBlock<Real, W>, Real, W> balls_;
     std::vector<BallFrames<W>> frames_;  ///< [block of balls_]
     LaneBlocks<JointBlock<Real, W>, Real, W> blocks_;
