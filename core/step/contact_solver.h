@@ -59,8 +59,13 @@ public:
         trusted_.resize(world.contacts.found.size());
         const double fall = world.settings.gravity.norm() * world.settings.dt * world.settings.dt;
         const double where_free = world.joints.size() == 0 ? kTrusted : kOutOfReach;
-        for (const BodyPair& pair : pairs_) {
+        const bool is_loose = world.joints.size() == 0 && world.particles.size() == 0;
+        const double weight = is_loose && world.kinematic_count > 0 ? weight_of_all(world) : 0;
+        greatest_.assign(pairs_.size(), kOutOfReach);
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            const BodyPair& pair = pairs_[i];
             const bool driven = is_driven(world, exact, pair);
+            if (driven && is_loose) greatest_[i] = greatest_impulse(world, pair, weight);
             const double share = driven ? kTrustedWhereDriven : where_free;
             const double radius = smaller_radius(world.bodies, world.contacts.found[pair.first]);
             std::fill_n(trusted_.begin() + pair.first, pair.count, std::max(share * radius, fall));
@@ -106,6 +111,7 @@ public:
         batches_.each_contact(pairs_, [&](const ContactPlace& at) {
             const auto [contact, k, lane] = std::tuple(at.contact, at.row, at.lane);
             NormalRow<Real, W>& row = rows.normals[k];
+            bound_impulses(rows, k, lane, greatest_[at.pair]);
             row.gap[lane] = static_cast<Real>(gap_to_solve_for(world, contact));
             row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
             clamped_ += -static_cast<Real>(c.gap[contact]) > pass.recovery;
@@ -209,6 +215,18 @@ public:
         each_sum(rows, k, [&](Real* sum) { sum[lane] *= kept; });
     }
 
+    /// What is moved by others and jams a body between them makes impulses that only cancel each
+    /// other, and grow with every substep until the least difference of their arms flings the body
+    /// out. `greatest` [N s].
+    static void bound_impulses(const ContactArrays<Real, W>& rows, std::uint32_t k,
+                               std::uint32_t lane, double greatest) {
+        const NormalRow<Real, W>& row = rows.normals[k];
+        const double sum = double(row.lambda_velocity[lane]) + double(row.lambda_position[lane]);
+        if (!(sum > greatest)) return;
+        const Real kept = static_cast<Real>(greatest / sum);
+        each_sum(rows, k, [&](Real* part) { part[lane] *= kept; });
+    }
+
     /// Takes over another solver's summed impulses: what shock propagation adds to.
     void copy_impulses(ContactSolver& from) {
         const ContactArrays<Real, W> rows = batches_.arrays(), source = from.batches_.arrays();
@@ -253,6 +271,22 @@ private:
     static constexpr double kTrusted = 0.2, kTrustedWhereDriven = 0.02;
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
+
+    /// What a contact that others squeeze may carry over is the weight of all and so many times what
+    /// pushes its bodies out at Settings::recovery_speed.
+    static constexpr double kGreatest = 10;
+    static double greatest_impulse(const World& world, const BodyPair& pair, double weight) {
+        const Contact& c = world.contacts.found[pair.first];
+        const double mass = world.bodies.mass[c.a] + world.bodies.mass[c.b];
+        return weight * substep_of(world.settings) +
+               kGreatest * mass * world.settings.recovery_speed;
+    }
+    static double weight_of_all(const World& world) {
+        double weight = 0;
+        for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+            weight += world.bodies.mass[i] * pull_on(world, i);
+        return weight;
+    }
 
     /// Whether what is moved by others may squeeze a pair. Without islands, and through
     /// deformables, it may anywhere.
@@ -388,6 +422,7 @@ private:
     ContactBatches<Real, W> batches_;
     ContactImpacts<Real, W> impacts_;
     std::vector<double> trusted_;     // [contact] overlap [m]
+    std::vector<double> greatest_;    // [pair], see greatest_impulse [N s]
     std::vector<std::uint8_t> deep_;  // [pair]
     const std::vector<std::uint32_t>* levels_ = nullptr;
     std::uint32_t clamped_ = 0;

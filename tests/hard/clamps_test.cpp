@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// Kinematic jaws that close a little further than a body is wide, lift it and stand: nothing rigid
 /// can do that, but no energy comes of it while they stand.
+#include "support/draw_settings.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb::test {
 namespace {
@@ -55,6 +57,43 @@ TEST_P(Clamps, AddNothingWhileTheyStand) {
         EXPECT_LT(height, kRisen) << "draw " << draw << (is_disk ? ", disk of " : ", box of ")
                                   << thickness << " m, squeezed by " << squeeze << " m, "
                                   << s.settings.dt << " s x " << s.settings.substeps;
+    }
+}
+
+/// Two plates that close in free space until there is no room for a body between them that friction
+/// keeps from turning flat, and open again.
+TEST_P(Clamps, FlingNothingOutThatTheyJam) {
+    constexpr double kThick = 0.2, kSpeed = 0.03;
+    Random random(52);
+    for (int draw = 0; draw < 12; ++draw) {
+        Scene s = scene();
+        s.settings.gravity.setZero();
+        s.settings.precision = draw % 2 ? Precision::single : Precision::double_;
+        s.materials[0].friction = random.number(0.3, 1);
+        draw_settings(s.settings, random, draw);
+        const Vector half(random.number(0.05, 0.2), random.number(0.05, 0.2), 0.2);
+        BodySpec& body = add_body(s, box(half.x(), half.y(), half.z()), Vector::Zero());
+        body.placement.rotation = random.rotation();
+        const double open = half.norm() + 0.01, closed = 0.6 * std::min(half.x(), half.y());
+        const double time = (open - closed) / kSpeed;
+        for (const double side : {1.0, -1.0}) {
+            BodySpec& plate = add_body(s, box(kThick, 2, 2), {side * (open + kThick), 0, 0});
+            plate.motion = Motion::kinematic;
+            for (const auto& [at, x] : {std::pair(0.0, open), {time, closed}, {2 * time, open}}) {
+                Keyframe k;
+                k.time = at, k.placement.position = {side * (x + kThick), 0, 0};
+                plate.script.keyframes.push_back(k);
+            }
+        }
+        Simulation simulation(s, colliders(), collider());
+        double fastest = 0;
+        while (simulation.time() < 2 * time) {
+            simulation.step();
+            fastest = std::max(fastest, simulation.world().bodies.velocity[0].norm());
+        }
+        EXPECT_LT(fastest, 2 * s.settings.recovery_speed)
+            << "draw " << draw << ", " << s.settings.dt << " s x " << s.settings.substeps << " x "
+            << s.settings.position_iterations << ", half extents " << half.transpose();
     }
 }
 
