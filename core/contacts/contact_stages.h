@@ -7,6 +7,7 @@
 #pragma once
 
 #include "contacts/contact_room.h"
+#include "contacts/pose_change.h"
 #include "effects/ledger.h"
 #include "effects/plan.h"
 #include "effects/report.h"
@@ -23,6 +24,7 @@ namespace plumb {
 struct DetectBuffers {
     std::vector<Pose> poses;
     std::vector<double> sweeps;
+    std::vector<PoseChange> changes;  ///< [body] since the detection before
     std::vector<ContactRoom> rooms;  ///< [worker], behind the sinks
     std::vector<ContactSink> sinks;  ///< [worker]
     std::vector<Vec3> places;        ///< of particles

@@ -28,10 +28,15 @@ bool before(const Contact& x, const Contact& y) {
 /// Poses and sweeps of all bodies, and empty sinks.
 void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
     const Bodies& bodies = world.bodies;
+    const std::size_t known = buffers.poses.size();
     buffers.poses.resize(bodies.size());
     buffers.sweeps.resize(bodies.size());
+    buffers.changes.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
-        buffers.poses[i] = {to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
+        const Pose pose{to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
+        buffers.changes[i] =
+            i < known ? PoseChange::between(buffers.poses[i], pose) : PoseChange();
+        buffers.poses[i] = pose;
         buffers.sweeps[i] = sweep(world, i, dt);
     }
     buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
@@ -98,7 +103,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
     }
     const bool reuse = plan.runs(Effect::contact_reuse);
     const TaskRunner runner = runner_on(workers);
-    ReuseContext context{&world, &buffers.sweeps};
+    ReuseContext context{&world, &buffers.sweeps, &buffers.changes};
     PairFilter filter{};
     if (reuse) filter = reuse_filter(context);
     const DetectRequest request{buffers.poses.data(),

@@ -10,19 +10,6 @@
 namespace plumb {
 namespace {
 
-/// Whether bodies are fast enough for any two of them to collide.
-bool may_collide(const World& world, double threshold) {
-    const Bodies& b = world.bodies;
-    double fastest = 0;
-    for (std::size_t i = 0; i < b.size(); ++i) {
-        const double squared =
-            b.velocity_now[i].squaredNorm() +
-            b.bounding_radius[i] * b.bounding_radius[i] * b.angular_velocity_now[i].squaredNorm();
-        fastest = std::max(fastest, squared);
-    }
-    return 8 * fastest > threshold * threshold;
-}
-
 /// Whether the surfaces of a contact meet within h, too fast to be a contact at rest. What comes
 /// through before it bounces does not.
 bool collides(const World& world, std::size_t i, double threshold, double h) {
@@ -43,18 +30,35 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     shares_.reserve(bodies);
     changes_.resize(bodies);
     start_.reserve(world.bodies.size());
+    fast_.reserve(world.bodies.size());
     body_of_.resize(bodies);
+}
+
+bool Impacts::find_fast(const Bodies& b, double threshold) {
+    const double least = threshold * threshold / 8;
+    fast_.resize(b.size());
+    bool any = false;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+        const double squared =
+            b.velocity_now[i].squaredNorm() +
+            b.bounding_radius[i] * b.bounding_radius[i] * b.angular_velocity_now[i].squaredNorm();
+        any |= fast_[i] = squared > least;
+    }
+    return any;
 }
 
 bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, double h) {
     colliding_.clear();
     const double threshold = resting_speed(world.settings, h);
-    if (!may_collide(world, threshold)) return false;
+    if (!find_fast(world.bodies, threshold)) return false;
     hit_.assign(pairs.size(), 0);
     bool any = false;
-    for (std::size_t p = 0; p < pairs.size(); ++p)
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        const Contact& contact = world.contacts.found[pairs[p].first];
+        if (!fast_[contact.a] && !fast_[contact.b]) continue;
         for (std::uint32_t k = 0; k < pairs[p].count && !hit_[p]; ++k)
             any |= hit_[p] = collides(world, pairs[p].first + k, threshold, h);
+    }
     if (!any) return false;
 
     islands_.find(pairs, {}, 0, world.dynamic_count);

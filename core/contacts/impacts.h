@@ -69,6 +69,8 @@ public:
     }
 
 private:
+    /// Marks the bodies that are fast enough to collide with another; whether any is.
+    bool find_fast(const Bodies& bodies, double threshold);
     void choose_start(const World& world);
     void take_bodies(const World& world, const BodyPair& pair);
     double bounded_share(const World& world, const ContactIsland& island,
@@ -78,6 +80,7 @@ private:
     ContactIslands islands_;
     std::vector<ContactIsland> colliding_;
     std::vector<double> shares_;          // [colliding_] of the changes that were taken
+    std::vector<std::uint8_t> fast_;      // [body]
     std::vector<std::uint8_t> hit_;       // [pair]
     std::vector<Vector3d> start_;         // [body]
     std::vector<std::uint32_t> body_of_;  // [row], of the rows above

@@ -4,6 +4,8 @@
 #include "contacts/anchors.h"
 #include "contacts/contact_stages.h"
 
+#include <algorithm>
+
 namespace plumb {
 namespace {
 
@@ -63,7 +65,25 @@ void hand_on_impulses(ContactTable& c, const PairRuns& run, const std::vector<st
     }
 }
 
+/// Whether the pair touches by the very features of the step before.
+bool is_unchanged(const ContactTable& c, const PairRuns& run) {
+    const auto now = c.found.begin(), old = c.found_before.begin();
+    return std::equal(now + run.now, now + run.now_end, old + run.old, old + run.old_end,
+                      [](const Contact& x, const Contact& y) {
+                          return x.feature != 0 && x.feature == y.feature;
+                      });
+}
+
+/// `run.old` is empty where the pair is new.
 void match_pair(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>& used) {
+    if (is_unchanged(c, run)) {
+        for (std::size_t k = run.now; k < run.now_end; ++k) {
+            c.memory[k] = c.memory_before[run.old + (k - run.now)];
+            c.memory[k].matched = c.memory[k].known = true;
+        }
+        return;
+    }
+    std::fill(c.memory.begin() + run.now, c.memory.begin() + run.now_end, ContactMemory{});
     match_by_feature(c, run, used);
     hand_on_impulses(c, run, used);
 }
@@ -103,7 +123,7 @@ void anchor_pair(World& world, const PairRuns& run) {
 
 void match_contacts(World& world, const Plan& plan) {
     ContactTable& c = world.contacts;
-    c.memory.assign(c.found.size(), ContactMemory{});
+    c.memory.resize(c.found.size());
     c.used.assign(c.found_before.size(), 0);
     const bool anchors = plan.runs(Effect::sticking_anchors);
     std::size_t old = 0;
@@ -111,10 +131,9 @@ void match_contacts(World& world, const Plan& plan) {
         PairRuns run{i, end_of_pair(c.found, i), 0, 0};
         while (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) < 0)
             ++old;
-        if (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) == 0) {
+        if (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) == 0)
             run.old = old, run.old_end = old = end_of_pair(c.found_before, old);
-            match_pair(c, run, c.used);
-        }
+        match_pair(c, run, c.used);
         if (anchors) anchor_pair(world, run);
         i = run.now_end;
     }

@@ -17,6 +17,10 @@ constexpr double kLag = 0.01;
 /// ever, and what rolls slowly gets faster.
 constexpr double kStill = 1e-4;
 
+/// Share of what is allowed up to which a bound on the motion is as good as the motion: roundings
+/// are less than the rest.
+constexpr double kSure = 0.99;
+
 std::tuple<std::uint32_t, std::uint32_t> key(const KeptPair& p) { return {p.a, p.b}; }
 std::tuple<std::uint32_t, std::uint32_t> key(const Contact& c) { return {c.a, c.b}; }
 
@@ -53,30 +57,47 @@ void measure_pose(KeptPair& pair, const Bodies& b) {
     pair.turn = back * b.orientation[small];
 }
 
-/// Twice the sine of half the angle by which the smaller body has turned in the other's frame.
+/// Twice the sine of half the angle by which the smaller body has turned in the other's frame: a
+/// point at distance r has moved by r times it.
 double turned(const KeptPair& then, const KeptPair& now) {
     return 2 * (then.turn.conjugate() * now.turn).vec().norm();
 }
 
-/// Bound on how far any point of the smaller body has moved in the other's frame [m].
-double motion(const KeptPair& then, const KeptPair& now, double radius) {
-    // A turn by θ moves a point at distance r by the chord 2 r sin(θ/2).
-    return (now.offset - then.offset).norm() + turned(then, now) * radius;
+/// How far the smaller body of a pair may move against the other [m], and by how much its rim may
+/// turn, while their contacts are kept. Contacts on a rim that turns would lag behind it, and brake
+/// what rolls.
+struct Allowed {
+    double moved, turned;
+};
+
+Allowed allowed(const World& world, const KeptPair& pair, ContactsBefore& before) {
+    const double distance = world.settings.reuse_distance;
+    Allowed most{distance, distance};
+    if (!is_round(world, pair.a) && !is_round(world, pair.b)) return most;
+    if (has_rim(world, pair.a) || has_rim(world, pair.b)) most.turned = kLag * distance;
+    if (before.were_exact(pair)) most.moved = kStill * distance;
+    return most;
 }
 
-/// Whether the contacts that `then` has will do at the poses of `now`. Contacts on a rim that turns
-/// will not: they would lag behind it, and brake what rolls.
-bool will_do(const KeptPair& then, const KeptPair& now, const World& world, bool exact) {
+/// Adds what the bodies have moved since the detection before to the bound of a pair.
+void add_motion(KeptPair& pair, const Bodies& b, const std::vector<PoseChange>& changes) {
+    const PoseChange &of_a = changes[pair.a], &of_b = changes[pair.b];
+    const double radius = std::min(b.bounding_radius[pair.a], b.bounding_radius[pair.b]);
+    const double reach = pair.offset.norm() + pair.moved + radius;
+    pair.moved += of_a.travel + of_b.travel + (of_a.turn + of_b.turn) * reach;
+}
+
+/// Whether the contacts of a pair will do at the poses now. Its bound is brought up to date.
+bool will_do(KeptPair& pair, const World& world, const Allowed& most) {
+    const double surely = kSure * std::min(most.moved, most.turned);
+    if (pair.moved <= surely) return true;
     const Bodies& b = world.bodies;
-    const double distance = world.settings.reuse_distance;
-    const double radius = b.bounding_radius[watched(b, now.a, now.b).small];
-    const double moved = motion(then, now, radius);
-    if ((has_rim(world, now.a) || has_rim(world, now.b)) &&
-        turned(then, now) * radius > kLag * distance)
-        return false;
-    if (exact && moved > kStill * distance && (is_round(world, now.a) || is_round(world, now.b)))
-        return false;
-    return then.margin >= now.margin - distance && moved <= distance;
+    KeptPair now = pair;
+    measure_pose(now, b);
+    const double radius = b.bounding_radius[watched(b, pair.a, pair.b).small];
+    const double turn = turned(pair, now) * radius;
+    pair.moved = (now.offset - pair.offset).norm() + turn;
+    return turn <= most.turned && pair.moved <= most.moved;
 }
 
 /// Whether candidate i is of bodies that there are, and stands behind the one before it.
@@ -91,22 +112,28 @@ void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uin
     World& world = *context.world;
     KeptContacts& kept = world.contacts.kept;
     const std::vector<double>& sweeps = *context.sweeps;
+    const std::vector<PoseChange>& changes = *context.changes;
     auto old = kept.pairs_before.begin();
     ContactsBefore before(world.contacts);
     for (std::uint32_t i = 0; i < count; ++i) {
         wanted[i] = 1;
         if (!in_order(pairs, i, sweeps.size())) continue;  // a fault of the collider: nothing kept
-        KeptPair now{pairs[i].a, pairs[i].b, 0, 0, true, 0, {}, {}};
-        now.margin = world.settings.margin + sweeps[now.a] + sweeps[now.b];
-        measure_pose(now, world.bodies);
-        while (old != kept.pairs_before.end() && key(*old) < key(now)) ++old;
-        if (old != kept.pairs_before.end() && key(*old) == key(now) &&
-            will_do(*old, now, world, before.were_exact(now))) {
-            now = *old;
-            now.fresh = false;
+        const auto [a, b] = pairs[i];
+        const double margin = world.settings.margin + sweeps[a] + sweeps[b];
+        while (old != kept.pairs_before.end() && key(*old) < std::tie(a, b)) ++old;
+        if (old != kept.pairs_before.end() && key(*old) == std::tie(a, b)) {
+            add_motion(*old, world.bodies, changes);
+            if (old->margin >= margin - world.settings.reuse_distance &&
+                will_do(*old, world, allowed(world, *old, before))) {
+                old->fresh = false;
+                wanted[i] = 0;
+                kept.pairs.push_back(*old);
+                continue;
+            }
         }
-        wanted[i] = now.fresh;
-        kept.pairs.push_back(now);
+        KeptPair& fresh = kept.pairs.emplace_back();
+        fresh.a = a, fresh.b = b, fresh.fresh = true, fresh.margin = margin;
+        measure_pose(fresh, world.bodies);
     }
 }
 
@@ -125,30 +152,33 @@ void compact(KeptContacts& kept) {
     kept.pool.swap(pool);
 }
 
-Contact in_bodies(const Contact& c, const Bodies& b) {
-    Contact local = c;
-    local.point_a = to_plain(in_body(b, c.a, to_eigen(c.point_a)));
-    local.point_b = to_plain(in_body(b, c.b, to_eigen(c.point_b)));
-    local.normal = to_plain(Vector3d(b.orientation[c.a].conjugate() * to_eigen(c.normal)));
-    return local;
-}
+/// Where the bodies of a pair are now.
+class PairPoses {
+public:
+    PairPoses(const Bodies& b, const KeptPair& pair)
+        : at_a_(b.position[pair.a]),
+          at_b_(b.position[pair.b]),
+          turn_a_(b.orientation[pair.a].toRotationMatrix()),
+          turn_b_(b.orientation[pair.b].toRotationMatrix()) {}
 
-/// Appends the contacts of a kept pair, at the poses now.
-void append_at_poses(std::vector<Contact>& merged, const KeptContacts& kept, const KeptPair& pair,
-                     const Bodies& b) {
-    if (pair.count == 0) return;
-    const Vector3d at_a = b.position[pair.a], at_b = b.position[pair.b];
-    const Matrix3d turn_a = b.orientation[pair.a].toRotationMatrix(),
-                   turn_b = b.orientation[pair.b].toRotationMatrix();
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-        Contact& c = merged.emplace_back(kept.pool[i]);
-        const Vector3d on_a = at_a + turn_a * to_eigen(c.point_a);
-        const Vector3d on_b = at_b + turn_b * to_eigen(c.point_b);
-        const Vector3d n = turn_a * to_eigen(c.normal);
+    /// From the world's frame into those of the bodies, and back.
+    void put_into_bodies(Contact& c) const {
+        c.point_a = to_plain(turn_a_.transpose() * (to_eigen(c.point_a) - at_a_));
+        c.point_b = to_plain(turn_b_.transpose() * (to_eigen(c.point_b) - at_b_));
+        c.normal = to_plain(turn_a_.transpose() * to_eigen(c.normal));
+    }
+    void put_into_world(Contact& c) const {
+        const Vector3d on_a = at_a_ + turn_a_ * to_eigen(c.point_a);
+        const Vector3d on_b = at_b_ + turn_b_ * to_eigen(c.point_b);
+        const Vector3d n = turn_a_ * to_eigen(c.normal);
         c.point_a = to_plain(on_a), c.point_b = to_plain(on_b), c.normal = to_plain(n);
         c.gap = n.dot(on_a - on_b) - c.radius_a - c.radius_b;
     }
-}
+
+private:
+    Vector3d at_a_, at_b_;
+    Matrix3d turn_a_, turn_b_;
+};
 
 }  // namespace
 
@@ -173,17 +203,25 @@ std::uint32_t merge_kept_contacts(World& world) {
     for (KeptPair& pair : kept.pairs) {
         take_found_before(key(pair));
         if (!pair.fresh) {
-            append_at_poses(merged, kept, pair, world.bodies);
+            if (pair.count > 0) {
+                const PairPoses poses(world.bodies, pair);
+                const auto from = kept.pool.begin() + pair.first;
+                const auto at = merged.insert(merged.end(), from, from + pair.count);
+                std::for_each(at, merged.end(), [&](Contact& c) { poses.put_into_world(c); });
+            }
             kept.reused += pair.count;
             for (; found != table.found.end() && key(*found) == key(pair); ++found) ++unasked;
             continue;
         }
         pair.first = static_cast<std::uint32_t>(kept.pool.size());
-        for (; found != table.found.end() && key(*found) == key(pair); ++found) {
-            kept.pool.push_back(in_bodies(*found, world.bodies));
-            merged.push_back(*found);
-        }
-        pair.count = static_cast<std::uint32_t>(kept.pool.size()) - pair.first;
+        const auto first = found;
+        while (found != table.found.end() && key(*found) == key(pair)) ++found;
+        pair.count = static_cast<std::uint32_t>(found - first);
+        if (pair.count == 0) continue;
+        merged.insert(merged.end(), first, found);
+        const PairPoses poses(world.bodies, pair);
+        const auto at = kept.pool.insert(kept.pool.end(), first, found);
+        std::for_each(at, kept.pool.end(), [&](Contact& c) { poses.put_into_bodies(c); });
     }
     merged.insert(merged.end(), found, table.found.end());
     table.found.swap(merged);

@@ -15,6 +15,7 @@
 /// d/10⁴ until it gets new ones: points and normals that lag behind would push it on.
 #pragma once
 
+#include "contacts/pose_change.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -26,7 +27,8 @@ namespace plumb {
 /// What a question to the collider needs to leave out pairs.
 struct ReuseContext {
     World* world;
-    const std::vector<double>* sweeps;  ///< [body] [m]
+    const std::vector<double>* sweeps;       ///< [body] [m]
+    const std::vector<PoseChange>* changes;  ///< [body]
 };
 
 /// Asks for the contacts of all pairs but those that are kept. `context` must outlive the call.

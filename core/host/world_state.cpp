@@ -80,7 +80,7 @@ void each_number_of_memory(Io& io, Table& table) {
     io.count(table.kept.pairs);
     for (auto& pair : table.kept.pairs) {
         io(pair.a), io(pair.b), io(pair.first), io(pair.count), io(pair.fresh), io(pair.margin);
-        vector(io, pair.offset), quaternion(io, pair.turn);
+        vector(io, pair.offset), quaternion(io, pair.turn), io(pair.moved);
     }
 }
 

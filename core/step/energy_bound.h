@@ -14,6 +14,7 @@
 #include "world/tie.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 namespace plumb {
@@ -23,7 +24,8 @@ class EnergyBound {
 public:
     /// Once a step, before the others.
     void load(const World& world, const std::vector<BodyPair>& pairs) {
-        uneven_.clear();
+        uneven_.clear(), watches_ = false;
+        if (!may_be_uneven(world)) return;
         for (const BodyPair& pair : pairs) uneven_.push_back(is_uneven(world, pair));
         watches_ = std::count(uneven_.begin(), uneven_.end(), 1) > 0;
         found_ = false;
@@ -90,6 +92,15 @@ private:
         for (std::uint32_t i = 0; i < world.joints.size(); ++i)
             if (holds(world, {TieKind::joint, i})) each_body(world, {TieKind::joint, i}, hold);
         world.each_linked_body(true, hold);
+    }
+
+    /// Whether any two bodies could be.
+    static bool may_be_uneven(const World& world) {
+        if (world.kinematic_count > 0) return true;
+        double least = std::numeric_limits<double>::infinity(), most = 0;
+        for (const double mass : world.bodies.mass)
+            if (mass > 0) least = std::min(least, mass), most = std::max(most, mass);
+        return most > kUneven * least;
     }
 
     /// Whether one of two bodies is much heavier than the other, or is moved by others.

@@ -20,6 +20,7 @@ struct KeptPair {
     double margin;               ///< gaps up to it were asked for [m]
     Vector3d offset;             ///< the smaller body's centre of mass in the other's frame [m]
     Quaterniond turn;            ///< the smaller body's frame → the other's
+    double moved = 0;            ///< bound on how far its points have come since [m]
 };
 
 struct KeptContacts {
