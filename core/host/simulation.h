@@ -31,6 +31,14 @@
 
 namespace plumb {
 
+/// Where a shape that is cast meets a body first.
+struct ShapeHit {
+    std::uint32_t body;             ///< identifier
+    std::uint32_t part;             ///< part of a compound, triangle of a mesh; else 0
+    double distance;                ///< that the shape went [m]
+    Eigen::Vector3d point, normal;  ///< of the body's surface, world frame [m], unit
+};
+
 class Simulation {
 public:
     /// Runs on a collider of yours, which must outlive the simulation. Throws SceneError or
@@ -99,13 +107,21 @@ public:
     /// The first body that a ray meets: from `origin` [m] along the unit vector `direction`, at
     /// most `length` [m]; bodies with (group & mask) != 0. Nothing where it meets none.
     ///
-    /// This and the next two ask about where the bodies are now, also before the first step and
+    /// This and the next three ask about where the bodies are now, also before the first step and
     /// after edits. The first question after a step or an edit tells the collider where all are,
     /// which costs a broad phase. They throw std::logic_error in scenes without contacts,
     /// std::invalid_argument for bad numbers, and ColliderError where the collider cannot answer.
     std::optional<RayHit> cast_ray(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction,
                                    double length = std::numeric_limits<double>::infinity(),
                                    std::uint32_t mask = ~0u);
+
+    /// The first body that a geometry (as in `overlaps`) meets on its way from a placement along the
+    /// unit vector `direction`, over a finite `length` [m], without turning. Nothing where it meets
+    /// none; what it slides along it does not meet, and what it overlaps from the start it meets at
+    /// 0. Costs two broad phases for each advance: a few, unless it passes close by what is curved.
+    std::optional<ShapeHit> cast_shape(std::uint32_t geometry, const Placement& from,
+                                       const Eigen::Vector3d& direction, double length,
+                                       std::uint32_t mask = ~0u);
 
     /// The deepest or nearest contact of two bodies at any distance, whatever their filters; the
     /// body of the lower identifier is a, and the normal points from b to a. Throws

@@ -20,6 +20,8 @@ using Names = std::multimap<std::string, std::uint32_t>;
 void expect_placement(const Placement& placement);
 
 struct Simulation::Parts {
+    class Guest;
+
     Scene assets;  ///< the scene's geometries, materials and remarks, without its bodies and joints
     World world;
     Stepper stepper;

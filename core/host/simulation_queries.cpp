@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Questions to the collider, at the poses of now.
 #include "contacts/contact_room.h"
+#include "host/guest.h"
 #include "host/simulation_parts.h"
 #include "scene/error.h"
 
@@ -9,22 +10,6 @@
 
 namespace plumb {
 namespace {
-
-std::vector<Pose> poses_of(const Bodies& b) {
-    std::vector<Pose> poses;
-    poses.reserve(b.size() + 1);
-    for (std::size_t i = 0; i < b.size(); ++i)
-        poses.push_back({to_plain(b.position[i]), to_plain(b.orientation[i])});
-    return poses;
-}
-
-/// Tells the collider where bodies are, and asks for the contacts of pairs that are let through.
-Status place_all(Proximity& proximity, const std::vector<Pose>& poses, const PairFilter& filter,
-                 ContactRoom& room) {
-    const ContactSink sink = room.sink();
-    return proximity.detect(
-        {poses.data(), nullptr, static_cast<std::uint32_t>(poses.size()), 0, 0, &filter}, &sink, 1);
-}
 
 /// The same contact with its bodies in the other order.
 Contact swapped(Contact c) {
@@ -45,8 +30,12 @@ Proximity& Simulation::Parts::at_poses_of_now() {
     if (placed) return proximity;
     const auto want_none = [](void*, const CandidatePair*, std::uint32_t count,
                               std::uint8_t* wanted) { std::fill_n(wanted, count, 0); };
+    const std::vector<Pose> poses = poses_of(world.bodies);
+    const PairFilter filter{nullptr, want_none};
     ContactRoom room;
-    expect_answer(place_all(proximity, poses_of(world.bodies), {nullptr, want_none}, room),
+    const ContactSink sink = room.sink();
+    const auto count = static_cast<std::uint32_t>(poses.size());
+    expect_answer(proximity.detect({poses.data(), nullptr, count, 0, 0, &filter}, &sink, 1),
                   "place to the bodies");
     placed = true;
     return proximity;
@@ -83,40 +72,14 @@ Contact Simulation::closest(std::uint32_t body_a, std::uint32_t body_b) {
     return contact.a < contact.b ? contact : swapped(contact);
 }
 
-/// The shape is a guest of the collider, behind the last body, for this one question.
 std::vector<std::uint32_t> Simulation::overlaps(std::uint32_t geometry, const Placement& placement,
                                                 std::uint32_t mask) {
-    Parts& p = *parts_;
-    const Bodies& bodies = p.world.bodies;
-    if (geometry >= p.assets.geometries.size())
-        throw std::out_of_range("there is no geometry " + std::to_string(geometry));
     expect_placement(placement);
-    Proximity& proximity = p.at_poses_of_now();
-    auto guest = static_cast<std::uint32_t>(bodies.size());
-    BodyRow row;
-    row.id = p.world.slots.next().id;
-    row.motion = Motion::dynamic, row.geometry = geometry;
-    row.group = ~0u, row.mask = mask;
-    p.check_pairs(row, "asked about");
-    plumb::add_body(proximity, p.world, guest, row, p.collider_name);
-
-    std::vector<Pose> poses = poses_of(bodies);
-    poses.push_back({to_plain(placement.position), to_plain(placement.rotation.normalized())});
-    const auto of_guest = [](void* ctx, const CandidatePair* pairs, std::uint32_t count,
-                             std::uint8_t* wanted) {
-        for (std::uint32_t i = 0; i < count; ++i)
-            wanted[i] = pairs[i].b == *static_cast<std::uint32_t*>(ctx);
-    };
-    ContactRoom room;
-    p.placed = false;
-    const Status status = place_all(proximity, poses, {&guest, of_guest}, room);
-    const Status removed = proximity.remove(guest);
-    p.expect_answer(status, "overlaps");
-    p.expect_answer(removed, "way to take the shape away that was asked about");
-
+    Parts::Guest guest(*parts_, geometry, mask);
     std::vector<std::uint32_t> found;
-    for (const Contact& c : room)
-        if (c.b == guest && c.a < guest && c.gap <= 0) found.push_back(bodies.id[c.a]);
+    for (const Contact& c : guest.contacts_at(placement, 0))
+        if (c.gap <= 0) found.push_back(parts_->world.bodies.id[c.a]);
+    guest.leave();
     std::sort(found.begin(), found.end());
     found.erase(std::unique(found.begin(), found.end()), found.end());
     return found;

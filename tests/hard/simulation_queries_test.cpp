@@ -2,7 +2,10 @@
 /// Rays and closest points through the facade, on every plugin, against closed forms; and what is
 /// thrown where there is no answer.
 #include "scene/error.h"
+#include "support/random.h"
 #include "support/scenes.h"
+
+#include <cmath>
 
 namespace plumb::test {
 namespace {
@@ -98,6 +101,81 @@ TEST_P(SimulationQueries, TellWhatAShapeWouldTouch) {
                  std::invalid_argument);
 }
 
+TEST_P(SimulationQueries, CastShapes) {
+    Simulation simulation(in_the_air(), colliders(), GetParam());
+    const std::uint32_t ball = simulation.add_geometry(sphere(0.25));
+    const auto cast = [&](std::uint32_t geometry, const Vector& from, const Vector& along,
+                          double length = 20, std::uint32_t mask = ~0u) {
+        return simulation.cast_shape(geometry, {from, Rotation::Identity()}, along, length, mask);
+    };
+    // a ball on a ball: centres 0.75 m apart
+    const auto on_ball = cast(ball, {0.3, 10, 0}, -Vector::UnitY());
+    ASSERT_TRUE(on_ball);
+    const double above = std::sqrt(0.75 * 0.75 - 0.3 * 0.3);
+    EXPECT_EQ(on_ball->body, 1u);
+    EXPECT_NEAR(on_ball->distance, 8 - above, 1e-8);
+    EXPECT_NEAR((on_ball->normal - Vector(0.3, above, 0) / 0.75).norm(), 0, 1e-6);
+    EXPECT_NEAR((on_ball->point - Vector(0, 2, 0) - 0.5 * on_ball->normal).norm(), 0, 1e-6);
+    // past it, just so, and not
+    EXPECT_EQ(cast(ball, {0.7499, 10, 0}, -Vector::UnitY())->body, 1u);
+    EXPECT_EQ(cast(ball, {0.7501, 10, 0}, -Vector::UnitY())->body, 0u);
+    EXPECT_NEAR(cast(ball, {0.7501, 10, 0}, -Vector::UnitY())->distance, 9.75, 1e-8);
+    // what it may not meet, and how far it goes
+    EXPECT_EQ(cast(ball, {0, 10, 0}, -Vector::UnitY(), 20, ~2u)->body, 0u);
+    EXPECT_FALSE(cast(ball, {0, 10, 0}, -Vector::UnitY(), 7.24));
+    EXPECT_TRUE(cast(ball, {0, 10, 0}, -Vector::UnitY(), 7.26));
+    EXPECT_FALSE(cast(ball, {0, 10, 0}, Vector::UnitY()));
+    // askew onto the ground, along it, and out of what it overlaps
+    const Vector askew = Vector(3, -4, 0) / 5;
+    EXPECT_NEAR(cast(ball, {-20, 8.25, 0}, askew)->distance, 10, 1e-8);
+    EXPECT_EQ(cast(ball, {-20, 0.25, 0}, Vector::UnitX(), 19), std::nullopt);
+    EXPECT_EQ(cast(ball, {0.6, 2, 0}, Vector::UnitX())->distance, 0);
+    // a cube against the cube's edge
+    const auto on_cube = cast(2, {3.9, 8, 0.9}, -Vector::UnitY());
+    ASSERT_TRUE(on_cube);
+    EXPECT_EQ(on_cube->body, 2u);
+    EXPECT_NEAR(on_cube->distance, 5, 1e-8);
+    EXPECT_THROW(cast(99, Vector::Zero(), Vector::UnitX()), std::out_of_range);
+    EXPECT_THROW(cast(ball, Vector::Zero(), {1, 1, 0}), std::invalid_argument);
+    EXPECT_THROW(cast(ball, Vector::Zero(), Vector::UnitX(), INFINITY), std::invalid_argument);
+}
+
+/// Where a cast ends the shape touches, and nowhere before: shapes and ways at random.
+TEST_P(SimulationQueries, CastShapesUpToWhereTheyTouch) {
+    Random random(11);
+    const auto shape = [&](int kind) {
+        const double r = random.number(0.1, 0.5);
+        if (kind == 0) return sphere(r);
+        if (kind == 1) return capsule(r, random.number(0.1, 0.6));
+        return box(r, random.number(0.1, 0.6), random.number(0.1, 0.6));
+    };
+    int hits = 0;
+    for (int draw = 0; draw < 60; ++draw) {
+        Scene s;
+        add_body(s, shape(draw % 3), random.vector(0.2), Motion::fixed).placement.rotation =
+            random.rotation();
+        add_body(s, shape(draw / 3 % 3), {50, 0, 0});
+        Simulation simulation(s, colliders(), GetParam());
+        const Vector out = random.direction();
+        Placement from{3 * out + random.vector(0.3), random.rotation()};
+        const auto hit = simulation.cast_shape(1, from, -out, 6);
+        const auto gap = [&](double way) {
+            Placement at = from;
+            at.position -= way * out;
+            simulation.set_placement(1, at);
+            return simulation.closest(0, 1).gap;
+        };
+        SCOPED_TRACE(testing::Message() << "draw " << draw);
+        const double length = hit ? hit->distance : 6;
+        for (int i = 0; i < 20; ++i) EXPECT_GT(gap(length * i / 20.0), 1e-9);
+        if (!hit) continue;
+        ++hits;
+        EXPECT_NEAR(gap(length), 0, 1e-6);
+        EXPECT_LT(hit->normal.dot(-out), 0) << "it faces the shape";
+    }
+    EXPECT_GT(hits, 30);
+}
+
 /// Questions between steps leave no trace in what the steps do.
 TEST_P(SimulationQueries, ChangeNoBit) {
     Scene s = in_the_air();
@@ -109,6 +187,8 @@ TEST_P(SimulationQueries, ChangeNoBit) {
         if (i % 3 == 0) asked.cast_ray({0.3, 10, 0}, -Vector::UnitY());
         if (i % 2 == 0) asked.overlaps(2, {{0.3, 0.02 * i, 0}, Rotation::Identity()});
         if (i % 5 == 0) asked.closest(1, 2);
+        if (i % 7 == 0)
+            asked.cast_shape(2, {{0.3, 9, 0}, Rotation::Identity()}, -Vector::UnitY(), 8);
         quiet.step(), asked.step();
         ASSERT_EQ(state_hash(asked.world()), state_hash(quiet.world())) << "step " << i;
     }
