@@ -3,6 +3,7 @@
 /// meet, the plugin's own narrow phase says how deep.
 #include "manifold/collider.h"
 #include "manifold/guarded.h"
+#include "manifold/support.h"
 
 namespace plumb {
 
@@ -50,11 +51,19 @@ Closeness Collider::closest_of_pair(Contact& result, const PartPair& pair) {
     return found ? Closeness::found : Closeness::meet;
 }
 
+/// Up to a gap that is none but for rounding: a back-end may find the least of one where parts meet.
 bool Collider::deepest_of_pair(Contact& result, const PartPair& pair) {
+    constexpr double kRounding = 1e-9;  // of the sizes
+    double& expansion = table_.parts()[pair.first].expansion;
+    const double before = expansion;
+    const double sizes =
+        size_of(table_.parts()[pair.first]) + size_of(table_.parts()[pair.second]);
+    expansion += kRounding * sizes;
     DetectStats stats{};
     std::uint32_t failures = 0;
     meeting_.clear();
     collide_block({meeting_, stats, failures}, &pair, 1, false, 0);
+    expansion = before;
     meeting_.finish();
     if (meeting_.size() == 0) return false;
     result = *std::min_element(meeting_.begin(), meeting_.end(),
