@@ -26,7 +26,7 @@ void choose_restitution(World& world, bool first_substep) {
         if (u > threshold) c.bounced[i] = 0;
         if (c.bounced[i]) continue;
         if (-u <= threshold) continue;
-        if (c.gap[i] > 0) {
+        if (is_open(world, i)) {
             c.restitution[i] = Restitution::passing;
         } else {
             c.set_restitution(i, -e * u);

@@ -66,6 +66,13 @@ inline double smaller_radius(const Bodies& b, const Contact& c) {
     return radius;
 }
 
+/// Whether a contact's surfaces are apart, by more than rounding may make of such that touch.
+inline bool is_open(const World& world, std::size_t i) {
+    constexpr double kRounding = 1e-6;  // of the smaller body's radius
+    const ContactTable& c = world.contacts;
+    return c.gap[i] > kRounding * smaller_radius(world.bodies, c.found[i]);
+}
+
 /// A pair that approaches faster collides: √(2 g ε) [m/s].
 inline double collision_threshold(const Settings& s) {
     return std::sqrt(2 * s.gravity.norm() * s.collision_depth);

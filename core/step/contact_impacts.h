@@ -112,7 +112,7 @@ private:
         const double lambda = double(row.lambda_velocity[at.lane]);
         const bool collides =
             lambda > collision_threshold(world.settings) * double(row.effective_mass[at.lane]);
-        return collides && world.contacts.gap[at.contact] <= 0 ? static_cast<Real>(e * lambda) : 0;
+        return collides && !is_open(world, at.contact) ? static_cast<Real>(e * lambda) : 0;
     }
 
     /// Opposite impulses along the normal [N s].

@@ -55,8 +55,9 @@ PushOut push_out(const Settings& s, double share, double h) {
 /// pair agree, for the error that is left at one level tips over all that stands on it.
 constexpr std::uint32_t kShockRounds = 16;
 
-/// Iterations of each phase of an impact.
-constexpr std::uint32_t kImpactIterations = 10;
+/// Iterations of each phase of an impact, of few pairs as many as come to so many solutions of a
+/// pair: what runs along a row takes as many as the square of its length.
+constexpr std::size_t kImpactIterations = 10, kMostImpactIterations = 200, kImpactWork = 4000;
 
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {
@@ -271,9 +272,11 @@ private:
     }
 
     void iterate_impacts(PassSettings<Real> pass) {
+        const std::size_t iterations = std::clamp(kImpactWork / impacts_.hit_count(),
+                                                  kImpactIterations, kMostImpactIterations);
         workers_.run([&](std::uint32_t worker) {
             PassSettings<Real> mine = pass;
-            for (std::uint32_t i = 0; i < kImpactIterations; ++i) {
+            for (std::size_t i = 0; i < iterations; ++i) {
                 mine.forwards = i % 2 == 0;
                 contacts_->iterate_impacts(table_.rows(), mine, worker);
             }
