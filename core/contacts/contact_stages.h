@@ -25,9 +25,9 @@ struct DetectBuffers {
     std::vector<Pose> poses;
     std::vector<double> sweeps;
     std::vector<PoseChange> changes;  ///< [body] since the detection before
-    std::vector<ContactRoom> rooms;  ///< [worker], behind the sinks
-    std::vector<ContactSink> sinks;  ///< [worker]
-    std::vector<Vec3> places;        ///< of particles
+    std::vector<ContactRoom> rooms;   ///< [worker], behind the sinks
+    std::vector<ContactSink> sinks;   ///< [worker]
+    std::vector<Vec3> places;         ///< of particles
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far

@@ -34,8 +34,7 @@ void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
     buffers.changes.resize(bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         const Pose pose{to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
-        buffers.changes[i] =
-            i < known ? PoseChange::between(buffers.poses[i], pose) : PoseChange();
+        buffers.changes[i] = i < known ? PoseChange::between(buffers.poses[i], pose) : PoseChange();
         buffers.poses[i] = pose;
         buffers.sweeps[i] = sweep(world, i, dt);
     }

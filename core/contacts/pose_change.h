@@ -30,8 +30,7 @@ struct PoseChange {
                          qw = to.rotation.w - sign * from.rotation.w;
             return qx * qx + qy * qy + qz * qz + qw * qw;
         };
-        return {std::sqrt(x * x + y * y + z * z),
-                2 * std::sqrt(std::min(apart(1), apart(-1)))};
+        return {std::sqrt(x * x + y * y + z * z), 2 * std::sqrt(std::min(apart(1), apart(-1)))};
     }
 };
 

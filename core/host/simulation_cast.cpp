@@ -53,9 +53,9 @@ Bound least_way(const std::vector<Contact>& contacts, const Vector3d& direction,
 }
 
 const Contact* deepest(const std::vector<Contact>& contacts) {
-    const auto least = std::min_element(
-        contacts.begin(), contacts.end(),
-        [](const Contact& x, const Contact& y) { return x.gap < y.gap; });
+    const auto least =
+        std::min_element(contacts.begin(), contacts.end(),
+                         [](const Contact& x, const Contact& y) { return x.gap < y.gap; });
     return least == contacts.end() ? nullptr : &*least;
 }
 

@@ -272,8 +272,8 @@ private:
     /// What is carried over at the least: sums stay bounded, and what is deep still finds out.
     static constexpr double kLeastKept = 0.8;
 
-    /// What a contact that others squeeze may carry over is the weight of all and so many times what
-    /// pushes its bodies out at Settings::recovery_speed.
+    /// What a contact that others squeeze may carry over is the weight of all and so many times
+    /// what pushes its bodies out at Settings::recovery_speed.
     static constexpr double kGreatest = 10;
     static double greatest_impulse(const World& world, const BodyPair& pair, double weight) {
         const Contact& c = world.contacts.found[pair.first];

@@ -57,7 +57,7 @@ constexpr std::uint32_t kShockRounds = 16;
 
 /// Iterations of each phase of an impact, of few pairs as many as come to so many solutions of a
 /// pair: what runs along a row takes as many as the square of its length.
-constexpr std::size_t kImpactIterations = 10, kMostImpactIterations = 200, kImpactWork = 4000;
+constexpr std::size_t kImpactIterations = 10, kMostImpactIterations = 1000, kImpactWork = 10000;
 
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {

@@ -51,13 +51,13 @@ Closeness Collider::closest_of_pair(Contact& result, const PartPair& pair) {
     return found ? Closeness::found : Closeness::meet;
 }
 
-/// Up to a gap that is none but for rounding: a back-end may find the least of one where parts meet.
+/// Up to a gap that is none but for rounding: a back-end may find the least of one where parts
+/// meet.
 bool Collider::deepest_of_pair(Contact& result, const PartPair& pair) {
     constexpr double kRounding = 1e-9;  // of the sizes
     double& expansion = table_.parts()[pair.first].expansion;
     const double before = expansion;
-    const double sizes =
-        size_of(table_.parts()[pair.first]) + size_of(table_.parts()[pair.second]);
+    const double sizes = size_of(table_.parts()[pair.first]) + size_of(table_.parts()[pair.second]);
     expansion += kRounding * sizes;
     DetectStats stats{};
     std::uint32_t failures = 0;

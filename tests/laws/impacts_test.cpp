@@ -152,6 +152,54 @@ TEST_P(Impacts, RowsOfUpToEightKeepTheirEnergy) {
     }
 }
 
+/// A row of balls that touch, in some direction, and the wall that the last of them touches.
+void row_before_wall(Scene& s, Random& random, std::uint32_t count, double speed) {
+    const Vector along = random.direction();
+    const Rotation turn = Rotation::FromTwoVectors(Vector::UnitX(), along);
+    for (std::uint32_t i = 0; i < count; ++i) add_body(s, sphere(0.1), 0.2 * i * along);
+    add_body(s, sphere(0.1), -(0.2 + random.number(0.001, 0.1)) * along).velocity = speed * along;
+    add_body(s, box(0.3, 1, 1), (0.2 * count + 0.2) * along, Motion::fixed).placement.rotation =
+        turn;
+}
+
+/// With e = 1 all that ran in runs out again.
+TEST_P(Impacts, RowsKeepTheirEnergyAgainstAWall) {
+    Random random(8);
+    for (int draw = 0; draw < 24; ++draw) {
+        Scene s = free_scene(1);
+        const std::uint32_t count = 1 + random.below(8);
+        const double speed = random.number(1, 4);
+        row_before_wall(s, random, count, speed);
+        choose_step(s.settings, draw, random);
+        s.settings.dt = std::min(s.settings.dt, 0.01);
+        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << count << " balls, "
+                                        << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        const World& world = simulation.world();
+        const double before = kinetic_energy(world);
+        run_for(simulation, 0.5);
+        EXPECT_GT(kinetic_energy(world), 0.999 * before);
+        EXPECT_LT(kinetic_energy(world), 1.001 * before);
+    }
+}
+
+/// With e = 0 nothing does, however long the row.
+TEST_P(Impacts, WithoutRestitutionRowsStayAtAWall) {
+    Random random(9);
+    for (int draw = 0; draw < 18; ++draw) {
+        Scene s = free_scene(0);
+        const std::uint32_t count = 8 + random.below(6);
+        const double speed = random.number(1, 4);
+        row_before_wall(s, random, count, speed);
+        choose_step(s.settings, draw, random);
+        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << count << " balls, "
+                                        << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 0.5);
+        EXPECT_LT(fastest_point(simulation.world()), 0.01 * speed);
+    }
+}
+
 /// A body that falls on the ground from some times its radius, turning at a rate [rad/s].
 Scene falling(Scene s, Random& random, const Geometry& shape, double radius, double rate) {
     s.materials[0].friction = 0;
