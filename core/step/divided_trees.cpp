@@ -32,6 +32,10 @@ constexpr double kTwist = 0.2;
 /// (math/free_rotation.h).
 constexpr double kSpin = 0.1, kTooFast = 0.2;
 
+/// By how much a part may change how far it turns [rad]. What whips round, as a light body whose
+/// point comes near to a line through its joint, gets faster from part to part.
+constexpr double kJerk = 0.01;
+
 /// For how long fewer parts must do before fewer are taken [s]: longer than what swings quickly
 /// takes to come back.
 constexpr double kCalm = 5;
@@ -44,6 +48,16 @@ constexpr double kFiner = 0.01;
 constexpr int kMostRounds = 8;
 constexpr double kSameTurn = 1e-10;
 
+/// How fast the line of a distance joint turns [rad/s], as a vector of that length, at most.
+Vector3d line_rate(const Bodies& b, const Joint& joint, const std::vector<Vector3d>& v,
+                   const std::vector<Vector3d>& w) {
+    const auto velocity = [&](std::uint32_t body, const Placement& frame) -> Vector3d {
+        if (body == kNoIndex) return Vector3d::Zero();
+        return v[body] + w[body].cross(b.orientation[body] * frame.position);
+    };
+    return (velocity(joint.a, joint.frame_a) - velocity(joint.b, joint.frame_b)) / joint.length;
+}
+
 /// Of the joints that turn most [rad/s].
 double angular_rate(const World& world, const std::vector<std::uint32_t>& joints) {
     const Bodies& b = world.bodies;
@@ -53,15 +67,25 @@ double angular_rate(const World& world, const std::vector<std::uint32_t>& joints
         if (joint.broken) continue;
         most = std::max({most, angular_rate(b, joint, joint.a, joint.frame_a),
                          angular_rate(b, joint, joint.b, joint.frame_b)});
-        if (!(joint.length > 0)) continue;
-        const auto velocity = [&](std::uint32_t body, const Placement& frame) -> Vector3d {
-            if (body == kNoIndex) return Vector3d::Zero();
-            return b.velocity[body] +
-                   b.angular_velocity[body].cross(b.orientation[body] * frame.position);
-        };
-        const Vector3d relative =
-            velocity(joint.a, joint.frame_a) - velocity(joint.b, joint.frame_b);
-        most = std::max(most, relative.norm() / joint.length);
+        if (joint.length > 0)
+            most = std::max(most, line_rate(b, joint, b.velocity, b.angular_velocity).norm());
+    }
+    return most;
+}
+
+/// By how much the rates of bodies and lines have changed since the part began [rad/s].
+double greatest_jerk(const World& world, const std::vector<std::uint32_t>& bodies,
+                     const std::vector<std::uint32_t>& joints) {
+    const Bodies& b = world.bodies;
+    double most = 0;
+    for (const std::uint32_t i : bodies)
+        most = std::max(most, (b.angular_velocity[i] - b.angular_velocity_now[i]).norm());
+    for (const std::uint32_t i : joints) {
+        const Joint& joint = world.joints.joints[i];
+        if (joint.broken || !(joint.length > 0)) continue;
+        const Vector3d before = line_rate(b, joint, b.velocity_now, b.angular_velocity_now);
+        most =
+            std::max(most, (line_rate(b, joint, b.velocity, b.angular_velocity) - before).norm());
     }
     return most;
 }
@@ -276,6 +300,7 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     tree.solver.store_impulses(world.joints);
     return last || (time.h * angular_rate(world, tree.joints) <= kTooFar &&
                     time.h * eccentric_spin(world, tree.joints) <= kTooFast &&
+                    time.h * greatest_jerk(world, tree.bodies, tree.joints) <= kJerk &&
                     greatest_angular_load(world, tree.joints, time.h) <= kTwist * kTwist);
 }
 
