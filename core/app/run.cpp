@@ -146,9 +146,9 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const Statist
     if (statistics.unsolved_trees > 0)
         warnings.push_back(fmt::format(
             "trees of joints were left open in {} solves, by {:.3g} m or rad at the most, that of "
-            "joint {}; more substeps, or \"joints\": \"iterate\", may help",
+            "joint {}; more substeps may help",
             statistics.unsolved_trees, statistics.tree_error, statistics.open_joint));
-    else if (statistics.worst_joint() > kWide)
+    if (statistics.worst_joint() > std::max(kWide, statistics.tree_error))
         warnings.push_back(fmt::format(
             "joint {} was open by {:.3g} m, more than any other; more iterations or substeps, or "
             "\"joints\": \"tree\", may help",

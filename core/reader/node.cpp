@@ -72,7 +72,8 @@ void Node::fail_wanting(const std::string& wanted) const {
 }
 
 void Node::require_one(const std::string& a, const std::string& b) const {
-    if (has(a) == has(b)) fail("must have either \"" + a + "\" or \"" + b + "\", not both");
+    if (has(a) == has(b))
+        fail("must have either \"" + a + "\" or \"" + b + "\"" + (has(a) ? ", not both" : ""));
 }
 
 void Node::require_beside(const std::string& key, const std::string& owner) const {

@@ -122,7 +122,7 @@ TEST(Links, RefuseWhatIsNotThere) {
     expect_error(linked(end + R"("b": {})"), place + "/b",
                  "must have \"deformable\", \"body\" or \"position\"");
     expect_error(linked(end + R"("b": {"deformable": "string"})"), place + "/b",
-                 "either \"point\" or \"near\", not both");
+                 "must have either \"point\" or \"near\"");
     expect_error(linked(end + R"("b": {"deformable": "string", "point": 1, "body": "pole"})"),
                  place + "/b/body", "has no \"body\"");
     expect_error(linked(end + R"("b": {"body": "pole", "point": 1})"), place + "/b/point",
