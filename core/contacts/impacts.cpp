@@ -122,15 +122,34 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
     return work.share(0);
 }
 
+/// The velocity that roundings of single precision have given an island which touches nothing that
+/// is immovable: impulses leave its momentum as it is.
+Vector3d Impacts::drift(const World& world, const ContactIsland& island,
+                        const std::vector<BodyPair>& pairs) const {
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[islands_.pairs()[i]];
+        if (std::max(pair.row_a, pair.row_b) >= world.dynamic_count) return Vector3d::Zero();
+    }
+    Vector3d momentum = Vector3d::Zero();
+    double mass = 0;
+    for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
+        const std::int32_t row = islands_.bodies()[i];
+        const double of_body = world.bodies.mass[body_of_[row]];
+        momentum += of_body * changes_[row].v, mass += of_body;
+    }
+    return momentum / mass;
+}
+
 void Impacts::take(World& world, const std::vector<BodyPair>& pairs, double h) {
     Bodies& b = world.bodies;
     shares_.clear();
     for (const ContactIsland& island : colliding_) {
         const double share = shares_.emplace_back(bounded_share(world, island, pairs));
+        const Vector3d drifted = drift(world, island, pairs);
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
             const std::int32_t row = islands_.bodies()[i];
             const std::uint32_t body = body_of_[row];
-            const Vector3d dv = share * changes_[row].v, dw = share * changes_[row].w;
+            const Vector3d dv = share * (changes_[row].v - drifted), dw = share * changes_[row].w;
             b.velocity[body] += dv, b.velocity_now[body] += dv;
             if (gyroscopic_ && !b.isotropic[body])
                 b.angular_velocity[body] = pushed_rate(b, body, dw, h);

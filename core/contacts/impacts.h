@@ -75,6 +75,8 @@ private:
     bool find_fast(const Bodies& bodies, double threshold);
     void choose_start(const World& world);
     void take_bodies(const World& world, const BodyPair& pair);
+    Vector3d drift(const World& world, const ContactIsland& island,
+                   const std::vector<BodyPair>& pairs) const;
     double bounded_share(const World& world, const ContactIsland& island,
                          const std::vector<BodyPair>& pairs) const;
 

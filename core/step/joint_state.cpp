@@ -31,10 +31,9 @@ JointPose joint_pose(const Bodies& b, const Joint& joint) {
             centre = Vector3d::Zero();
             return;
         }
-        const Matrix3d turned = b.orientation[body].toRotationMatrix();
         centre = b.position[body];
-        point = centre + turned * frame.position;
-        axes = turned * frame.rotation.toRotationMatrix();
+        point = centre + b.orientation[body] * frame.position;
+        axes = (b.orientation[body] * frame.rotation).toRotationMatrix();
     };
     put(joint.a, joint.frame_a, pose.point_a, pose.axes_a, pose.centre_a);
     put(joint.b, joint.frame_b, pose.point_b, pose.axes_b, pose.centre_b);

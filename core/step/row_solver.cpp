@@ -55,9 +55,11 @@ PushOut push_out(const Settings& s, double share, double h) {
 /// pair agree, for the error that is left at one level tips over all that stands on it.
 constexpr std::uint32_t kShockRounds = 16;
 
-/// Iterations of each phase of an impact, of few pairs as many as come to so many solutions of a
-/// pair: what runs along a row takes as many as the square of its length.
-constexpr std::size_t kImpactIterations = 10, kMostImpactIterations = 1000, kImpactWork = 10000;
+/// Iterations of each phase of an impact: these, and as many again until velocities change by no
+/// more than a share of the greatest, or that comes to so many solutions of a pair. What runs along
+/// a row takes as many as the square of its length.
+constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000;
+constexpr double kImpactSettled = 1e-5;
 
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {
@@ -82,7 +84,11 @@ public:
         if (has_impacts_) energy_.load(world, contacts_->pairs());
         for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
-        if (has_impacts_) impacts_.reserve(world, contacts_->pairs()), contacts_->reserve_impacts();
+        if (has_impacts_) {
+            impacts_.reserve(world, contacts_->pairs());
+            contacts_->reserve_impacts();
+            settled_.resize(static_cast<std::size_t>(world.dynamic_count));
+        }
         if (!shocks_) return;
         find_levels(world, levels_);
         shock_->load(world, &levels_, nullptr);
@@ -272,15 +278,29 @@ private:
     }
 
     void iterate_impacts(PassSettings<Real> pass) {
-        const std::size_t iterations = std::clamp(kImpactWork / impacts_.hit_count(),
-                                                  kImpactIterations, kMostImpactIterations);
-        workers_.run([&](std::uint32_t worker) {
-            PassSettings<Real> mine = pass;
-            for (std::size_t i = 0; i < iterations; ++i) {
-                mine.forwards = i % 2 == 0;
-                contacts_->iterate_impacts(table_.rows(), mine, worker);
-            }
+        const std::size_t most = kImpactWork / impacts_.hit_count();
+        for (std::size_t done = 0; done == 0 || (done < most && impacts_changed());
+             done += kImpactIterations)
+            workers_.run([&](std::uint32_t worker) {
+                PassSettings<Real> mine = pass;
+                for (std::size_t i = 0; i < kImpactIterations; ++i) {
+                    mine.forwards = i % 2 == 0;
+                    contacts_->iterate_impacts(table_.rows(), mine, worker);
+                }
+            });
+    }
+
+    /// Whether the velocities of what collides have changed since the last call.
+    bool impacts_changed() {
+        Real change = 0, greatest = 0;
+        impacts_.each_row([&](std::int32_t row) {
+            const Velocity<Real> now = velocity_in(table_.rows().change, row);
+            Velocity<Real>& before = settled_[row];
+            change = std::max(change, (now.v - before.v).squaredNorm());
+            greatest = std::max(greatest, now.v.squaredNorm());
+            before = now;
         });
+        return change > static_cast<Real>(kImpactSettled * kImpactSettled) * greatest;
     }
 
     bool forwards(std::uint32_t iteration) const {
@@ -304,6 +324,7 @@ private:
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;
     Impacts impacts_;
+    std::vector<Velocity<Real>> settled_;  // [row], of what collides
     EnergyBound<Real, W> energy_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
