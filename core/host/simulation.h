@@ -118,7 +118,7 @@ public:
     /// The first body that a geometry (as in `overlaps`) meets on its way from a placement along
     /// the unit vector `direction`, over a finite `length` [m], without turning. Nothing where it
     /// meets none; what it slides along it does not meet, and what it overlaps from the start it
-    /// meets at 0. Costs two broad phases for each advance: a few, unless it passes close by what
+    /// meets at 0. Costs a broad phase for each advance: a few, unless it passes close by what
     /// is curved.
     std::optional<ShapeHit> cast_shape(std::uint32_t geometry, const Placement& from,
                                        const Eigen::Vector3d& direction, double length,

@@ -46,7 +46,8 @@ inline Vector3<T> middle_rate(const Vector3<T>& momentum, const Vector3<T>& iner
     const Vector3<T> start = inverse_inertia.cwiseProduct(momentum);
     const Vector3<T> turned = momentum + cross(momentum, start) * (h * T(0.5));  // to first order
     Vector3<T> rate = inverse_inertia.cwiseProduct(turned);
-    T moving = T(1), before = dot(rate, rate);
+    const Vector3<T> guessed = rate - start;
+    T moving = T(1), before = dot(guessed, guessed);
     for (int round = 0; round < kMostRounds && any_greater(moving, T(0)); ++round) {
         const Vector3<T> seen = unit_exponential<T>(Vector3<T>(rate * (h * T(-0.5)))) * momentum;
         const Vector3<T> error = seen - inertia.cwiseProduct(rate);

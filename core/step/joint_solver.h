@@ -33,31 +33,15 @@ public:
     Stage stage() const override { return Stage::joints; }
     bool empty() const override { return idle_; }
 
-    void load(const World&) override {
-        const auto all_in_island = [this](const std::vector<std::uint32_t>& joints) {
-            return std::all_of(joints.begin(), joints.end(),
-                               [this](std::uint32_t i) { return in_island_[i] != 0; });
-        };
-        idle_ = all_in_island(ball_joints_) && all_in_island(block_joints_) &&
-                all_in_island(driven_joints_) && couplings_.all_in_island();
-    }
-
     /// Arms, errors and masses at the start of a substep. Impulses start from nothing: those of the
     /// substep before point where the bodies were, and chains that swing gain energy from them.
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
+        look_for_work();
         if (idle_) return;
-        const auto& joints = world.joints.joints;
-        for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
-            BallFrames<W>& frames = frames_[balls_.index(i)];
-            frames.used[balls_.lane(i)] = !in_island_[ball_joints_[i]];
-            frames.load[balls_.lane(i)] =
-                load_of(joints[ball_joints_[i]], kAlongX, JointSolve::iterations);
-        }
-        kernels_.begin_balls(balls_.data(), frames_.data(), states_of(world.bodies), h,
-                             frames_.size());
+        begin_balls(world, h);
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
-            fill_block(world, joints[block_joints_[i]], i, h);
+            fill_block(world, world.joints.joints[block_joints_[i]], i, h);
         fill_drives(world, h);
         couplings_.begin(world, h);
     }
@@ -106,6 +90,28 @@ public:
     }
 
 private:
+    /// Islands may give a joint up in the middle of a step.
+    void look_for_work() {
+        const auto all_in_island = [this](const std::vector<std::uint32_t>& joints) {
+            return std::all_of(joints.begin(), joints.end(),
+                               [this](std::uint32_t i) { return in_island_[i] != 0; });
+        };
+        idle_ = all_in_island(ball_joints_) && all_in_island(block_joints_) &&
+                all_in_island(driven_joints_) && couplings_.all_in_island();
+    }
+
+    void begin_balls(const World& world, double h) {
+        const auto& joints = world.joints.joints;
+        for (std::size_t i = 0; i < ball_joints_.size(); ++i) {
+            BallFrames<W>& frames = frames_[balls_.index(i)];
+            frames.used[balls_.lane(i)] = !in_island_[ball_joints_[i]];
+            frames.load[balls_.lane(i)] =
+                load_of(joints[ball_joints_[i]], kAlongX, JointSolve::iterations);
+        }
+        kernels_.begin_balls(balls_.data(), frames_.data(), states_of(world.bodies), h,
+                             frames_.size());
+    }
+
     static std::int32_t row_of(const World& world, std::uint32_t body) {
         return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
     }

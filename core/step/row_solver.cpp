@@ -55,9 +55,10 @@ PushOut push_out(const Settings& s, double share, double h) {
 /// pair agree, for the error that is left at one level tips over all that stands on it.
 constexpr std::uint32_t kShockRounds = 16;
 
-/// Iterations of each phase of an impact: these, and as many again until velocities change by no
-/// more than a share of the greatest, or that comes to so many solutions of a pair. What runs along
-/// a row takes as many as the square of its length.
+/// Iterations of each phase of an impact: these, and where bodies bounce or slide freely as many
+/// again until velocities change by no more than a share of the greatest, or that comes to so many
+/// solutions of a pair. What runs along a row takes as many as the square of its length. Joints
+/// would have to take part in that, and what friction wedges rests sooner without.
 constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000;
 constexpr double kImpactSettled = 1e-5;
 
@@ -69,6 +70,7 @@ public:
           workers_(workers),
           shocks_(plan.runs(Effect::shock_propagation)),
           has_impacts_(plan.runs(Effect::impacts)),
+          has_friction_(plan.runs(Effect::friction)),
           warm_start_(settings_.warm_start && !shocks_),
           solved_ties_(world),
           impacts_(carry_momentum(settings_, plan.runs(Effect::gyroscopic))),
@@ -125,8 +127,8 @@ public:
         PassSettings<Real> pass{};
         pass.h = static_cast<Real>(h), pass.inverse_h = static_cast<Real>(1 / h);
         contacts_->begin_impacts(world, impacts_, table_.rows(), pass);
-        iterate_impacts(pass);
-        if (contacts_->give_back(world, impacts_, table_.rows())) iterate_impacts(pass);
+        iterate_impacts(world, pass);
+        if (contacts_->give_back(world, impacts_, table_.rows())) iterate_impacts(world, pass);
         impacts_.each_row([&](std::int32_t row) {
             const Velocity<Real> change = velocity_in(table_.rows().change, row);
             impacts_.changes()[row] = {change.v.template cast<double>(),
@@ -277,8 +279,10 @@ private:
         return apart ? Share(std::in_place, ledger, group.stage(), around) : Share(std::nullopt);
     }
 
-    void iterate_impacts(PassSettings<Real> pass) {
-        const std::size_t most = kImpactWork / impacts_.hit_count();
+    void iterate_impacts(const World& world, PassSettings<Real> pass) {
+        const bool settles =
+            world.joints.size() == 0 && (!has_friction_ || !world.contacts.restitution.empty());
+        const std::size_t most = settles ? kImpactWork / impacts_.hit_count() : 0;
         for (std::size_t done = 0; done == 0 || (done < most && impacts_changed());
              done += kImpactIterations)
             workers_.run([&](std::uint32_t worker) {
@@ -309,7 +313,7 @@ private:
 
     const Settings settings_;
     Workers& workers_;
-    bool shocks_, has_impacts_;
+    bool shocks_, has_impacts_, has_friction_;
     /// Shock propagation carries each level by itself; impulses of the step before would only stand
     /// in its way.
     bool warm_start_;
