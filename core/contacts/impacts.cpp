@@ -62,13 +62,11 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
     if (!any) return false;
 
     islands_.find(pairs, {}, 0, world.dynamic_count);
-    hit_count_ = 0;
     for (const ContactIsland& island : islands_.islands()) {
         const auto first = islands_.pairs().begin() + island.first_pair,
                    last = islands_.pairs().begin() + island.last_pair;
         const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
         if (!hit) continue;
-        hit_count_ += island.last_pair - island.first_pair;
         std::for_each(first, last, [&](std::uint32_t p) {
             hit_[p] = 1;
             take_bodies(world, pairs[p]);

@@ -37,7 +37,12 @@ public:
     bool find(const World& world, const std::vector<BodyPair>& pairs, double h);
 
     /// How many pairs such islands have; at least 1 where there is one.
-    std::size_t hit_count() const { return hit_count_; }
+    std::size_t hit_count() const {
+        std::size_t count = 0;
+        for (const ContactIsland& island : colliding_)
+            count += island.last_pair - island.first_pair;
+        return count;
+    }
     /// Whether a pair belongs to such an island.
     bool is_hit(std::size_t pair) const { return hit_[pair] != 0; }
 
@@ -86,7 +91,6 @@ private:
     std::vector<double> shares_;          // [colliding_] of the changes that were taken
     std::vector<std::uint8_t> fast_;      // [body]
     std::vector<std::uint8_t> hit_;       // [pair]
-    std::size_t hit_count_ = 0;           // of hit_
     std::vector<Vector3d> start_;         // [body]
     std::vector<std::uint32_t> body_of_;  // [row], of the rows above
     std::vector<Change> changes_;         // [row]

@@ -16,6 +16,14 @@ std::vector<Pose> poses_of(const Bodies& b) {
     return poses;
 }
 
+Status place_all(Proximity& proximity, const std::vector<Pose>& poses, const PairFilter& filter,
+                 double margin, ContactRoom& room) {
+    const ContactSink sink = room.sink();
+    return proximity.detect(
+        {poses.data(), nullptr, static_cast<std::uint32_t>(poses.size()), 0, margin, &filter},
+        &sink, 1);
+}
+
 Simulation::Parts::Guest::Guest(Parts& parts, std::uint32_t geometry, std::uint32_t mask)
     : parts_(parts), geometry_(geometry) {
     if (geometry >= parts.assets.geometries.size())
@@ -47,12 +55,8 @@ const std::vector<Contact>& Simulation::Parts::Guest::contacts_at(const Placemen
     };
     parts_.placed = false;
     room_.clear();
-    const PairFilter filter{&slot_, of_guest};
-    const ContactSink sink = room_.sink();
-    const auto count = static_cast<std::uint32_t>(poses_.size());
-    parts_.expect_answer(
-        parts_.proximity.detect({poses_.data(), nullptr, count, 0, margin, &filter}, &sink, 1),
-        "contacts of a shape that was asked about");
+    parts_.expect_answer(place_all(parts_.proximity, poses_, {&slot_, of_guest}, margin, room_),
+                         "contacts of a shape that was asked about");
     contacts_.clear();
     for (const Contact& c : room_)
         if (c.b == slot_ && c.a < slot_) contacts_.push_back(c);

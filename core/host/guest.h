@@ -11,6 +11,11 @@ namespace plumb {
 
 std::vector<Pose> poses_of(const Bodies& bodies);
 
+/// Tells the collider where bodies are, and asks for the contacts, up to a gap [m], of the pairs
+/// that are let through.
+Status place_all(Proximity& proximity, const std::vector<Pose>& poses, const PairFilter& filter,
+                 double margin, ContactRoom& room);
+
 /// It stands behind the last body, and meets the bodies with (group & mask) != 0.
 class Simulation::Parts::Guest {
 public:

@@ -30,12 +30,8 @@ Proximity& Simulation::Parts::at_poses_of_now() {
     if (placed) return proximity;
     const auto want_none = [](void*, const CandidatePair*, std::uint32_t count,
                               std::uint8_t* wanted) { std::fill_n(wanted, count, 0); };
-    const std::vector<Pose> poses = poses_of(world.bodies);
-    const PairFilter filter{nullptr, want_none};
     ContactRoom room;
-    const ContactSink sink = room.sink();
-    const auto count = static_cast<std::uint32_t>(poses.size());
-    expect_answer(proximity.detect({poses.data(), nullptr, count, 0, 0, &filter}, &sink, 1),
+    expect_answer(place_all(proximity, poses_of(world.bodies), {nullptr, want_none}, 0, room),
                   "place to the bodies");
     placed = true;
     return proximity;

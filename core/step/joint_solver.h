@@ -37,7 +37,7 @@ public:
     /// substep before point where the bodies were, and chains that swing gain energy from them.
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
                double h) override {
-        look_for_work();
+        look_for_work(world.joints);
         if (idle_) return;
         begin_balls(world, h);
         for (std::size_t i = 0; i < block_joints_.size(); ++i)
@@ -91,13 +91,15 @@ public:
 
 private:
     /// Islands may give a joint up in the middle of a step.
-    void look_for_work() {
-        const auto all_in_island = [this](const std::vector<std::uint32_t>& joints) {
-            return std::all_of(joints.begin(), joints.end(),
-                               [this](std::uint32_t i) { return in_island_[i] != 0; });
+    void look_for_work(const JointTable& table) {
+        const auto is_elsewhere = [&](std::uint32_t joint) { return in_island_[joint] != 0; };
+        const auto is_driven_elsewhere = [&](std::uint32_t drive) {
+            return is_elsewhere(table.drives[drive].joint);
         };
-        idle_ = all_in_island(ball_joints_) && all_in_island(block_joints_) &&
-                all_in_island(driven_joints_) && couplings_.all_in_island();
+        idle_ = std::all_of(ball_joints_.begin(), ball_joints_.end(), is_elsewhere) &&
+                std::all_of(block_joints_.begin(), block_joints_.end(), is_elsewhere) &&
+                std::all_of(driven_.begin(), driven_.end(), is_driven_elsewhere) &&
+                couplings_.all_in_island();
     }
 
     void begin_balls(const World& world, double h) {
@@ -138,7 +140,7 @@ private:
         for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i) {
             const std::uint32_t joint = world.joints.drives[i].joint;
             if (elsewhere[joint]) continue;
-            driven_.push_back(i), driven_joints_.push_back(joint);
+            driven_.push_back(i);
             drives.push_back(all[joint]);
         }
         balls_.lay_out(balls, world);
@@ -239,8 +241,8 @@ private:
     const std::vector<std::uint8_t>& in_island_;
     Workers& workers_;
     std::vector<std::uint32_t> ball_joints_, block_joints_;  ///< index into JointTable::joints
-    std::vector<std::uint32_t> driven_, driven_joints_;      ///< into JointTable::drives, joints
-    bool idle_ = false;  ///< exact islands solve all of them in this step
+    std::vector<std::uint32_t> driven_;                      ///< index into JointTable::drives
+    bool idle_ = false;  ///< exact islands solve all of them in this substep
     LaneBlocks<BallBlock<Real, W>, Real, W> balls_;
     std::vector<BallFrames<W>> frames_;  ///< [block of balls_]
     LaneBlocks<JointBlock<Real, W>, Real, W> blocks_;

@@ -68,7 +68,6 @@ TEST_P(Clamps, FlingNothingOutThatTheyJam) {
     for (int draw = 0; draw < 12; ++draw) {
         Scene s = scene();
         s.settings.gravity.setZero();
-        s.settings.precision = draw % 2 ? Precision::single : Precision::double_;
         s.materials[0].friction = random.number(0.3, 1);
         draw_settings(s.settings, random, draw);
         const Vector half(random.number(0.05, 0.2), random.number(0.05, 0.2), 0.2);

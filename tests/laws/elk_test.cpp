@@ -94,14 +94,16 @@ Meeting meet(const std::string& collider, std::uint32_t substeps, std::uint32_t 
     return m;
 }
 
-/// In a few iterations the duck is too soft, and the elk stays in it; in the two substeps of the
-/// sample its volume is off by one to three per cent, as the run goes.
+/// At the sample's own settings, and at twice the substeps, the duck is too soft, and the elk stays
+/// in it. At the former its volume is off by one to three per cent, as the run goes.
 TEST_P(Elk, GivesItsMomentumToTheDuckAndTheGround) {
-    const Meeting m = meet(GetParam(), 4, 5);
-    EXPECT_LT(m.worst_volume, 0.02);
-    EXPECT_LT(m.unbalanced, 1e-6);
-    EXPECT_GT(m.lost, 0.1);
-    EXPECT_NEAR(m.given, m.lost, 1e-6);
+    for (const std::uint32_t substeps : {2u, 4u}) {
+        const Meeting m = meet(GetParam(), substeps, 5);
+        EXPECT_LT(m.worst_volume, substeps == 2 ? 0.04 : 0.02);
+        EXPECT_LT(m.unbalanced, 1e-6);
+        EXPECT_GT(m.lost, 0.1);
+        EXPECT_NEAR(m.given, m.lost, 1e-6);
+    }
 }
 
 /// Its skin, which keeps 1.1 times the volume, is stretched by 3 % on the mean.

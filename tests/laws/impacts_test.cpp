@@ -134,7 +134,9 @@ Geometry drawn_shape(Random& random, double radius, bool boxes_only) {
 TEST_P(Impacts, RowsKeepTheirEnergy) {
     for (const bool fine : {false, true})
         for (const int count : {2, 3, 5, 8, 12, 20, 40}) {
-            Scene s = free_scene(1);
+            Scene s = scene();
+            s.settings.gravity.setZero();
+            s.materials[0].restitution = 1;
             if (fine) use_fine_steps(s.settings);
             ball(s, -0.25, 0, 1);
             for (int i = 1; i < count; ++i) ball(s, 0.2 * i, 0, 0);
@@ -147,29 +149,37 @@ TEST_P(Impacts, RowsKeepTheirEnergy) {
         }
 }
 
-/// A row of balls that touch, in some direction, and the wall that the last of them touches.
-void row_before_wall(Scene& s, Random& random, std::uint32_t count, double speed) {
+/// A ball, and the row of touching ones that it runs into, whose last one touches a wall; in some
+/// direction, with drawn settings.
+struct RowBeforeWall {
+    Scene scene;
+    double speed;
+    std::string text;
+};
+
+RowBeforeWall row_before_wall(Scene s, Random& random, int draw, std::uint32_t count) {
+    const double speed = random.number(1, 4);
     const Vector along = random.direction();
     const Rotation turn = Rotation::FromTwoVectors(Vector::UnitX(), along);
     for (std::uint32_t i = 0; i < count; ++i) add_body(s, sphere(0.1), 0.2 * i * along);
     add_body(s, sphere(0.1), -(0.2 + random.number(0.001, 0.1)) * along).velocity = speed * along;
     add_body(s, box(0.3, 1, 1), (0.2 * count + 0.2) * along, Motion::fixed).placement.rotation =
         turn;
+    choose_step(s.settings, draw, random);
+    const std::string text = "draw " + std::to_string(draw) + ", " + std::to_string(count) +
+                             " balls, " + std::to_string(s.settings.dt) + " s x " +
+                             std::to_string(s.settings.substeps);
+    return {std::move(s), speed, text};
 }
 
 /// With e = 1 all that ran in runs out again.
 TEST_P(Impacts, RowsKeepTheirEnergyAgainstAWall) {
     Random random(8);
     for (int draw = 0; draw < 24; ++draw) {
-        Scene s = free_scene(1);
-        const std::uint32_t count = 1 + random.below(8);
-        const double speed = random.number(1, 4);
-        row_before_wall(s, random, count, speed);
-        choose_step(s.settings, draw, random);
-        s.settings.dt = std::min(s.settings.dt, 0.01);
-        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << count << " balls, "
-                                        << s.settings.dt << " s x " << s.settings.substeps);
-        Simulation simulation(s, colliders(), collider());
+        RowBeforeWall row = row_before_wall(free_scene(1), random, draw, 1 + random.below(8));
+        row.scene.settings.dt = std::min(row.scene.settings.dt, 0.01);
+        SCOPED_TRACE(row.text);
+        Simulation simulation(row.scene, colliders(), collider());
         const World& world = simulation.world();
         const double before = kinetic_energy(world);
         run_for(simulation, 0.5);
@@ -182,16 +192,11 @@ TEST_P(Impacts, RowsKeepTheirEnergyAgainstAWall) {
 TEST_P(Impacts, WithoutRestitutionRowsStayAtAWall) {
     Random random(9);
     for (int draw = 0; draw < 18; ++draw) {
-        Scene s = free_scene(0);
-        const std::uint32_t count = 8 + random.below(6);
-        const double speed = random.number(1, 4);
-        row_before_wall(s, random, count, speed);
-        choose_step(s.settings, draw, random);
-        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << count << " balls, "
-                                        << s.settings.dt << " s x " << s.settings.substeps);
-        Simulation simulation(s, colliders(), collider());
+        const RowBeforeWall row = row_before_wall(free_scene(0), random, draw, 8 + random.below(6));
+        SCOPED_TRACE(row.text);
+        Simulation simulation(row.scene, colliders(), collider());
         run_for(simulation, 0.5);
-        EXPECT_LT(fastest_point(simulation.world()), 0.01 * speed);
+        EXPECT_LT(fastest_point(simulation.world()), 0.01 * row.speed);
     }
 }
 
