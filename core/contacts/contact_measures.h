@@ -37,10 +37,31 @@ inline double gap_in_substep(const ContactTable& c, std::size_t i) {
     return c.is_passing(i) ? kOutOfReach : c.gap[i];
 }
 
-/// The same without overlap that is not to be pushed out: that of bodies that pass each other so
-/// many times as fast as overlap is pushed out is made anew in each step, and pushing it out would
-/// throw them to and fro ever faster where they are squeezed.
-inline double gap_to_solve_for(const World& world, std::size_t i) {
+/// Bounding radius of the smaller of the bodies that can move [m].
+inline double smaller_radius(const Bodies& b, const Contact& c) {
+    double radius = std::numeric_limits<double>::infinity();
+    for (const std::uint32_t body : {c.a, c.b})
+        if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.bounding_radius[body]);
+    return radius;
+}
+
+/// Share of Settings::recovery_speed at which a contact's overlap is pushed out at the most. Bodies
+/// keep that speed when they part: in a crushed heap it adds up from layer to layer, and what is
+/// thrown comes down askew and is wedged. So gravity takes it back within a small share of their
+/// size.
+inline double share_of_recovery(const World& world, const Contact& c) {
+    constexpr double kThrown = 0.04;  // height, in radii
+    constexpr double kUnhurried = 1;  // [radii/s], where there is hardly any gravity
+    const double radius = smaller_radius(world.bodies, c);
+    const double thrown = std::sqrt(2 * world.settings.gravity.norm() * kThrown * radius);
+    return std::min(1.0, std::max(thrown, kUnhurried * radius) / world.settings.recovery_speed);
+}
+
+/// The same without overlap that is not to be pushed out in this substep: what is more than `most`
+/// [m], which is pushed out at Settings::recovery_speed, or its like at the contact's own speed.
+/// Overlap of bodies that pass each other so many times as fast as it is pushed out is made anew in
+/// each step, and pushing it out would throw them to and fro ever faster where they are squeezed.
+inline double gap_to_solve_for(const World& world, std::size_t i, double most) {
     constexpr double kPassing = 2, kNoticed = 0.1;
     const ContactTable& c = world.contacts;
     const Settings& s = world.settings;
@@ -49,21 +70,20 @@ inline double gap_to_solve_for(const World& world, std::size_t i) {
     const Bodies& b = world.bodies;
     const Vector3d u =
         relative_velocity(b, b.velocity_now, b.angular_velocity_now, c.found[i], c.point[i]);
-    const double most = kPassing * s.recovery_speed;
-    return u.squaredNorm() > most * most ? 0 : gap;
+    const double fast = kPassing * s.recovery_speed;
+    if (u.squaredNorm() > fast * fast) return 0;
+    return std::max(gap, -most * share_of_recovery(world, c.found[i]));
+}
+
+/// Whether a substep pushes out less of a contact's overlap than there is. `solved_for`: the gap to
+/// solve for; most: as above [m].
+inline bool is_clamped(double gap, double solved_for, double most) {
+    return -gap > most || (solved_for < 0 && solved_for > gap);
 }
 
 /// Separating speed that restitution asks of a contact [m/s]; 0: none.
 inline double restitution_velocity_of(const ContactTable& c, std::size_t i) {
     return c.restitution_velocity.empty() ? 0 : c.restitution_velocity[i];
-}
-
-/// Bounding radius of the smaller of the bodies that can move [m].
-inline double smaller_radius(const Bodies& b, const Contact& c) {
-    double radius = std::numeric_limits<double>::infinity();
-    for (const std::uint32_t body : {c.a, c.b})
-        if (b.motion[body] == Motion::dynamic) radius = std::min(radius, b.bounding_radius[body]);
-    return radius;
 }
 
 /// Whether a contact's surfaces are apart, by more than rounding may make of such that touch.

@@ -46,7 +46,9 @@ struct Settings {
     double stiffness = 0.2;  ///< s of §6: share of an old overlap removed a substep (where solved
                              ///< exactly, one of 10 ms or longer, and less in shorter ones); an
                              ///< iteration, of five, where shared_push is off
-    double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out, and at
+    double recovery_speed = 1.0;  ///< greatest speed at which old overlap is pushed out (that of
+                                  ///< small bodies more slowly: no higher than gravity takes back
+                                  ///< within a share of their size), and at
                                   ///< which what joints are beyond a limit or off a coupling goes
                                   ///< [m/s], [rad/s]
     double collision_depth =

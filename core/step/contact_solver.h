@@ -112,9 +112,10 @@ public:
             const auto [contact, k, lane] = std::tuple(at.contact, at.row, at.lane);
             NormalRow<Real, W>& row = rows.normals[k];
             bound_impulses(rows, k, lane, greatest_[at.pair]);
-            row.gap[lane] = static_cast<Real>(gap_to_solve_for(world, contact));
+            const double gap = gap_to_solve_for(world, contact, pass.recovery);
+            row.gap[lane] = static_cast<Real>(gap);
             row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
-            clamped_ += -static_cast<Real>(c.gap[contact]) > pass.recovery;
+            clamped_ += is_clamped(c.gap[contact], gap, pass.recovery);
             if (-c.gap[contact] > trusted_[contact]) {
                 damp_impulses(rows, k, lane, -c.gap[contact] / trusted_[contact]);
                 deep_[at.pair] = 1;

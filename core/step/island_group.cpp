@@ -278,10 +278,9 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
         member.parts = member.bounces = false;
         for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
             points_[k].cone.most = most;
-            ask(world, member, k, h, push_out);
+            clamped += ask(world, member, k, h, push_out);
             member.parts |= member.gains_nothing && parting_[k] > 0;
             member.bounces |= restitution_velocity_of(world.contacts, contacts_[k]) > 0;
-            clamped += -world.contacts.gap[contacts_[k]] > push_out.most;
         }
     }
     return clamped;
@@ -329,8 +328,9 @@ double IslandGroup::strongest(const World& world, const Member& member, double h
     return kThrust * weight * h + kBlow * mass * member.speed + kBlow * driven;
 }
 
-/// What the substep asks of a point; velocities of creep are asked for as 0.
-void IslandGroup::ask(const World& world, const Member& member, std::size_t k, double h,
+/// What the substep asks of a point, and whether that leaves some of its overlap; velocities of
+/// creep are asked for as 0.
+bool IslandGroup::ask(const World& world, const Member& member, std::size_t k, double h,
                       const PushOut& push_out) {
     const ContactTable& c = world.contacts;
     const Settings& s = world.settings;
@@ -340,7 +340,8 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     const bool stays = member.effort == IslandEffort::light;
 
     const double bounce = restitution_velocity_of(c, contact);
-    double normal = closing_velocity(gap_to_solve_for(world, contact), h, push_out);
+    const double gap = gap_to_solve_for(world, contact, push_out.most);
+    double normal = closing_velocity(gap, h, push_out);
     const ContactMemory& before = c.memory[contact];
     locked_[k] = choice_.is_stuck(before, -c.found[contact].gap) &&
                  (before.jammed || p.impulse[0] > kLocked * p.cone.most);
@@ -373,6 +374,7 @@ void IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     p.wanted.head<3>() = across - p.frame.transpose() * moving;
     p.wanted[0] += normal;
     if (p.cone.turns()) p.wanted.tail<3>() = -p.length * (p.frame.transpose() * turning);
+    return is_clamped(c.gap[contact], gap, push_out.most);
 }
 
 /// By how much the worst tie is open that is to be closed [m], [rad].

@@ -87,7 +87,7 @@ private:
     double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
     double strongest(const World& world, const Member& member, double h);
     double thrust_of(const World& world, const Member& member, double h) const;
-    void ask(const World& world, const Member& member, std::size_t point, double h,
+    bool ask(const World& world, const Member& member, std::size_t point, double h,
              const PushOut& push_out);
     double open_at_start(const Member& member);
     void forget_impulses();
