@@ -3,6 +3,7 @@
 /// stick.
 #pragma once
 
+#include "contacts/pair_poses.h"
 #include "world/bodies.h"
 #include "world/contacts.h"
 
@@ -16,9 +17,8 @@ inline void set_anchors(ContactMemory& memory, const Bodies& b, const Contact& c
 }
 
 /// How far apart the points have come by now [m].
-inline Vector3d anchor_slip_of(const Bodies& b, const Contact& contact,
-                               const ContactMemory& memory) {
-    return in_world(b, contact.a, memory.stick_a) - in_world(b, contact.b, memory.stick_b);
+inline Vector3d anchor_slip_of(const PairPoses& poses, const ContactMemory& memory) {
+    return poses.a_in_world(memory.stick_a) - poses.b_in_world(memory.stick_b);
 }
 
 }  // namespace plumb

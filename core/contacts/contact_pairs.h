@@ -9,6 +9,15 @@
 
 namespace plumb {
 
+/// End of the run of contacts that share the pair of contact `i`.
+inline std::size_t end_of_pair(const std::vector<Contact>& contacts, std::size_t i) {
+    std::size_t end = i + 1;
+    while (end < contacts.size() && contacts[end].a == contacts[i].a &&
+           contacts[end].b == contacts[i].b)
+        ++end;
+    return end;
+}
+
 /// Groups neighbouring contacts of one pair. With levels, a pair is solved after those nearer to
 /// the ground.
 void find_pairs(const World& world, const std::vector<std::uint32_t>* levels,

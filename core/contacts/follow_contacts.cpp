@@ -3,8 +3,11 @@
 /// with them the gap and the common point at which the contact acts. Only a point of now keeps
 /// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
 #include "contacts/anchors.h"
+#include "contacts/contact_pairs.h"
 #include "contacts/contact_stages.h"
 #include "contacts/rims.h"
+
+#include <algorithm>
 
 namespace plumb {
 namespace {
@@ -77,11 +80,16 @@ void let_go_of_what_rolled(World& world, std::size_t i) {
 void measure_anchor_slips(World& world) {
     ContactTable& c = world.contacts;
     c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const Contact& contact = c.found[i];
-        if (!is_sharp(contact)) continue;
-        if (!c.rims.empty()) let_go_of_what_rolled(world, i);
-        c.anchor_slip[i] = anchor_slip_of(world.bodies, contact, c.memory[i]);
+    for (std::size_t first = 0, end; first < c.found.size(); first = end) {
+        end = end_of_pair(c.found, first);
+        const auto at = c.found.begin();
+        if (std::none_of(at + first, at + end, is_sharp)) continue;
+        const PairPoses poses(world.bodies, at[first].a, at[first].b);
+        for (std::size_t i = first; i < end; ++i) {
+            if (!is_sharp(c.found[i])) continue;
+            if (!c.rims.empty()) let_go_of_what_rolled(world, i);
+            c.anchor_slip[i] = anchor_slip_of(poses, c.memory[i]);
+        }
     }
 }
 

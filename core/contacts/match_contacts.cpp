@@ -2,6 +2,7 @@
 /// Contacts of this step and of the step before are both sorted, so one walk along both finds what
 /// stayed.
 #include "contacts/anchors.h"
+#include "contacts/contact_pairs.h"
 #include "contacts/contact_stages.h"
 
 #include <algorithm>
@@ -14,13 +15,6 @@ int compare_pairs(const Contact& x, const Contact& y) {
     if (x.a != y.a) return x.a < y.a ? -1 : 1;
     if (x.b != y.b) return x.b < y.b ? -1 : 1;
     return 0;
-}
-
-/// End of the run of contacts that share the pair of contact `i`.
-std::size_t end_of_pair(const std::vector<Contact>& contacts, std::size_t i) {
-    std::size_t end = i + 1;
-    while (end < contacts.size() && compare_pairs(contacts[i], contacts[end]) == 0) ++end;
-    return end;
 }
 
 /// The contacts of one pair, now and in the step before.
@@ -114,7 +108,8 @@ void anchor_pair(World& world, const PairRuns& run) {
         const std::size_t from = slid ? run.old_end : nearest_sticking(c, run, point);
         Vector3d slip = Vector3d::Zero();
         if (from < run.old_end)
-            slip = anchor_slip_of(world.bodies, c.found_before[from], c.memory_before[from]);
+            slip =
+                anchor_slip_of({world.bodies, c.found[i].a, c.found[i].b}, c.memory_before[from]);
         set_anchors(m, world.bodies, c.found[i], point, slip);
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/reuse_contacts.h"
 
+#include "contacts/pair_poses.h"
 #include "world/round_shapes.h"
 
 #include <algorithm>
@@ -152,34 +153,6 @@ void compact(KeptContacts& kept) {
     kept.pool.swap(pool);
 }
 
-/// Where the bodies of a pair are now.
-class PairPoses {
-public:
-    PairPoses(const Bodies& b, const KeptPair& pair)
-        : at_a_(b.position[pair.a]),
-          at_b_(b.position[pair.b]),
-          turn_a_(b.orientation[pair.a].toRotationMatrix()),
-          turn_b_(b.orientation[pair.b].toRotationMatrix()) {}
-
-    /// From the world's frame into those of the bodies, and back.
-    void put_into_bodies(Contact& c) const {
-        c.point_a = to_plain(turn_a_.transpose() * (to_eigen(c.point_a) - at_a_));
-        c.point_b = to_plain(turn_b_.transpose() * (to_eigen(c.point_b) - at_b_));
-        c.normal = to_plain(turn_a_.transpose() * to_eigen(c.normal));
-    }
-    void put_into_world(Contact& c) const {
-        const Vector3d on_a = at_a_ + turn_a_ * to_eigen(c.point_a);
-        const Vector3d on_b = at_b_ + turn_b_ * to_eigen(c.point_b);
-        const Vector3d n = turn_a_ * to_eigen(c.normal);
-        c.point_a = to_plain(on_a), c.point_b = to_plain(on_b), c.normal = to_plain(n);
-        c.gap = n.dot(on_a - on_b) - c.radius_a - c.radius_b;
-    }
-
-private:
-    Vector3d at_a_, at_b_;
-    Matrix3d turn_a_, turn_b_;
-};
-
 }  // namespace
 
 PairFilter reuse_filter(ReuseContext& context) {
@@ -204,7 +177,7 @@ std::uint32_t merge_kept_contacts(World& world) {
         take_found_before(key(pair));
         if (!pair.fresh) {
             if (pair.count > 0) {
-                const PairPoses poses(world.bodies, pair);
+                const PairPoses poses(world.bodies, pair.a, pair.b);
                 const auto from = kept.pool.begin() + pair.first;
                 const auto at = merged.insert(merged.end(), from, from + pair.count);
                 std::for_each(at, merged.end(), [&](Contact& c) { poses.put_into_world(c); });
@@ -219,7 +192,7 @@ std::uint32_t merge_kept_contacts(World& world) {
         pair.count = static_cast<std::uint32_t>(found - first);
         if (pair.count == 0) continue;
         merged.insert(merged.end(), first, found);
-        const PairPoses poses(world.bodies, pair);
+        const PairPoses poses(world.bodies, pair.a, pair.b);
         const auto at = kept.pool.insert(kept.pool.end(), first, found);
         std::for_each(at, kept.pool.end(), [&](Contact& c) { poses.put_into_bodies(c); });
     }

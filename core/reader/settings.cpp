@@ -88,9 +88,11 @@ const Table<Settings>& settings_table() {
         field<S>("stiffness", Number{{0, 1}}, &S::stiffness,
                  "share of an old overlap removed a substep (where solved exactly, one of 10 ms or "
                  "longer, and less in shorter ones); an iteration, of five, without shared_push"),
-        field<S>("recovery_speed", Number{kNotNegative}, &S::recovery_speed,
-                 "greatest speed at which old overlap is pushed out, and at which joints come back "
-                 "that are beyond a limit or far from a coupling's offset [m/s], [rad/s]"),
+        field<S>(
+            "recovery_speed", Number{kNotNegative}, &S::recovery_speed,
+            "greatest speed at which old overlap is pushed out, small bodies more slowly, and at "
+            "which joints come back that are beyond a limit or far from a coupling's offset "
+            "[m/s], [rad/s]"),
         field<S>("collision_depth", Number{{0, 1e3}}, &S::collision_depth,
                  "depth ε: a pair collides when it approaches faster than √(2 g ε) [m]"),
         field<S>("anchor_stiffness", Number{{0, 1}}, &S::anchor_stiffness,

@@ -11,7 +11,6 @@ namespace {
 
 bool is_overloaded(const World& world, std::uint32_t index) {
     const Joint& joint = world.joints.joints[index];
-    if (!std::isfinite(joint.breaking_force) && !std::isfinite(joint.breaking_torque)) return false;
     const JointLoad load = joint_load(world, index);
     return load.force.norm() > joint.breaking_force || load.torque.norm() > joint.breaking_torque;
 }
@@ -28,8 +27,19 @@ Status let_meet(const World& world, const Joint& joint, Proximity& proximity) {
 
 }  // namespace
 
-void break_joints(World& world, const Plan& plan, Proximity& proximity, StepReport& report) {
+std::vector<std::uint32_t> breakable_joints(const World& world) {
+    std::vector<std::uint32_t> breakable;
     for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
+        const Joint& joint = world.joints.joints[i];
+        if (std::isfinite(joint.breaking_force) || std::isfinite(joint.breaking_torque))
+            breakable.push_back(i);
+    }
+    return breakable;
+}
+
+void break_joints(World& world, const std::vector<std::uint32_t>& breakable, const Plan& plan,
+                  Proximity& proximity, StepReport& report) {
+    for (const std::uint32_t i : breakable) {
         Joint& joint = world.joints.joints[i];
         if (joint.broken || !is_overloaded(world, i)) continue;
         joint.broken = true;

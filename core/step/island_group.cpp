@@ -503,9 +503,11 @@ void IslandGroup::store_tie_impulses(World& world) const {
         ties_.store_impulses(members_[i].ties, velocities_of(members_[i]), world);
 }
 
-void IslandGroup::rest_ties(World& world) const {
-    const auto go_on = [](IslandRest& rest) {
-        if (rest.steps > 0) --rest.steps;
+void IslandGroup::rest_ties(World& world) {
+    if (!some_rest_ && count_ == 0) return;
+    some_rest_ = false;
+    const auto go_on = [this](IslandRest& rest) {
+        if (rest.steps > 0) some_rest_ |= --rest.steps > 0;
     };
     for (Joint& joint : world.joints.joints) go_on(joint.island_rest);
     for (Link& link : world.links) go_on(link.island_rest);
@@ -515,6 +517,7 @@ void IslandGroup::rest_ties(World& world) const {
             if (tie.kind == TieKind::coupling || members_[i].effort == IslandEffort::swept) return;
             IslandRest& rest = rest_of(world, tie);
             rest.misses = members_[i].given_up ? std::min(rest.misses + 1, kMostMisses) : 0;
+            some_rest_ |= rest.misses > 0;
             if (rest.misses > 0)
                 rest.steps = static_cast<std::uint32_t>(
                     std::ceil(kRest * std::exp2(rest.misses) / world.settings.dt));

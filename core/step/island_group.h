@@ -49,7 +49,7 @@ public:
     void store_impulses(ContactTable& contacts) const;
 
     /// Once a step: which ties are left to others for a while.
-    void rest_ties(World& world) const;
+    void rest_ties(World& world);
 
 private:
     struct Member {
@@ -105,6 +105,7 @@ private:
 
     std::vector<Member> members_;  // the first count_ are in use
     std::size_t count_ = 0;
+    bool some_rest_ = true;  // of the ties, as far as is known
     bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]

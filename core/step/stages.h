@@ -40,9 +40,13 @@ void move(World& world, const MotionLists& lists, double h);
 void integrate_particles(World& world, double h);
 void move_particles(World& world, double h);
 
-/// Breaks the joints whose load was more than they bear; bodies that nothing keeps apart any more
-/// may touch from the next step on.
-void break_joints(World& world, const Plan& plan, Proximity& proximity, StepReport& report);
+/// Joints that break under some load, by index.
+std::vector<std::uint32_t> breakable_joints(const World& world);
+
+/// Breaks those of the joints whose load was more than they bear; bodies that nothing keeps apart
+/// any more may touch from the next step on.
+void break_joints(World& world, const std::vector<std::uint32_t>& breakable, const Plan& plan,
+                  Proximity& proximity, StepReport& report);
 
 /// Counts the links that the step left too long or too short.
 void note_stretched_links(const World& world, StepReport& report);

@@ -120,7 +120,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         report.finite = is_finite(world);
     });
     if (plan.runs(Effect::joints))
-        timed(Stage::joints, [&] { break_joints(world, plan, proximity, report); });
+        timed(Stage::joints,
+              [&] { break_joints(world, stepper.breakable, plan, proximity, report); });
     if (plan.runs(Effect::links)) timed(Stage::links, [&] { note_stretched_links(world, report); });
     if (plan.runs(Effect::tearing)) timed(Stage::tearing, [&] { tear(world, report); });
 

@@ -34,6 +34,7 @@ struct Stepper {
           workers(world.settings.threads),
           motion(sort_by_motion(world, plan.runs(Effect::gyroscopic))),
           revolute(revolute_joints(world)),
+          breakable(breakable_joints(world)),
           surfaces(world),
           air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           divided(plan.runs(Effect::divided_trees) ? DividedTrees(world, plan) : DividedTrees()),
@@ -48,6 +49,7 @@ struct Stepper {
         const Plan before = std::exchange(plan, make_plan(world));
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         revolute = revolute_joints(world);
+        breakable = breakable_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
         if (plan.runs(Effect::air_drag)) air = Air(world);
         if (plan.runs(Effect::divided_trees)) divided = DividedTrees(world, plan);
@@ -60,7 +62,8 @@ struct Stepper {
     Plan plan;
     Workers workers;
     MotionLists motion;
-    std::vector<std::uint32_t> revolute;  ///< joints whose turns are counted
+    std::vector<std::uint32_t> revolute;   ///< joints whose turns are counted
+    std::vector<std::uint32_t> breakable;  ///< joints that bear no more than so much
     SurfaceDetector surfaces;
     Air air;
     DividedTrees divided;

@@ -291,9 +291,10 @@ void TreeSolver<W>::store_impulses(JointTable& joints) {
             TreeBalls<N>& balls = balls_[i];
             if (!(balls.used[lane] > 0) || progress_.is_left_out(balls.node[lane])) continue;
             Joint& joint = joints.joints[joint_of_[i * N + static_cast<std::size_t>(lane)]];
-            joint.rows_before = joint.rows;
-            joint.rows = {};
-            for (int k = 0; k < 3; ++k) joint.rows[k] = balls.sign[lane] * balls.impulse[k][lane];
+            for (int k = 0; k < 3; ++k) {  // a plain ball has no other rows
+                joint.rows_before[k] = joint.rows[k];
+                joint.rows[k] = balls.sign[lane] * balls.impulse[k][lane];
+            }
             balls.load[lane] = load_of(joint, kAlongX, JointSolve::tree);
         }
     nodes_.store_impulses(joints);

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+/// Where the two bodies of a pair are now: rotation matrices, which are quicker than quaternions
+/// for more points than one.
+#pragma once
+
+#include "world/bodies.h"
+
+#include <plumb/contact_set.h>
+
+namespace plumb {
+
+class PairPoses {
+public:
+    PairPoses(const Bodies& b, std::uint32_t body_a, std::uint32_t body_b)
+        : at_a_(b.position[body_a]),
+          at_b_(b.position[body_b]),
+          turn_a_(b.orientation[body_a].toRotationMatrix()),
+          turn_b_(b.orientation[body_b].toRotationMatrix()) {}
+
+    /// Points in the frames of a and b, in the world [m].
+    Vector3d a_in_world(const Vector3d& point) const { return at_a_ + turn_a_ * point; }
+    Vector3d b_in_world(const Vector3d& point) const { return at_b_ + turn_b_ * point; }
+
+    /// A contact from the world's frame into those of the bodies, and back.
+    void put_into_bodies(Contact& c) const {
+        c.point_a = to_plain(turn_a_.transpose() * (to_eigen(c.point_a) - at_a_));
+        c.point_b = to_plain(turn_b_.transpose() * (to_eigen(c.point_b) - at_b_));
+        c.normal = to_plain(turn_a_.transpose() * to_eigen(c.normal));
+    }
+    void put_into_world(Contact& c) const {
+        const Vector3d on_a = a_in_world(to_eigen(c.point_a)),
+                       on_b = b_in_world(to_eigen(c.point_b));
+        const Vector3d n = turn_a_ * to_eigen(c.normal);
+        c.point_a = to_plain(on_a), c.point_b = to_plain(on_b), c.normal = to_plain(n);
+        c.gap = n.dot(on_a - on_b) - c.radius_a - c.radius_b;
+    }
+
+private:
+    Vector3d at_a_, at_b_;
+    Matrix3d turn_a_, turn_b_;
+};
+
+}  // namespace plumb
