@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_group.h"
 
+#include "math/rotation.h"
+
 #include "constraints/connector.h"
 #include "constraints/contact.h"
 #include "constraints/friction.h"
@@ -85,8 +87,8 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers, SolvedTies& solved)
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0;
-    bodies_.clear(), points_.clear(), locked_.clear(), parting_.clear(), contacts_.clear(),
-        ties_.clear(), solved_.clear();
+    bodies_.clear(), points_.clear(), locked_.clear(), opening_.clear(), parting_.clear(),
+        contacts_.clear(), ties_.clear(), solved_.clear();
     const ContactIslands& found = choice_.find(world, pairs);
     taken_.assign(pairs.size(), 0);
     for (const ContactIsland& island : found.islands()) {
@@ -103,6 +105,7 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     velocity_.resize(bodies_.size());
     start_.resize(bodies_.size());
     force_.resize(bodies_.size());
+    shift_.resize(bodies_.size());
     take_geometry(world);
     take_memory(world);
     is_fresh_ = true;
@@ -182,6 +185,7 @@ void IslandGroup::choose_effort(const World& world, Member& member, bool swept) 
         effort_of(member.disputed) == IslandEffort::light && !is_shallow(world, member);
     if (member.disputed > 0 && (swept || overlaps)) member.disputed = kDisputed;
     member.effort = swept ? IslandEffort::swept : effort_of(member.disputed);
+    member.splits = !swept && member.effort == IslandEffort::swept && !member.flies;
 }
 
 void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint32_t a,
@@ -189,7 +193,7 @@ void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint
     const Vector3d n = to_eigen(world.contacts.found[contact].normal), x = tangent_of<double>(n);
     contacts_.push_back(contact);
     IslandPoint& p = points_.emplace_back();
-    locked_.push_back(0), parting_.push_back(0);
+    locked_.push_back(0), opening_.push_back(0), parting_.push_back(0);
     p.a = a, p.b = b;
     p.frame << n, x, n.cross(x);
     p.length = 1;
@@ -255,7 +259,9 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
         const std::uint32_t body = bodies_[i].body;
         start_[i] << world.bodies.velocity[body], world.bodies.angular_velocity[body];
         velocity_[i] = start_[i];
+        shift_[i].setZero();
     }
+    h_ = h;
     ties_.begin();
     for (std::size_t i = 0; i < count_; ++i)
         ties_.begin(world, substep_time(world, h), members_[i].ties);
@@ -337,7 +343,7 @@ bool IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     const std::uint32_t contact = contacts_[k];
     IslandPoint& p = points_[k];
     const double least = kCreep * member.speed;
-    const bool stays = member.effort == IslandEffort::light;
+    const bool stays = member.splits || member.effort == IslandEffort::light;
 
     const double bounce = restitution_velocity_of(c, contact);
     const double gap = gap_to_solve_for(world, contact, push_out.most);
@@ -345,7 +351,9 @@ bool IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     const ContactMemory& before = c.memory[contact];
     locked_[k] = choice_.is_stuck(before, -c.found[contact].gap) &&
                  (before.jammed || p.impulse[0] > kLocked * p.cone.most);
-    if (std::abs(normal) < least || ((locked_[k] || stays) && normal > 0)) normal = 0;
+    if (std::abs(normal) < least || (locked_[k] && normal > 0)) normal = 0;
+    opening_[k] = member.splits && bounce == 0 ? std::max(0.0, normal) : 0;
+    if (stays && normal > 0) normal = 0;
     if (bounce > 0) normal = bounce;
 
     Vector3d across = Vector3d::Zero();
@@ -446,6 +454,14 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
                  (1 + share) * kinetic_energy(island.bodies, starts_of(m)));
     };
     const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
+    if (m.splits) {
+        m.solved = solver.solve(island, m.system, m.speed, IslandEffort::light).solved;
+        const std::size_t bodies = m.last_body - m.first_body;
+        solver.open_apart(island, {opening_.data() + m.first_point, island.points.size()},
+                          {shift_.data() + m.first_body, bodies});
+        bound_speed(world, m);
+        return;
+    }
     if (m.effort == IslandEffort::swept) {
         solver.sweep(island);
         ask();
@@ -465,6 +481,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
         m.disputed = kDisputed;
         m.effort = IslandEffort::swept;
+        m.splits = !m.flies;
     }
     if (m.parts) bound_energy(solver, m), ask();
     if (m.ties.empty()) return;
@@ -488,6 +505,16 @@ void IslandGroup::take_changes(Bodies& bodies) const {
         bodies.velocity[body] += change.head<3>();
         bodies.turn_change[body] = change.tail<3>();
         bodies.angular_velocity[body] += change.tail<3>();
+    }
+}
+
+void IslandGroup::open_apart(Bodies& bodies) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        if (shift_[i].isZero(0)) continue;
+        const std::uint32_t body = bodies_[i].body;
+        bodies.position[body] += h_ * shift_[i].head<3>();
+        bodies.orientation[body] =
+            turned(bodies.orientation[body], Vector3d(h_ * shift_[i].tail<3>()));
     }
 }
 

@@ -41,6 +41,9 @@ public:
     /// Adds what the substep changed to the bodies' velocities.
     void take_changes(Bodies& bodies) const;
 
+    /// At the end of a substep: moves the bodies of disputed islands apart.
+    void open_apart(Bodies& bodies) const;
+
     /// Adds what the contacts bear in this substep.
     void add_impulses(ContactSums& sums) const;
 
@@ -64,6 +67,7 @@ private:
         bool flies;             // it touches and hangs by nothing that is immovable
         std::uint8_t disputed;  // steps that are left, see island_effort.h
         IslandEffort effort;    // in this step
+        bool splits;            // in this step: what is swept is opened apart from velocities
         bool solved;
         bool bounces;   // in this substep
         bool parts;     // in this substep, and must gain nothing by it
@@ -109,8 +113,11 @@ private:
     bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
+    std::vector<Vector6d> shift_;  // [body] see open_apart, as a velocity over the substep
+    double h_ = 0;                 // the substep [s]
     std::vector<IslandPoint> points_;
     std::vector<std::uint8_t> locked_;  // [point] whether it is pushed out no more
+    std::vector<double> opening_;       // [point] speed at which it is opened apart [m/s]
     std::vector<double> parting_;       // [point] of the speed asked for, what may be too much
     IslandTies ties_;
     std::vector<std::uint32_t> tied_;      // bodies of one tie

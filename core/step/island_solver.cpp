@@ -91,6 +91,21 @@ void IslandSolver::sweep(const Island& island) {
     for (int i = 0; i < kSweeps; ++i) sweep_both_ways();
 }
 
+void IslandSolver::open_apart(const Island& island, std::span<const double> opening,
+                              std::span<Vector6d> shift) {
+    apart_.assign(island.points.begin(), island.points.end());
+    for (std::size_t k = 0; k < apart_.size(); ++k) {
+        IslandPoint& p = apart_[k];
+        const double left = p.wanted[0] + opening[k] - velocity_of(p, island.velocity)[0];
+        p.wanted.setZero();
+        p.wanted[0] = left;
+        p.impulse.setZero();
+        p.cone.friction = p.cone.spinning = p.cone.rolling = 0;
+    }
+    std::fill(shift.begin(), shift.end(), Vector6d::Zero());
+    sweep({island.bodies, shift, apart_, {}});
+}
+
 IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed,
                                  IslandEffort effort) {
     island_ = island;

@@ -44,6 +44,11 @@ public:
     /// Sweeps from the impulses and velocities that there are.
     void sweep(const Island& island);
 
+    /// How the bodies are shifted apart over the substep, as velocities: sweeps from nothing and
+    /// without friction. `opening`: [point] on top of what is wanted of its velocity [m/s].
+    void open_apart(const Island& island, std::span<const double> opening,
+                    std::span<Vector6d> shift);
+
     /// Takes all impulses away, and leaves the velocities.
     static void forget(const Island& island) {
         for (IslandPoint& p : island.points) p.impulse.setZero();
@@ -96,9 +101,10 @@ private:
     BlockCholesky* system_ = nullptr;
     double creep_ = 0;  ///< slip that is not shifted away [m/s]
     IslandEffort effort_ = IslandEffort::full;
-    bool shifts_ = true;             ///< whether what slides is shifted (de Saxcé)
-    std::vector<PointWork> work_;    // [point]
-    std::vector<RowWork> row_work_;  // [row]
+    bool shifts_ = true;              ///< whether what slides is shifted (de Saxcé)
+    std::vector<PointWork> work_;     // [point]
+    std::vector<IslandPoint> apart_;  // [point] of open_apart
+    std::vector<RowWork> row_work_;   // [row]
     std::vector<Vector6d> change_, downhill_, direction_;  // [body]
     std::vector<Vector6d> kept_velocity_;                  // [body]
     std::vector<Vector6d> kept_impulse_;                   // [point]

@@ -226,7 +226,9 @@ public:
             const auto share = share_of(*group, ledger, Stage::joints);
             group->end_substep(world);
         }
-        if (islands_) islands_->store_tie_impulses(world);
+        if (!islands_) return;
+        islands_->store_tie_impulses(world);
+        islands_->open_apart(world.bodies);
     }
 
     void end_step(World& world) override {

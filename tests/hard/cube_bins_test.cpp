@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Cubes in a bin: rows of them are wedged between the walls, and their overlaps contradict each
 /// other. The heap comes to rest all the same. PLUMB_BINNED_CUBES says how many (120).
+#include "math/rotation.h"
 #include "support/binned_heap.h"
 #include "support/environment.h"
 
@@ -24,6 +25,37 @@ TEST_P(CubeBins, ComeToRest) {
     double deepest = 0;
     for (const double depth : penetrations(simulation.world())) deepest = std::max(deepest, depth);
     EXPECT_LT(deepest, 0.005 * std::sqrt(3) * kCube) << "a share of the cubes' radius";
+}
+
+/// Loose cubes in columns that lean on each other as they fall together: none sways on or topples.
+/// Steps are coarse, iterations few.
+TEST_P(CubeBins, TowersSideBySideStand) {
+    constexpr std::uint32_t kColumns = 4, kHeight = 10;
+    Random random(41);
+    for (int draw = 0; draw < 6; ++draw) {
+        const double half = random.number(0.04, 0.2);
+        Scene s = scene();
+        s.settings.dt = random.number(0.01, 0.02);
+        s.settings.substeps = 1 + random.below(2);
+        s.settings.velocity_iterations = s.settings.position_iterations = 3 + random.below(3);
+        s.materials[0].friction = random.number(0.3, 0.6);
+        add_ground(s);
+        for (std::uint32_t c = 0; c < kColumns; ++c)
+            for (std::uint32_t i = 0; i < kHeight; ++i) {
+                const Vector at = half * Vector(2.2 * c, 2.2 * i + 1.1, 0);
+                const double tilt = 0.01 * std::sin(7.3 * i + c);
+                add_body(s, box(half, half, half), at).placement.rotation =
+                    exponential_map(Vector3d(tilt, 0, 0));
+            }
+        Simulation simulation(s, colliders(), collider());
+        SCOPED_TRACE("draw " + std::to_string(draw));
+        EXPECT_LT(motions_between(simulation, 4, 5).fastest, 2e-3);
+        const double top = 2 * half * (kHeight - 0.5);
+        for (std::uint32_t c = 0; c < kColumns; ++c) {
+            const Vector3d& at = simulation.world().bodies.position[(c + 1) * kHeight];
+            EXPECT_NEAR(at.y(), top, 0.01 * top) << "column " << c;
+        }
+    }
 }
 
 }  // namespace
