@@ -3,9 +3,10 @@
 ///
 /// Overlap that is to be opened and slip that is to be taken back can contradict each other: no
 /// velocities do both, and a wedged heap that is asked for them is never at rest. So an island that
-/// could not be solved is disputed for a while. It is swept at first, which opens what gives way,
-/// and once nothing overlaps by much it is asked for neither, with little work: what stands is soon
-/// solved so, and stays as it is until something disturbs it.
+/// could not be solved is disputed for a while: it is asked for neither, with little work. At first
+/// sweeps of their own open what gives way. They shift the bodies and leave their velocities alone,
+/// in which they would keep a heap swaying for ever. Once nothing overlaps by much, all stays as it
+/// is until something disturbs it.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +15,7 @@ namespace plumb {
 
 enum class IslandEffort : std::uint8_t {
     full,   ///< solved until its laws hold, overlap and slip among them
-    swept,  ///< improved by sweeps
+    swept,  ///< disputed: solved with little work, and opened apart; else improved by sweeps
     light,  ///< solved with little work; overlap and slip stay as they are
 };
 
