@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_group.h"
 
-#include "math/rotation.h"
-
 #include "constraints/connector.h"
 #include "constraints/contact.h"
 #include "constraints/friction.h"
 #include "contacts/contact_measures.h"
+#include "math/rotation.h"
 #include "step/joint_geometry.h"
 #include "step/tie_work.h"
 

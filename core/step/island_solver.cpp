@@ -102,7 +102,6 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
         p.impulse.setZero();
         p.cone.friction = p.cone.spinning = p.cone.rolling = 0;
     }
-    std::fill(shift.begin(), shift.end(), Vector6d::Zero());
     sweep({island.bodies, shift, apart_, {}});
 }
 

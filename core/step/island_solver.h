@@ -45,7 +45,8 @@ public:
     void sweep(const Island& island);
 
     /// How the bodies are shifted apart over the substep, as velocities: sweeps from nothing and
-    /// without friction. `opening`: [point] on top of what is wanted of its velocity [m/s].
+    /// without friction. `opening`: [point] on top of what is wanted of its velocity [m/s];
+    /// `shift`: 0 before.
     void open_apart(const Island& island, std::span<const double> opening,
                     std::span<Vector6d> shift);
 
