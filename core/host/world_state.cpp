@@ -70,7 +70,7 @@ void each_number_of_memory(Io& io, Table& table) {
     each_number_of_contacts(io, table.found_before);
     io.count(table.memory_before);
     for (auto& m : table.memory_before) {
-        io(m.normal_impulse), io(m.gap);
+        io(m.normal_impulse), io(m.gap), io(m.disputed_overlap);
         vector(io, m.friction_impulse), vector(io, m.rolling_impulse);
         vector(io, m.stick_a), vector(io, m.stick_b);
         io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.known), io(m.matched);

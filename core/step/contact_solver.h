@@ -256,6 +256,7 @@ public:
             memory.normal_impulse = p.normal;
             memory.rolling_impulse.setZero();
             memory.sticks = memory.exact = false;
+            memory.disputed = 0;
             if (!rows.frictions) return;
             memory.friction_impulse = p.friction();
             const double friction = double(rows.frictions[k].friction[lane]);

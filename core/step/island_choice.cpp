@@ -171,16 +171,18 @@ const ContactIslands& IslandChoice::find(const World& world, const std::vector<B
 void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& pairs) {
     driven_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     if (world.kinematic_count == 0) return;
-    const auto is_kinematic = [&](std::uint32_t body) {
-        return body != kNoIndex && world.bodies.motion[body] == Motion::kinematic;
+    const Bodies& b = world.bodies;
+    const auto moves = [&](std::uint32_t body) {
+        return body != kNoIndex && b.motion[body] == Motion::kinematic &&
+               !(b.velocity[body].isZero(0) && b.angular_velocity[body].isZero(0));
     };
     const auto touches = [&](std::uint32_t pair) {
         const Contact& c = world.contacts.found[pairs[pair].first];
-        return is_kinematic(c.a) || is_kinematic(c.b);
+        return moves(c.a) || moves(c.b);
     };
     const auto pulls = [&](std::uint32_t i) {
         bool any = false;
-        each_body(world, ties_[i], [&](std::uint32_t body) { any |= is_kinematic(body); });
+        each_body(world, ties_[i], [&](std::uint32_t body) { any |= moves(body); });
         return any;
     };
     for (const ContactIsland& island : found_.islands()) {

@@ -175,16 +175,31 @@ bool IslandGroup::is_shallow(const World& world, const Member& member) const {
 
 void IslandGroup::choose_effort(const World& world, Member& member, bool swept) {
     member.disputed = 0;
-    if (member.may_be_disputed)
-        for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
-            const ContactMemory& memory = world.contacts.memory[contacts_[k]];
-            if (memory.matched) member.disputed = std::max(member.disputed, memory.disputed);
-        }
-    const bool overlaps =
-        effort_of(member.disputed) == IslandEffort::light && !is_shallow(world, member);
-    if (member.disputed > 0 && (swept || overlaps)) member.disputed = kDisputed;
-    member.effort = swept ? IslandEffort::swept : effort_of(member.disputed);
-    member.splits = !swept && member.effort == IslandEffort::swept && !member.flies;
+    member.overlap = member.overlap_before = 0;
+    member.is_deep = swept;
+    member.splits = false;
+    member.effort = swept ? IslandEffort::swept : IslandEffort::full;
+    if (!member.may_be_disputed) return;
+    for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
+        const ContactMemory& memory = world.contacts.memory[contacts_[k]];
+        member.overlap += std::max(0.0, -world.contacts.found[contacts_[k]].gap);
+        if (!memory.matched) continue;
+        member.disputed = std::max(member.disputed, memory.disputed);
+        member.overlap_before = std::max(member.overlap_before, memory.disputed_overlap);
+    }
+    const bool gives_way = member.overlap < kGivesWay * member.overlap_before;
+    const bool begins =
+        swept
+            ? member.disputed == 0 || member.flies || (ends_sweeping(member.disputed) && gives_way)
+            : effort_of(member.disputed) == IslandEffort::light && !is_shallow(world, member);
+    if (begins) begin_dispute(member);
+    member.effort = effort_of(member.disputed);
+    member.splits = member.effort == IslandEffort::swept && !member.flies;
+}
+
+void IslandGroup::begin_dispute(Member& member) {
+    member.disputed = kDisputed;
+    member.overlap_before = member.overlap;
 }
 
 void IslandGroup::add_point(const World& world, std::uint32_t contact, std::uint32_t a,
@@ -454,7 +469,11 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     };
     const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
     if (m.splits) {
-        m.solved = solver.solve(island, m.system, m.speed, IslandEffort::light).solved;
+        m.solved = true;
+        if (m.is_deep)
+            solver.sweep(island);
+        else
+            m.solved = solver.solve(island, m.system, m.speed, IslandEffort::light).solved;
         const std::size_t bodies = m.last_body - m.first_body;
         solver.open_apart(island, {opening_.data() + m.first_point, island.points.size()},
                           {shift_.data() + m.first_body, bodies});
@@ -478,7 +497,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         if (i >= kCloses && !(m.open <= kClosing * before)) break;
     }
     if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
-        m.disputed = kDisputed;
+        begin_dispute(m);
         m.effort = IslandEffort::swept;
         m.splits = !m.flies;
     }
@@ -566,8 +585,10 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];
         const std::uint8_t left = m.may_be_disputed ? disputed_after(m.disputed, m.solved) : 0;
-        for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
+        for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
             contacts.memory[contacts_[k]].disputed = left;
+            contacts.memory[contacts_[k]].disputed_overlap = m.overlap_before;
+        }
     }
     for (const std::uint32_t contact : choice_.jammed()) contacts.memory[contact].jammed = true;
 }

@@ -66,7 +66,10 @@ private:
         bool gains_nothing;     // no lid, motor or spring does work on it
         bool flies;             // it touches and hangs by nothing that is immovable
         std::uint8_t disputed;  // steps that are left, see island_effort.h
+        double overlap;         // of all its contacts [m], if it may be disputed
+        double overlap_before;  // the same when it began to be opened apart [m]
         IslandEffort effort;    // in this step
+        bool is_deep;           // some of it overlaps too deeply for an exact solution
         bool splits;            // in this step: what is swept is opened apart from velocities
         bool solved;
         bool bounces;   // in this substep
@@ -79,6 +82,7 @@ private:
               const std::vector<BodyPair>& pairs);
     bool is_shallow(const World& world, const Member& member) const;
     void choose_effort(const World& world, Member& member, bool swept);
+    static void begin_dispute(Member& member);
     void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
     void take_memory(const World& world);
     void take_geometry(const World& world);

@@ -50,6 +50,11 @@ constexpr double kLightShare = 30;
 /// Sweeps of an island that is swept, there and back.
 constexpr int kSweeps = 20;
 
+/// The same of what is opened apart. Each contact yields by this share of what it pushes: such as
+/// contradict each other then come to a balance, in which nothing shifts any more.
+constexpr int kOpeningSweeps = 10;
+constexpr double kYield = 0.3;
+
 /// An island may stand that slips no faster than this; one slides where the shift is so many times
 /// the residual.
 constexpr double kFast = 2, kClear = 100;
@@ -100,9 +105,24 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
         p.wanted.setZero();
         p.wanted[0] = left;
         p.impulse.setZero();
-        p.cone.friction = p.cone.spinning = p.cone.rolling = 0;
+        p.cone = {};
     }
-    sweep({island.bodies, shift, apart_, {}});
+    island_ = {island.bodies, shift, apart_, {}};
+    for (int i = 0; i < kOpeningSweeps; ++i) {
+        for (IslandPoint& p : island_.points) open(p);
+        for (std::size_t k = island_.points.size(); k-- > 0;) open(island_.points[k]);
+    }
+}
+
+/// One contact of what is opened apart: pushes only, and yields.
+void IslandSolver::open(IslandPoint& p) {
+    const double left = p.wanted[0] - velocity_of(p, island_.velocity)[0];
+    const double step = (p.mass_normal * left - kYield * p.impulse[0]) / (1 + kYield);
+    Vector6d more = Vector6d::Zero();
+    more[0] = std::max(step, -p.impulse[0]);
+    if (more[0] == 0) return;
+    p.impulse[0] += more[0];
+    push(p, more);
 }
 
 IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed,

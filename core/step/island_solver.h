@@ -45,8 +45,8 @@ public:
     void sweep(const Island& island);
 
     /// How the bodies are shifted apart over the substep, as velocities: sweeps from nothing and
-    /// without friction. `opening`: [point] on top of what is wanted of its velocity [m/s];
-    /// `shift`: 0 before.
+    /// without friction, in which all contacts yield a little. `opening`: [point] on top of what is
+    /// wanted of its velocity [m/s]; `shift`: 0 before.
     void open_apart(const Island& island, std::span<const double> opening,
                     std::span<Vector6d> shift);
 
@@ -90,6 +90,7 @@ private:
     void push(const IslandPoint& p, const Vector6d& impulse);
     void push(IslandRow& row, double impulse);
     void sweep(IslandPoint& p);
+    void open(IslandPoint& p);
     void begin_round(double softness, double error);
     bool minimise(double enough, std::uint32_t& factorisations);
     double find_downhill();

@@ -26,7 +26,8 @@ struct ContactMemory {
     bool jammed = false;        ///< friction holds its overlap: an exact solution could not push it
                                 ///< out, or left it as it is
     std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
-    bool known = false;         ///< whether the step before had this very feature
+    double disputed_overlap = 0;  ///< sum of its island's when it began to be opened [m]
+    bool known = false;           ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
 
