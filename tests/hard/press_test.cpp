@@ -113,5 +113,28 @@ TEST_P(Press, LeavesNothingToFlyApart) {
     }
 }
 
+/// Cubes are wedged between each other and the walls, with nowhere to go, in long substeps and
+/// short ones: they rest as they are once what gives way has done so.
+TEST_P(Press, WedgedCubesComeToRest) {
+    const auto count = static_cast<std::uint32_t>(number_from("PLUMB_PRESSED_BODIES", 60));
+    const PressedKind cubes = of_one("cubes", box(kRadius, kRadius, kRadius));
+    Random random(29);
+    for (int draw = 0; draw < 2; ++draw) {
+        Scene s = boxed_heap(scene(), cubes.shapes, count);
+        s.settings.dt = random.number(0.005, 0.02);
+        s.settings.substeps = 1 + random.below(2);
+        s.settings.velocity_iterations = 3 + random.below(8);
+        s.settings.position_iterations = 3 + random.below(8);
+        s.materials[0].friction = random.number(0.2, 1);
+        SCOPED_TRACE("draw " + std::to_string(draw));
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 0.05 * count);
+        press(simulation, count * cubes.volume);
+        EXPECT_LT(most_, 5);
+        run_for(simulation, 6 + 0.1 * count);
+        EXPECT_LT(fastest(simulation.world()), 0.005);
+    }
+}
+
 }  // namespace
 }  // namespace plumb::test
