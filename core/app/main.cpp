@@ -43,9 +43,9 @@ constexpr std::array kVerbs{
 
 constexpr const char* kFooter =
     "Exit codes: 0 done, 1 internal error (of compare: the colliders differ), 2 usage, 3 bad "
-    "scene, 4 collider missing or unable,\n"
-    "5 diverged (the last good frames are kept), 6 cannot write, 130 interrupted (outputs are "
-    "completed).";
+    "scene or recording,\n"
+    "4 collider missing or unable, 5 diverged (the last good frames are kept), 6 cannot write,\n"
+    "130 interrupted (outputs are completed).";
 
 int complain(int code, const std::string& sentence) {
     logger()->error(sentence);
@@ -89,6 +89,8 @@ int guarded(const Verb& verb) {
         return complain(kBadScene, e.what());
     } catch (const ColliderError& e) {
         return complain(kColliderUnable, e.what());
+    } catch (const UnreadableFile& e) {
+        return complain(kBadScene, e.what());
     } catch (const OutputError& e) {
         return complain(kCannotWrite, e.what());
     } catch (const std::bad_alloc&) {

@@ -13,7 +13,7 @@ enum ExitCode {
     kInternalError = 1,
     kDiffer = 1,  ///< of compare: the colliders do not agree
     kUsage = 2,
-    kBadScene = 3,
+    kBadScene = 3,  ///< or another file that cannot be read
     kColliderUnable = 4,
     kDiverged = 5,
     kCannotWrite = 6,

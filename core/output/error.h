@@ -19,6 +19,11 @@ private:
     std::string path_;
 };
 
+/// A file that cannot be read back.
+class UnreadableFile : public OutputError {
+    using OutputError::OutputError;
+};
+
 /// The ending of a file's name is that of no kind of output.
 class UnknownEnding : public OutputError {
     using OutputError::OutputError;

@@ -78,13 +78,13 @@ void WholeFile::commit() {
 std::string read_file(const std::string& path) {
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                                &std::fclose);
-    if (!file) throw OutputError(path, with_reason("cannot be opened for reading", errno));
+    if (!file) throw UnreadableFile(path, with_reason("cannot be opened for reading", errno));
     std::string content;
     char buffer[1 << 16];
     while (const std::size_t count = std::fread(buffer, 1, sizeof buffer, file.get())) {
         content.append(buffer, count);
     }
-    if (std::ferror(file.get())) throw OutputError(path, with_reason("cannot be read", errno));
+    if (std::ferror(file.get())) throw UnreadableFile(path, with_reason("cannot be read", errno));
     return content;
 }
 

@@ -176,21 +176,22 @@ Eigen::Vector3d middle(const Scene& scene) {
 
 RecordingHeader take_header(ByteReader& reader, const std::string& path) {
     if (reader.left() < kMagic.size() || reader.take_bytes(kMagic.size()) != kMagic) {
-        throw OutputError(path, "is not a recording of Plumb");
+        throw UnreadableFile(path, "is not a recording of Plumb");
     }
-    if (reader.left() < 4) throw OutputError(path, "ends within its header");
+    if (reader.left() < 4) throw UnreadableFile(path, "ends within its header");
     if (const auto version = reader.take<std::uint32_t>();
         version < kVersionWithoutDeformables || version > kVersion) {
-        throw OutputError(path, "has version " + std::to_string(version) +
-                                    ", and only versions up to " + std::to_string(kVersion) +
-                                    " can be read");
+        throw UnreadableFile(path, "has version " + std::to_string(version) +
+                                       ", and only versions up to " + std::to_string(kVersion) +
+                                       " can be read");
     }
     const std::optional<std::string_view> text = next_framed(reader);
-    if (!text) throw OutputError(path, "has a header that is cut off or damaged");
+    if (!text) throw UnreadableFile(path, "has a header that is cut off or damaged");
     try {
         return header_from_json(*text);
     } catch (const std::exception& error) {
-        throw OutputError(path, std::string("has a header that cannot be read: ") + error.what());
+        throw UnreadableFile(path,
+                             std::string("has a header that cannot be read: ") + error.what());
     }
 }
 

@@ -147,13 +147,13 @@ void read_runs(const std::string& text, StudyTable& table, const std::string& pa
         const std::vector<std::string> f = fields_of(text.substr(begin, end - begin));
         const std::size_t row = f.size() == 7 ? std::strtoull(f[0].c_str(), nullptr, 10) : ~0ull;
         if (row >= table.rows.size())
-            throw OutputError(
+            throw UnreadableFile(
                 path, "line " + std::to_string(line_number) + " is none of a sweep's journal");
         const bool judged = f[1] == "1";
         const std::size_t wanted = table.find(table.rows[row].point.subject)->metrics.size();
         if (judged && f[2] == name_of(Status::done) && numbers_of(f[5]).size() != wanted)
-            throw OutputError(path, "line " + std::to_string(line_number) +
-                                        " has not as many errors as its subject has metrics");
+            throw UnreadableFile(path, "line " + std::to_string(line_number) +
+                                           " has not as many errors as its subject has metrics");
         enter(table.rows[row], judged,
               {status_of(f[2]),
                f[6],
@@ -180,9 +180,9 @@ StudyTable read_plan(const std::string& folder) {
     try {
         return plan_from_json(read_file(path));
     } catch (const OutputError&) {
-        throw OutputError(folder, std::string("holds no sweep (there is no ") + kPlanFile + ")");
+        throw UnreadableFile(folder, std::string("holds no sweep (there is no ") + kPlanFile + ")");
     } catch (const std::exception& e) {
-        throw OutputError(path, std::string("is not the plan of a sweep: ") + e.what());
+        throw UnreadableFile(path, std::string("is not the plan of a sweep: ") + e.what());
     }
 }
 

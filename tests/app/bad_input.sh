@@ -146,6 +146,8 @@ done
 "$plumb" run "$scenes/stack.json" --collider ode --duration 0.1 --quiet --out "$work/own.plumb"
 ln -s own.plumb "$work/soft.csv"
 expect 2 "is what is read" "$plumb" export "$work/own.plumb" --out "$work/soft.csv"
+expect 3 "cannot be opened" "$plumb" export "$work/nowhere.plumb" --out "$work/a.csv"
+expect 3 "is not a recording" "$plumb" export "$work/own.json" --out "$work/a.csv"
 ln -s absent.csv "$work/dangling.csv"
 expect 2 "named twice" "$plumb" run "$scenes/stack.json" --out "$work/absent.csv" --out "$work/dangling.csv"
 "$plumb" run "$scenes/stack.json" --collider ode --duration 0.1 --quiet --out "$work/dangling.csv"

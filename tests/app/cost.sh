@@ -56,7 +56,7 @@ expect 2 "--metric anle: pendulum has angle" "$plumb" cost pendulum --out "$work
 expect 2 "--curves pdb: there is no such curve" "$plumb" cost pendulum --out "$work/x" --curves pdb
 expect 6 "holds another sweep" "$plumb" cost parabola --out "$work/whole"
 expect 6 "holds another sweep" "$plumb" cost --merge "$work/part1" --out "$work/whole"
-expect 6 "holds no sweep" "$plumb" cost --merge "$work" --out "$work/x"
+expect 3 "holds no sweep" "$plumb" cost --merge "$work" --out "$work/x"
 expect 6 "cannot be made" "$plumb" cost pendulum --out /proc/nowhere
 expect 3 "absent.json" "$plumb" cost "$work/absent.json" --out "$work/x"
 expect 4 "odd" "$plumb" cost stack --colliders odd --out "$work/x"
