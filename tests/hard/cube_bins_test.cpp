@@ -58,5 +58,34 @@ TEST_P(CubeBins, TowersSideBySideStand) {
     }
 }
 
+/// Rows of cubes in a slot that is too short for them, deep in each other and with nowhere to go.
+TEST_P(CubeBins, RowsTooLongForTheirSlotComeToRest) {
+    constexpr std::uint32_t kRow = 6, kRows = 5;
+    Random random(17);
+    for (int draw = 0; draw < 4; ++draw) {
+        const double half = random.number(0.04, 0.2), room = random.number(0.8, 0.95);
+        Scene s = scene();
+        s.settings.dt = random.number(0.005, 0.017);
+        s.settings.substeps = 1 + random.below(3);
+        s.settings.velocity_iterations = s.settings.position_iterations = 3 + random.below(8);
+        s.materials[0].friction = random.number(0.2, 1);
+        add_ground(s);
+        const double wide = room * kRow * half, deep = 1.05 * half, high = 4 * kRows * half;
+        for (const double side : {-1.0, 1.0}) {
+            add_body(s, box(half, high, 4 * half), {side * (wide + half), high, 0}, Motion::fixed);
+            add_body(s, box(wide, high, half), {0, high, side * (deep + half)}, Motion::fixed);
+        }
+        for (std::uint32_t k = 0; k < kRow * kRows; ++k) {
+            const Vector at =
+                half * Vector(room * (2.0 * (k % kRow) + 1 - kRow), 2.2 * (k / kRow) + 1.1, 0);
+            const Vector3d tilt = 0.02 * random.vector();
+            add_body(s, box(half, half, half), at).placement.rotation = exponential_map(tilt);
+        }
+        Simulation simulation(s, colliders(), collider());
+        SCOPED_TRACE("draw " + std::to_string(draw));
+        EXPECT_LT(motions_between(simulation, 9, 10).fastest, 5e-3);
+    }
+}
+
 }  // namespace
 }  // namespace plumb::test
