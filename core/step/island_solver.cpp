@@ -77,6 +77,13 @@ Matrix6d mass_matrix(const IslandBody& b) {
     return m;
 }
 
+/// Visits all, from the first on or from the last.
+template <class All, class Visit>
+void each_in_order(All& all, bool forwards, Visit visit) {
+    const std::size_t n = all.size();
+    for (std::size_t k = 0; k < n; ++k) visit(all[forwards ? k : n - 1 - k]);
+}
+
 /// Between the bounds of what holds an axis [N s], [N m s]: an error must not take it from one to
 /// the other.
 double span_of(const AxisDrive& drive) {
@@ -101,17 +108,14 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
     apart_.assign(island.points.begin(), island.points.end());
     for (std::size_t k = 0; k < apart_.size(); ++k) {
         IslandPoint& p = apart_[k];
-        const double left = p.wanted[0] + opening[k] - velocity_of(p, island.velocity)[0];
-        p.wanted.setZero();
-        p.wanted[0] = left;
-        p.impulse.setZero();
+        p.wanted[0] = p.wanted[0] + opening[k] - velocity_of(p, island.velocity)[0];
+        p.impulse[0] = 0;
         p.cone = {};
     }
     island_ = {island.bodies, shift, apart_, {}};
-    for (int i = 0; i < kOpeningSweeps; ++i) {
-        for (IslandPoint& p : island_.points) open(p);
-        for (std::size_t k = island_.points.size(); k-- > 0;) open(island_.points[k]);
-    }
+    for (int i = 0; i < kOpeningSweeps; ++i)
+        for (const bool forwards : {true, false})
+            each_in_order(island_.points, forwards, [&](IslandPoint& p) { open(p); });
 }
 
 /// One contact of what is opened apart: pushes only, and yields.
@@ -287,14 +291,10 @@ void IslandSolver::push(IslandRow& row, double impulse) {
 
 /// One projected Gauss–Seidel sweep.
 void IslandSolver::sweep(bool forwards) {
-    const auto each = [forwards](auto& all, auto&& visit) {
-        const std::size_t n = all.size();
-        for (std::size_t k = 0; k < n; ++k) visit(all[forwards ? k : n - 1 - k]);
-    };
-    each(island_.rows, [&](IslandRow& row) {
+    each_in_order(island_.rows, forwards, [&](IslandRow& row) {
         push(row, answer_of(row, rate_of(row, island_.velocity), row.mass).impulse - row.impulse);
     });
-    each(island_.points, [&](IslandPoint& p) { sweep(p); });
+    each_in_order(island_.points, forwards, [&](IslandPoint& p) { sweep(p); });
 }
 
 /// The normal first, then the rest within its bounds.

@@ -179,7 +179,7 @@ StudyTable read_plan(const std::string& folder) {
     const std::string path = in_folder(folder, kPlanFile);
     try {
         return plan_from_json(read_file(path));
-    } catch (const OutputError&) {
+    } catch (const UnreadableFile&) {
         throw UnreadableFile(folder, std::string("holds no sweep (there is no ") + kPlanFile + ")");
     } catch (const std::exception& e) {
         throw UnreadableFile(path, std::string("is not the plan of a sweep: ") + e.what());
