@@ -4,6 +4,28 @@
 #include "manifold/support.h"
 
 namespace plumb {
+namespace {
+
+bool is_ball(const Part& part) { return part.shape.kind == ShapeKind::sphere; }
+
+bool has_closed_form(ShapeKind kind) {
+    return kind == ShapeKind::sphere || kind == ShapeKind::box || kind == ShapeKind::capsule ||
+           kind == ShapeKind::cylinder || kind == ShapeKind::cone;
+}
+
+}  // namespace
+
+bool closed_form_gap(double& gap, Vec3& normal, const Part& a, const Part& b) {
+    if (!is_ball(a) && !is_ball(b)) return false;
+    const Part &ball = is_ball(a) ? a : b, &other = is_ball(a) ? b : a;
+    SurfacePoint nearest;
+    if (!has_closed_form(other.shape.kind) ||
+        !signed_distance(nearest, other, ball.world.origin, 1e300))
+        return false;
+    gap = nearest.distance - ball.shape.radius;
+    normal = is_ball(a) ? nearest.normal : -nearest.normal;
+    return true;
+}
 
 void fill_ball_contact(Contact& c, Vec3 centre, double radius, const Part& part,
                        const SurfacePoint& nearest) {

@@ -13,6 +13,10 @@ namespace plumb {
 void fill_ball_contact(Contact& contact, Vec3 centre, double radius, const Part& part,
                        const SurfacePoint& nearest);
 
+/// The distance between a ball, as a or b, and a shape of a closed form; the normal points out of
+/// b towards a. False where neither part is a ball, or the other is none of these.
+bool closed_form_gap(double& gap, Vec3& normal, const Part& a, const Part& b);
+
 /// Makes a the b, and the other way round.
 void turn_round(Contact& contact);
 

@@ -4,6 +4,23 @@
 #include "manifold/guarded.h"
 
 namespace plumb {
+namespace {
+
+/// Share of the margin by which a ball must be beyond it: roundings are less.
+constexpr double kBeyond = 1e-6;
+
+/// Leaves out balls beside which a closed form sees nothing within the margin: bounds that are
+/// boxes overlap at their corners, and of a back-end the answer costs ten times as much.
+void leave_out_far_balls(std::vector<PartPair>& pairs, const std::vector<Part>& parts) {
+    std::erase_if(pairs, [&](const PartPair& pair) {
+        const Part &a = parts[pair.first], &b = parts[pair.second];
+        double gap;
+        Vec3 normal;
+        return closed_form_gap(gap, normal, a, b) && gap > (1 + kBeyond) * pair_margin(a, b);
+    });
+}
+
+}  // namespace
 
 Status Collider::add(std::uint32_t body, const ShapePlacement& placement) noexcept {
     return guarded([&] {
@@ -45,6 +62,7 @@ Status Collider::detect_all(const DetectRequest& request, const ContactSink* sin
     candidates_.find(pairs_, table_, [this](std::vector<PartPair>& found) { find_pairs(found); });
     stats_.broad_pairs = pairs_.size();
     if (request.filter) candidates_.apply(*request.filter, pairs_);
+    if (!(request.flags & kDetectRaw)) leave_out_far_balls(pairs_, table_.parts());
     place_parts();
     queries_.forget();
     run_blocks(request,

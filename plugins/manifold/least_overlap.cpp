@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "manifold/least_overlap.h"
 
+#include "manifold/ball_contact.h"
 #include "manifold/support.h"
 
 namespace plumb {
@@ -70,13 +71,17 @@ Way climb(Way way, const Part& a, const Part& b) {
 }  // namespace
 
 Witness least_overlap(const Part& a, const Part& b) {
+    const Vec3 middle = 0.5 * (a.world.origin + b.world.origin);
+    double gap;
+    Vec3 normal;
+    if (closed_form_gap(gap, normal, a, b)) return {normal, middle, gap, false, true};
     const Starts starts = starts_of(a, b);
     Way best;
     for (const Way& start : starts.best) {
         const Way top = climb(start, a, b);
         if (top.gap > best.gap + 1e-9) best = top;
     }
-    return {best.normal, 0.5 * (a.world.origin + b.world.origin), best.gap, true, true};
+    return {best.normal, middle, best.gap, true, true};
 }
 
 bool axes_part(const Part& a, const Part& b) {
