@@ -46,7 +46,7 @@ void measure(const Scene& scene, int settle, int measured) {
     std::printf(
         "%-8s plugin %7.3f ms   naive %7.3f ms   ratio %.3f   points naive %.0f, plugin %zu\n",
         kPlugin, plugin, package, plugin / package, percentile(points, 0.5),
-        simulation.world().contacts.found_before.size());
+        simulation.world().contacts.found.size());
 }
 
 }  // namespace

@@ -76,7 +76,7 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     finite_ &= report.finite;
     if (!finite_) return;  // figures of the bodies are those of the steps before
 
-    for (const Contact& c : world.contacts.found_before)
+    for (const Contact& c : world.contacts.found)
         worst_penetration_ = std::max(worst_penetration_, -c.gap);
     const std::vector<double> gaps = joint_errors(world);
     for (std::size_t i = 0; i < gaps.size(); ++i)

@@ -209,7 +209,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["links"] = world.links.size();
     j["contacts"] = {{"mean", s.contact_sum / steps},
                      {"max", s.contact_max},
-                     {"end", world.contacts.found_before.size()}};
+                     {"end", world.contacts.found.size()}};
     j["pairs"] = {{"candidates", detect.broad_pairs}, {"touching", detect.narrow_pairs}};
     j["contacts"]["kept"] = world.contacts.kept.reused;
     j["contact_sources"] = {{"asked", settings.contacts == ContactOrigin::raw ? "raw" : "shared"},

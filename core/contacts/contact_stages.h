@@ -8,6 +8,7 @@
 
 #include "contacts/contact_room.h"
 #include "contacts/pose_change.h"
+#include "contacts/reuse_contacts.h"
 #include "effects/ledger.h"
 #include "effects/plan.h"
 #include "effects/report.h"
@@ -24,10 +25,11 @@ namespace plumb {
 struct DetectBuffers {
     std::vector<Pose> poses;
     std::vector<double> sweeps;
-    std::vector<PoseChange> changes;  ///< [body] since the detection before
-    std::vector<ContactRoom> rooms;   ///< [worker], behind the sinks
-    std::vector<ContactSink> sinks;   ///< [worker]
-    std::vector<Vec3> places;         ///< of particles
+    std::vector<PoseChange> changes;   ///< [body] since the detection before
+    std::vector<Roundness> roundness;  ///< [body]
+    std::vector<ContactRoom> rooms;    ///< [worker], behind the sinks
+    std::vector<ContactSink> sinks;    ///< [worker]
+    std::vector<Vec3> places;          ///< of particles
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far
@@ -43,8 +45,8 @@ TaskRunner runner_on(Workers& workers);
 void detect_particles(World& world, Workers& workers, Proximity& proximity, DetectBuffers& buffers,
                       double dt, StepReport& report, Ledger& ledger);
 
-/// Checks and sorts what was found, and hands each contact the memory of the same contact of the
-/// step before.
+/// Hands each contact that was detected the memory of the same contact of the step before, and puts
+/// it among those that were kept.
 void match_contacts(World& world, const Plan& plan);
 
 /// Gaps, common points and anchor slips at the start of a substep, from points that ride on the
@@ -55,8 +57,5 @@ void follow_contacts(World& world, const Plan& plan, bool first_substep);
 /// Speeds are those before forces are added, so that a resting body does not bounce, whatever its
 /// e.
 void choose_restitution(World& world, bool first_substep);
-
-/// Keeps contacts and impulses for the next step.
-void remember_contacts(World& world);
 
 }  // namespace plumb

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/contact_faults.h"
 #include "contacts/contact_stages.h"
-#include "contacts/reuse_contacts.h"
+#include "contacts/renew_contacts.h"
+#include "world/round_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,18 +26,20 @@ bool before(const Contact& x, const Contact& y) {
     return x.feature < y.feature;
 }
 
-/// Poses and sweeps of all bodies, and empty sinks.
+/// Poses, sweeps and roundness of all bodies, and empty sinks.
 void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
     const Bodies& bodies = world.bodies;
     const std::size_t known = buffers.poses.size();
     buffers.poses.resize(bodies.size());
     buffers.sweeps.resize(bodies.size());
     buffers.changes.resize(bodies.size());
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+    buffers.roundness.resize(bodies.size());
+    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Pose pose{to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
         buffers.changes[i] = i < known ? PoseChange::between(buffers.poses[i], pose) : PoseChange();
         buffers.poses[i] = pose;
         buffers.sweeps[i] = sweep(world, i, dt);
+        buffers.roundness[i] = {is_round(world, i), has_rim(world, i)};
     }
     buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
     buffers.sinks.clear();
@@ -63,7 +66,7 @@ void look_at_rooms(const DetectBuffers& buffers, StepReport& report) {
 }
 
 void take_contacts(World& world, const DetectBuffers& buffers, StepReport& report) {
-    std::vector<Contact>& found = world.contacts.found;
+    std::vector<Contact>& found = world.contacts.fresh.found;
     found.clear();
     if (report.collider_unusable) return;
     for (const ContactRoom& room : buffers.rooms)
@@ -102,7 +105,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
     }
     const bool reuse = plan.runs(Effect::contact_reuse);
     const TaskRunner runner = runner_on(workers);
-    ReuseContext context{&world, &buffers.sweeps, &buffers.changes};
+    ReuseContext context{&world, &buffers.sweeps, &buffers.changes, &buffers.roundness};
     PairFilter filter{};
     if (reuse) filter = reuse_filter(context);
     const DetectRequest request{buffers.poses.data(),
@@ -127,14 +130,13 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
         look_at_rooms(buffers, report);
         take_contacts(world, buffers, report);
     }
-    if (reuse) {
-        const StageTimer timer(ledger, Stage::reuse);
-        const std::uint32_t unasked = merge_kept_contacts(world);
-        report.faults[static_cast<std::size_t>(ContactFault::unwanted_pair)] += unasked;
-        report.rejected_contacts += unasked;
-        if (report.collider_failed || report.rejected_contacts > 0) forget_kept_contacts(world);
-    }
-    report.contacts = static_cast<std::uint32_t>(world.contacts.found.size());
+    const StageTimer timer(ledger, Stage::reuse);
+    if (!context.asked) forget_kept_contacts(world);
+    const std::uint32_t unasked = set_aside(world);
+    report.faults[static_cast<std::size_t>(ContactFault::unwanted_pair)] += unasked;
+    report.rejected_contacts += unasked;
+    if (report.collider_failed || report.rejected_contacts > 0) forget_kept_contacts(world);
+    report.contacts = contacts_to_be(world.contacts.kept);
 }
 
 }  // namespace plumb

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// Contacts of this step and of the step before are both sorted, so one walk along both finds what
-/// stayed.
+/// What was detected and what is left of the step before are both sorted, so one walk along both
+/// finds what stayed.
 #include "contacts/anchors.h"
 #include "contacts/contact_pairs.h"
 #include "contacts/contact_stages.h"
+#include "contacts/renew_contacts.h"
 
 #include <algorithm>
+#include <span>
 
 namespace plumb {
 namespace {
@@ -17,28 +19,35 @@ int compare_pairs(const Contact& x, const Contact& y) {
     return 0;
 }
 
-/// The contacts of one pair, now and in the step before.
-struct PairRuns {
-    std::size_t now, now_end, old, old_end;
+/// The contacts of one pair.
+struct PairRun {
+    std::span<const Contact> found;
+    std::span<ContactMemory> memory;
+
+    PairRun() = default;
+    PairRun(RememberedContacts& of, std::size_t first, std::size_t end)
+        : found(of.found.data() + first, end - first),
+          memory(of.memory.data() + first, end - first) {}
+    std::size_t size() const { return found.size(); }
 };
 
-std::size_t nearest(const std::vector<Contact>& contacts, std::size_t first, std::size_t last,
-                    const Vector3d& point) {
-    std::size_t best = first;
-    for (std::size_t i = first + 1; i < last; ++i)
+std::size_t nearest(std::span<const Contact> contacts, const Vector3d& point) {
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < contacts.size(); ++i)
         if ((common_point(contacts[i]) - point).squaredNorm() <
             (common_point(contacts[best]) - point).squaredNorm())
             best = i;
     return best;
 }
 
-void match_by_feature(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>& used) {
-    for (std::size_t k = run.now; k < run.now_end; ++k)
-        for (std::size_t j = run.old; j < run.old_end; ++j)
-            if (c.found[k].feature != 0 && c.found[k].feature == c.found_before[j].feature &&
+/// `used`: of the contacts before, whether one has taken over their memory.
+void match_by_feature(const PairRun& now, const PairRun& before, std::uint8_t* used) {
+    for (std::size_t k = 0; k < now.size(); ++k)
+        for (std::size_t j = 0; j < before.size(); ++j)
+            if (now.found[k].feature != 0 && now.found[k].feature == before.found[j].feature &&
                 !used[j]) {
-                c.memory[k] = c.memory_before[j];
-                c.memory[k].matched = c.memory[k].known = true;
+                now.memory[k] = before.memory[j];
+                now.memory[k].matched = now.memory[k].known = true;
                 used[j] = 1;
                 break;
             }
@@ -46,49 +55,33 @@ void match_by_feature(ContactTable& c, const PairRuns& run, std::vector<std::uin
 
 /// Where features came and went (a corner slid over an edge), the pair keeps its summed impulses:
 /// what no contact took over goes to the nearest one.
-void hand_on_impulses(ContactTable& c, const PairRuns& run, const std::vector<std::uint8_t>& used) {
-    for (std::size_t j = run.old; j < run.old_end; ++j) {
+void hand_on_impulses(const PairRun& now, const PairRun& before, const std::uint8_t* used) {
+    for (std::size_t j = 0; j < before.size(); ++j) {
         if (used[j]) continue;
-        ContactMemory& heir =
-            c.memory[nearest(c.found, run.now, run.now_end, common_point(c.found_before[j]))];
-        heir.normal_impulse += c.memory_before[j].normal_impulse;
-        heir.friction_impulse += c.memory_before[j].friction_impulse;
-        heir.rolling_impulse += c.memory_before[j].rolling_impulse;
-        heir.exact |= c.memory_before[j].exact;
+        ContactMemory& heir = now.memory[nearest(now.found, common_point(before.found[j]))];
+        const ContactMemory& memory = before.memory[j];
+        heir.normal_impulse += memory.normal_impulse;
+        heir.friction_impulse += memory.friction_impulse;
+        heir.rolling_impulse += memory.rolling_impulse;
+        heir.exact |= memory.exact;
         heir.matched = true;
     }
 }
 
-/// Whether the pair touches by the very features of the step before.
-bool is_unchanged(const ContactTable& c, const PairRuns& run) {
-    const auto now = c.found.begin(), old = c.found_before.begin();
-    return std::equal(now + run.now, now + run.now_end, old + run.old, old + run.old_end,
-                      [](const Contact& x, const Contact& y) {
-                          return x.feature != 0 && x.feature == y.feature;
-                      });
+/// `before` is empty where the pair is new.
+void match_pair(const PairRun& now, const PairRun& before, std::uint8_t* used) {
+    std::fill(now.memory.begin(), now.memory.end(), ContactMemory{});
+    match_by_feature(now, before, used);
+    hand_on_impulses(now, before, used);
 }
 
-/// `run.old` is empty where the pair is new.
-void match_pair(ContactTable& c, const PairRuns& run, std::vector<std::uint8_t>& used) {
-    if (is_unchanged(c, run)) {
-        for (std::size_t k = run.now; k < run.now_end; ++k) {
-            c.memory[k] = c.memory_before[run.old + (k - run.now)];
-            c.memory[k].matched = c.memory[k].known = true;
-        }
-        return;
-    }
-    std::fill(c.memory.begin() + run.now, c.memory.begin() + run.now_end, ContactMemory{});
-    match_by_feature(c, run, used);
-    hand_on_impulses(c, run, used);
-}
-
-/// The nearest contact of the step before that stuck; run.old_end where none did.
-std::size_t nearest_sticking(const ContactTable& c, const PairRuns& run, const Vector3d& point) {
-    std::size_t best = run.old_end;
+/// The nearest contact before that stuck; before.size() where none did.
+std::size_t nearest_sticking(const PairRun& before, const Vector3d& point) {
+    std::size_t best = before.size();
     double least = 0;
-    for (std::size_t j = run.old; j < run.old_end; ++j) {
-        const double distance = (common_point(c.found_before[j]) - point).squaredNorm();
-        if (!c.memory_before[j].sticks || (best < run.old_end && distance >= least)) continue;
+    for (std::size_t j = 0; j < before.size(); ++j) {
+        const double distance = (common_point(before.found[j]) - point).squaredNorm();
+        if (!before.memory[j].sticks || (best < before.size() && distance >= least)) continue;
         best = j;
         least = distance;
     }
@@ -98,45 +91,67 @@ std::size_t nearest_sticking(const ContactTable& c, const PairRuns& run, const V
 /// A contact that slid begins to stick anew where it is. One that is new, or carried nothing, takes
 /// over the slip of the nearest contact of the pair that stuck, or what the pair has crept would
 /// be forgotten with every feature that changes and every corner that lifts for a moment.
-void anchor_pair(World& world, const PairRuns& run) {
-    ContactTable& c = world.contacts;
-    for (std::size_t i = run.now; i < run.now_end; ++i) {
-        ContactMemory& m = c.memory[i];
-        if (m.sticks || !is_sharp(c.found[i])) continue;
+void anchor_pair(const Bodies& bodies, const PairRun& now, const PairRun& before) {
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        ContactMemory& m = now.memory[i];
+        const Contact& contact = now.found[i];
+        if (m.sticks || !is_sharp(contact)) continue;
         const bool slid = m.known && m.normal_impulse > 0;
-        const Vector3d point = common_point(c.found[i]);
-        const std::size_t from = slid ? run.old_end : nearest_sticking(c, run, point);
+        const Vector3d point = common_point(contact);
+        const std::size_t from = slid ? before.size() : nearest_sticking(before, point);
         Vector3d slip = Vector3d::Zero();
-        if (from < run.old_end)
-            slip =
-                anchor_slip_of({world.bodies, c.found[i].a, c.found[i].b}, c.memory_before[from]);
-        set_anchors(m, world.bodies, c.found[i], point, slip);
+        if (from < before.size())
+            slip = anchor_slip_of({bodies, contact.a, contact.b}, before.memory[from]);
+        set_anchors(m, bodies, contact, point, slip);
     }
+}
+
+void match_fresh(World& world, bool anchors) {
+    RememberedContacts &fresh = world.contacts.fresh, &left = world.contacts.left;
+    std::vector<std::uint8_t>& used = world.contacts.used;
+    fresh.memory.resize(fresh.found.size());
+    used.assign(left.found.size(), 0);
+    std::size_t old = 0;
+    for (std::size_t i = 0, end; i < fresh.found.size(); i = end) {
+        end = end_of_pair(fresh.found, i);
+        const PairRun now(fresh, i, end);
+        while (old < left.found.size() && compare_pairs(left.found[old], fresh.found[i]) < 0) ++old;
+        const std::size_t first = old;
+        if (old < left.found.size() && compare_pairs(left.found[old], fresh.found[i]) == 0)
+            old = end_of_pair(left.found, old);
+        const PairRun before(left, first, old);
+        match_pair(now, before, used.data() + first);
+        if (anchors) anchor_pair(world.bodies, now, before);
+    }
+}
+
+/// Contacts that stay, where one of them slid or carried nothing: with a copy of what their pair
+/// remembers, for each looks at the others of before.
+void anchor_kept(World& world) {
+    ContactTable& c = world.contacts;
+    RememberedContacts& copy = c.left;  // of which nothing is needed any more
+    const auto needs_anchors = [&](std::size_t i) {
+        return !c.memory[i].sticks && is_sharp(c.found[i]);
+    };
+    for (const ContactMove& stay : c.kept.stays)
+        for (std::size_t i = stay.to, end; i < stay.to + stay.count; i = end) {
+            end = end_of_pair(c.found, i);
+            bool any = false;
+            for (std::size_t k = i; k < end; ++k) any |= needs_anchors(k);
+            if (!any) continue;
+            copy.found.assign(c.found.begin() + i, c.found.begin() + end);
+            copy.memory.assign(c.memory.begin() + i, c.memory.begin() + end);
+            anchor_pair(world.bodies, PairRun(c, i, end), PairRun(copy, 0, end - i));
+        }
 }
 
 }  // namespace
 
 void match_contacts(World& world, const Plan& plan) {
-    ContactTable& c = world.contacts;
-    c.memory.resize(c.found.size());
-    c.used.assign(c.found_before.size(), 0);
     const bool anchors = plan.runs(Effect::sticking_anchors);
-    std::size_t old = 0;
-    for (std::size_t i = 0; i < c.found.size();) {
-        PairRuns run{i, end_of_pair(c.found, i), 0, 0};
-        while (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) < 0)
-            ++old;
-        if (old < c.found_before.size() && compare_pairs(c.found_before[old], c.found[i]) == 0)
-            run.old = old, run.old_end = old = end_of_pair(c.found_before, old);
-        match_pair(c, run, c.used);
-        if (anchors) anchor_pair(world, run);
-        i = run.now_end;
-    }
-}
-
-void remember_contacts(World& world) {
-    world.contacts.found_before.swap(world.contacts.found);
-    world.contacts.memory_before.swap(world.contacts.memory);
+    match_fresh(world, anchors);
+    put_in(world);
+    if (anchors) anchor_kept(world);
 }
 
 }  // namespace plumb

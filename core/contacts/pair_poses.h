@@ -4,6 +4,7 @@
 #pragma once
 
 #include "world/bodies.h"
+#include "world/kept_contacts.h"
 
 #include <plumb/contact_set.h>
 
@@ -21,16 +22,16 @@ public:
     Vector3d a_in_world(const Vector3d& point) const { return at_a_ + turn_a_ * point; }
     Vector3d b_in_world(const Vector3d& point) const { return at_b_ + turn_b_ * point; }
 
-    /// A contact from the world's frame into those of the bodies, and back.
-    void put_into_bodies(Contact& c) const {
-        c.point_a = to_plain(turn_a_.transpose() * (to_eigen(c.point_a) - at_a_));
-        c.point_b = to_plain(turn_b_.transpose() * (to_eigen(c.point_b) - at_b_));
-        c.normal = to_plain(turn_a_.transpose() * to_eigen(c.normal));
+    /// Where a contact rides, and the contact brought to the poses now.
+    ContactRide put_into_bodies(const Contact& c) const {
+        return {to_plain(turn_a_.transpose() * (to_eigen(c.point_a) - at_a_)),
+                to_plain(turn_b_.transpose() * (to_eigen(c.point_b) - at_b_)),
+                to_plain(turn_a_.transpose() * to_eigen(c.normal))};
     }
-    void put_into_world(Contact& c) const {
-        const Vector3d on_a = a_in_world(to_eigen(c.point_a)),
-                       on_b = b_in_world(to_eigen(c.point_b));
-        const Vector3d n = turn_a_ * to_eigen(c.normal);
+    void put_into_world(Contact& c, const ContactRide& ride) const {
+        const Vector3d on_a = a_in_world(to_eigen(ride.point_a)),
+                       on_b = b_in_world(to_eigen(ride.point_b));
+        const Vector3d n = turn_a_ * to_eigen(ride.normal);
         c.point_a = to_plain(on_a), c.point_b = to_plain(on_b), c.normal = to_plain(n);
         c.gap = n.dot(on_a - on_b) - c.radius_a - c.radius_b;
     }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/reuse_contacts.h"
 
-#include "contacts/pair_poses.h"
-#include "world/round_shapes.h"
-
 #include <algorithm>
 #include <tuple>
 
@@ -23,25 +20,6 @@ constexpr double kStill = 1e-4;
 constexpr double kSure = 0.99;
 
 std::tuple<std::uint32_t, std::uint32_t> key(const KeptPair& p) { return {p.a, p.b}; }
-std::tuple<std::uint32_t, std::uint32_t> key(const Contact& c) { return {c.a, c.b}; }
-
-/// Walks along the contacts of the step before, with pairs that rise.
-class ContactsBefore {
-public:
-    explicit ContactsBefore(const ContactTable& contacts) : contacts_(contacts) {}
-
-    /// Whether the pair's contacts were solved exactly.
-    bool were_exact(const KeptPair& pair) {
-        const std::vector<Contact>& found = contacts_.found_before;
-        while (at_ < found.size() && key(found[at_]) < key(pair)) ++at_;
-        return at_ < found.size() && key(found[at_]) == key(pair) &&
-               contacts_.memory_before[at_].exact;
-    }
-
-private:
-    const ContactTable& contacts_;
-    std::size_t at_ = 0;
-};
 
 /// The smaller body of a pair, whose points are watched in the frame of the other.
 struct Watched {
@@ -71,28 +49,18 @@ struct Allowed {
     double moved, turned;
 };
 
-Allowed allowed(const World& world, const KeptPair& pair, ContactsBefore& before) {
-    const double distance = world.settings.reuse_distance;
-    Allowed most{distance, distance};
-    if (!is_round(world, pair.a) && !is_round(world, pair.b)) return most;
-    if (has_rim(world, pair.a) || has_rim(world, pair.b)) most.turned = kLag * distance;
-    if (before.were_exact(pair)) most.moved = kStill * distance;
-    return most;
-}
-
-/// Adds what the bodies have moved since the detection before to the bound of a pair.
-void add_motion(KeptPair& pair, const Bodies& b, const std::vector<PoseChange>& changes) {
+/// What the bodies of a pair have moved by since the detection before, at most [m].
+double motion_of(const KeptPair& pair, const Bodies& b, const std::vector<PoseChange>& changes) {
     const PoseChange &of_a = changes[pair.a], &of_b = changes[pair.b];
     const double radius = std::min(b.bounding_radius[pair.a], b.bounding_radius[pair.b]);
     const double reach = pair.offset.norm() + pair.moved + radius;
-    pair.moved += of_a.travel + of_b.travel + (of_a.turn + of_b.turn) * reach;
+    return of_a.travel + of_b.travel + (of_a.turn + of_b.turn) * reach;
 }
 
 /// Whether the contacts of a pair will do at the poses now. Its bound is brought up to date.
-bool will_do(KeptPair& pair, const World& world, const Allowed& most) {
+bool will_do(KeptPair& pair, const Bodies& b, const Allowed& most) {
     const double surely = kSure * std::min(most.moved, most.turned);
     if (pair.moved <= surely) return true;
-    const Bodies& b = world.bodies;
     KeptPair now = pair;
     measure_pose(now, b);
     const double radius = b.bounding_radius[watched(b, pair.a, pair.b).small];
@@ -101,110 +69,116 @@ bool will_do(KeptPair& pair, const World& world, const Allowed& most) {
     return turn <= most.turned && pair.moved <= most.moved;
 }
 
-/// Whether candidate i is of bodies that there are, and stands behind the one before it.
-bool in_order(const CandidatePair* pairs, std::uint32_t i, std::size_t bodies) {
-    const CandidatePair& p = pairs[i];
-    if (!(p.a < p.b) || p.b >= bodies) return false;
-    return i == 0 || std::tie(pairs[i - 1].a, pairs[i - 1].b) < std::tie(p.a, p.b);
-}
+/// Goes through the candidates of a detection and the pairs of the one before side by side.
+class Choice {
+public:
+    explicit Choice(const ReuseContext& context)
+        : context_(context), world_(*context.world), contacts_(world_.contacts) {
+        contacts_.kept.born.clear();
+    }
+
+    /// Whether the narrow phase must run on a pair. Nothing is kept of one that is out of order or
+    /// of no bodies, which is a fault of the collider.
+    bool is_wanted(std::uint32_t a, std::uint32_t b) {
+        if (!(a < b) || b >= context_.sweeps->size() || std::tie(a, b) <= last_) return true;
+        last_ = {a, b};
+        std::vector<KeptPair>& pairs = contacts_.kept.pairs;
+        while (read_ < pairs.size() && key(pairs[read_]) < std::tie(a, b)) leave_out();
+        const double margin =
+            world_.settings.margin + (*context_.sweeps)[a] + (*context_.sweeps)[b];
+        if (read_ == pairs.size() || key(pairs[read_]) != std::tie(a, b)) {
+            KeptPair& born = contacts_.kept.born.emplace_back();
+            born.a = a, born.b = b;
+            renew(born, margin);
+            return true;
+        }
+        KeptPair& pair = pairs[read_];
+        pair.first = contact_;
+        if (is_kept(pair, margin))
+            keep(pair);
+        else
+            renew(pair, margin);
+        const bool wanted = pair.fresh;
+        contact_ += pair.count;
+        if (write_ != read_) pairs[write_] = pair;
+        ++write_, ++read_;
+        return wanted;
+    }
+
+    /// Only pairs that are candidates stay, and new ones go among them.
+    void finish() {
+        std::vector<KeptPair>&pairs = contacts_.kept.pairs, &born = contacts_.kept.born;
+        pairs.resize(write_);
+        if (born.empty()) return;
+        pairs.insert(pairs.end(), born.begin(), born.end());
+        std::inplace_merge(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(write_),
+                           pairs.end(),
+                           [](const KeptPair& p, const KeptPair& q) { return key(p) < key(q); });
+    }
+
+private:
+    void leave_out() { contact_ += contacts_.kept.pairs[read_++].count; }
+
+    void renew(KeptPair& pair, double margin) const {
+        pair.fresh = true, pair.margin = margin, pair.moved = 0;
+        measure_pose(pair, world_.bodies);
+    }
+
+    /// What was detected in the step before is known from now on.
+    void keep(KeptPair& pair) {
+        if (pair.fresh)
+            for (std::uint32_t i = 0; i < pair.count; ++i) {
+                ContactMemory& memory = contacts_.memory[pair.first + i];
+                memory.known = memory.matched = true;
+            }
+        pair.fresh = false;
+    }
+
+    bool is_kept(KeptPair& pair, double margin) const {
+        const double motion = motion_of(pair, world_.bodies, *context_.changes);
+        pair.moved += motion;
+        const double apart = allowed_apart(pair, margin, motion);
+        const double distance = world_.settings.reuse_distance;
+        if (apart > distance) return will_do(pair, world_.bodies, {apart, apart});
+        return pair.margin >= margin - distance && will_do(pair, world_.bodies, allowed(pair));
+    }
+
+    /// By how much a pair may move that was farther apart than its margin [m]; 0 where it was not.
+    double allowed_apart(const KeptPair& pair, double margin, double motion) const {
+        if (pair.count > 0) return 0;
+        return pair.margin - std::max(margin - world_.settings.margin / 2, 2 * motion);
+    }
+
+    Allowed allowed(const KeptPair& pair) const {
+        const double distance = world_.settings.reuse_distance;
+        const Roundness &a = (*context_.roundness)[pair.a], &b = (*context_.roundness)[pair.b];
+        Allowed most{distance, distance};
+        if (!a.is_round && !b.is_round) return most;
+        if (a.has_rim || b.has_rim) most.turned = kLag * distance;
+        if (pair.count > 0 && contacts_.memory[pair.first].exact) most.moved = kStill * distance;
+        return most;
+    }
+
+    const ReuseContext& context_;
+    World& world_;
+    ContactTable& contacts_;
+    std::size_t read_ = 0, write_ = 0;                     // of the pairs
+    std::uint32_t contact_ = 0;                            // the first of pair `read_`
+    std::tuple<std::uint32_t, std::uint32_t> last_{0, 0};  // that was in order
+};
 
 void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uint8_t* wanted) {
-    const auto& context = *static_cast<const ReuseContext*>(ctx);
-    World& world = *context.world;
-    KeptContacts& kept = world.contacts.kept;
-    const std::vector<double>& sweeps = *context.sweeps;
-    const std::vector<PoseChange>& changes = *context.changes;
-    auto old = kept.pairs_before.begin();
-    ContactsBefore before(world.contacts);
-    for (std::uint32_t i = 0; i < count; ++i) {
-        wanted[i] = 1;
-        if (!in_order(pairs, i, sweeps.size())) continue;  // a fault of the collider: nothing kept
-        const auto [a, b] = pairs[i];
-        const double margin = world.settings.margin + sweeps[a] + sweeps[b];
-        while (old != kept.pairs_before.end() && key(*old) < std::tie(a, b)) ++old;
-        if (old != kept.pairs_before.end() && key(*old) == std::tie(a, b)) {
-            add_motion(*old, world.bodies, changes);
-            if (old->margin >= margin - world.settings.reuse_distance &&
-                will_do(*old, world, allowed(world, *old, before))) {
-                old->fresh = false;
-                wanted[i] = 0;
-                kept.pairs.push_back(*old);
-                continue;
-            }
-        }
-        KeptPair& fresh = kept.pairs.emplace_back();
-        fresh.a = a, fresh.b = b, fresh.fresh = true, fresh.margin = margin;
-        measure_pose(fresh, world.bodies);
-    }
-}
-
-/// Drops contacts of the pool that no pair has any more, once they are the larger part of it.
-void compact(KeptContacts& kept) {
-    std::size_t live = 0;
-    for (const KeptPair& pair : kept.pairs) live += pair.count;
-    if (kept.pool.size() < 2 * live + 256) return;
-    std::vector<Contact> pool;
-    pool.reserve(kept.pool.capacity());
-    for (KeptPair& pair : kept.pairs) {
-        const auto from = kept.pool.begin() + pair.first;
-        pair.first = static_cast<std::uint32_t>(pool.size());
-        pool.insert(pool.end(), from, from + pair.count);
-    }
-    kept.pool.swap(pool);
+    auto& context = *static_cast<ReuseContext*>(ctx);
+    context.asked = true;
+    Choice choice(context);
+    for (std::uint32_t i = 0; i < count; ++i) wanted[i] = choice.is_wanted(pairs[i].a, pairs[i].b);
+    choice.finish();
 }
 
 }  // namespace
 
-PairFilter reuse_filter(ReuseContext& context) {
-    KeptContacts& kept = context.world->contacts.kept;
-    kept.pairs_before.swap(kept.pairs);
-    kept.pairs.clear();
-    return {&context, choose};
-}
+PairFilter reuse_filter(ReuseContext& context) { return {&context, choose}; }
 
-std::uint32_t merge_kept_contacts(World& world) {
-    ContactTable& table = world.contacts;
-    KeptContacts& kept = table.kept;
-    std::vector<Contact>& merged = table.merged;
-    merged.clear();
-    auto found = table.found.begin();
-    const auto take_found_before = [&](auto bound) {
-        while (found != table.found.end() && key(*found) < bound) merged.push_back(*found++);
-    };
-    kept.reused = 0;
-    std::uint32_t unasked = 0;
-    for (KeptPair& pair : kept.pairs) {
-        take_found_before(key(pair));
-        if (!pair.fresh) {
-            if (pair.count > 0) {
-                const PairPoses poses(world.bodies, pair.a, pair.b);
-                const auto from = kept.pool.begin() + pair.first;
-                const auto at = merged.insert(merged.end(), from, from + pair.count);
-                std::for_each(at, merged.end(), [&](Contact& c) { poses.put_into_world(c); });
-            }
-            kept.reused += pair.count;
-            for (; found != table.found.end() && key(*found) == key(pair); ++found) ++unasked;
-            continue;
-        }
-        pair.first = static_cast<std::uint32_t>(kept.pool.size());
-        const auto first = found;
-        while (found != table.found.end() && key(*found) == key(pair)) ++found;
-        pair.count = static_cast<std::uint32_t>(found - first);
-        if (pair.count == 0) continue;
-        merged.insert(merged.end(), first, found);
-        const PairPoses poses(world.bodies, pair.a, pair.b);
-        const auto at = kept.pool.insert(kept.pool.end(), first, found);
-        std::for_each(at, kept.pool.end(), [&](Contact& c) { poses.put_into_bodies(c); });
-    }
-    merged.insert(merged.end(), found, table.found.end());
-    table.found.swap(merged);
-    compact(kept);
-    return unasked;
-}
-
-void forget_kept_contacts(World& world) {
-    world.contacts.kept.pairs.clear();
-    world.contacts.kept.pool.clear();
-}
+void forget_kept_contacts(World& world) { world.contacts.kept.pairs.clear(); }
 
 }  // namespace plumb

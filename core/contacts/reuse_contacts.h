@@ -8,7 +8,8 @@
 ///
 ///   gaps        exact to first order: off by at most d²/2r for features of size r,
 ///   outlines    of contact areas within d,
-///   new points  from being found at a gap of margin − d at the latest,
+///   new points  from being found at a gap of margin − d at the latest; the first of a pair, at
+///               half of the margin, and before the pair may have moved by half of the gap,
 ///
 /// and no error adds up, because the motion is measured from the pose of the last narrow phase.
 /// What is round rolls on its contacts, and where these are solved exactly it moves by as little as
@@ -24,21 +25,25 @@
 
 namespace plumb {
 
+/// What rolls of a body.
+struct Roundness {
+    bool is_round, has_rim;
+};
+
 /// What a question to the collider needs to leave out pairs.
 struct ReuseContext {
     World* world;
-    const std::vector<double>* sweeps;       ///< [body] [m]
-    const std::vector<PoseChange>* changes;  ///< [body]
+    const std::vector<double>* sweeps;        ///< [body] [m]
+    const std::vector<PoseChange>* changes;   ///< [body]
+    const std::vector<Roundness>* roundness;  ///< [body]
+    bool asked = false;                       ///< whether the collider has asked
 };
 
 /// Asks for the contacts of all pairs but those that are kept. `context` must outlive the call.
 PairFilter reuse_filter(ReuseContext& context);
 
-/// Puts the kept contacts, at the poses now, among those that were found; remembers the latter.
-/// Returns how many were left out, because they are of pairs that were not asked about.
-std::uint32_t merge_kept_contacts(World& world);
-
-/// Nothing is kept: after a detection that failed, whose answer must not live on.
+/// Nothing is kept: before a detection that does not ask, and after one that failed, whose answer
+/// must not live on.
 void forget_kept_contacts(World& world);
 
 }  // namespace plumb

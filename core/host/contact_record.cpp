@@ -48,8 +48,8 @@ void ContactRecord::take_contacts(const World& world, const Stepper& stepper) {
     const Bodies& b = world.bodies;
     const ContactTable& table = world.contacts;
     const std::vector<Pose>& then = stepper.buffers.poses;
-    for (std::size_t i = 0; i < table.found_before.size(); ++i) {
-        const Contact& found = table.found_before[i];
+    for (std::size_t i = 0; i < table.found.size(); ++i) {
+        const Contact& found = table.found[i];
         const ContactSum& sum = stepper.sums->bodies()[i];
         BodyContact& c = contacts_.emplace_back();
         c.body_a = b.id[found.a], c.body_b = b.id[found.b];
@@ -65,7 +65,7 @@ void ContactRecord::take_contacts(const World& world, const Stepper& stepper) {
         c.normal_force = sum.normal / world.settings.dt;
         c.friction_force = sum.friction / world.settings.dt;
         c.approach_speed = sum.approach;
-        c.touches = table.memory_before[i].normal_impulse > 0 || c.gap <= 0;
+        c.touches = table.memory[i].normal_impulse > 0 || c.gap <= 0;
         put_in_order(c);
     }
     // slots and identifiers part once bodies were removed

@@ -67,19 +67,21 @@ void each_number_of_contacts(Io& io, List& contacts) {
 
 template <class Io, class Table>
 void each_number_of_memory(Io& io, Table& table) {
-    each_number_of_contacts(io, table.found_before);
-    io.count(table.memory_before);
-    for (auto& m : table.memory_before) {
+    each_number_of_contacts(io, table.found);
+    io.count(table.memory);
+    for (auto& m : table.memory) {
         io(m.normal_impulse), io(m.gap), io(m.disputed_overlap);
         vector(io, m.friction_impulse), vector(io, m.rolling_impulse);
         vector(io, m.stick_a), vector(io, m.stick_b);
         io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.known), io(m.matched);
     }
     io(table.rejected);
-    each_number_of_contacts(io, table.kept.pool);
+    io.count(table.kept.rides);
+    for (auto& r : table.kept.rides)
+        plain_vector(io, r.point_a), plain_vector(io, r.point_b), plain_vector(io, r.normal);
     io.count(table.kept.pairs);
     for (auto& pair : table.kept.pairs) {
-        io(pair.a), io(pair.b), io(pair.first), io(pair.count), io(pair.fresh), io(pair.margin);
+        io(pair.a), io(pair.b), io(pair.count), io(pair.fresh), io(pair.margin);
         vector(io, pair.offset), quaternion(io, pair.turn), io(pair.moved);
     }
 }
@@ -106,13 +108,22 @@ void each_number(Io& io, W& world) {
     each_number_of_particles(io, world);
 }
 
+/// Columns of one length, and pairs that have all contacts between them; else nothing is kept.
+void drop_what_does_not_fit(ContactTable& table) {
+    table.memory.resize(table.found.size());
+    std::uint64_t kept = 0;
+    for (const KeptPair& pair : table.kept.pairs) kept += pair.count;
+    if (kept == table.found.size() && kept == table.kept.rides.size()) return;
+    table.kept.pairs.clear(), table.kept.rides.clear();
+}
+
 }  // namespace
 
 void write_state(const World& world, StateWriter& to) { each_number(to, world); }
 
 void read_state(World& world, StateReader& from) {
     each_number(from, world);
-    world.contacts.found.clear(), world.contacts.memory.clear();
+    drop_what_does_not_fit(world.contacts);
     for (Deformable& d : world.deformables)
         if (d.can_tear()) leave_out_torn(d);
 }

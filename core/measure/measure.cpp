@@ -13,7 +13,7 @@ namespace {
 
 /// The contacts of the last detection: kept as those "before" once a step is done.
 const std::vector<Contact>& last_contacts(const World& world) {
-    return world.contacts.found_before;
+    return world.contacts.found;
 }
 
 }  // namespace

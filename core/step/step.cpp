@@ -116,7 +116,6 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     }
     timed(Stage::remember, [&] {
         solver.end_step(world);
-        remember_contacts(world);
         report.finite = is_finite(world);
     });
     if (plan.runs(Effect::joints))

@@ -35,9 +35,9 @@ template <class Figure>
 double per_push(const World& world, Figure figure) {
     const ContactTable& c = world.contacts;
     double sum = 0, pushes = 0;
-    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
-        sum += figure(c.found_before[i], c.memory_before[i]);
-        pushes += c.memory_before[i].normal_impulse;
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        sum += figure(c.found[i], c.memory[i]);
+        pushes += c.memory[i].normal_impulse;
     }
     return pushes > 0 ? sum / pushes : 0;
 }

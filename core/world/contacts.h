@@ -14,7 +14,9 @@ namespace plumb {
 
 /// What a contact remembers while the same features touch.
 struct ContactMemory {
-    double normal_impulse = 0;  ///< summed over both passes of the last substep [N s]
+    double normal_impulse = 0;    ///< summed over both passes of the last substep [N s]
+    double gap = 0;               ///< of the step before, where it was solved exactly [m]
+    double disputed_overlap = 0;  ///< sum of its island's when it began to be opened [m]
     Vector3d friction_impulse = Vector3d::Zero();  ///< world frame [N s]
     Vector3d rolling_impulse = Vector3d::Zero();   ///< torque of rolling and spinning friction, of
                                                    ///< islands solved exactly; world [N m s]
@@ -22,13 +24,17 @@ struct ContactMemory {
     Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
     bool sticks = false;
     bool exact = false;         ///< whether its impulses are those of an island solved exactly
-    double gap = 0;             ///< of the step before, where it was solved exactly [m]
     bool jammed = false;        ///< friction holds its overlap: an exact solution could not push it
                                 ///< out, or left it as it is
     std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
-    double disputed_overlap = 0;  ///< sum of its island's when it began to be opened [m]
-    bool known = false;           ///< whether the step before had this very feature
+    bool known = false;         ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
+};
+
+/// Contacts with what they remember; sorted by (a, b, feature).
+struct RememberedContacts {
+    std::vector<Contact> found;         ///< [contact]
+    std::vector<ContactMemory> memory;  ///< [contact]
 };
 
 /// Where the points of a contact ride, for following it through substeps; body frames.
@@ -57,17 +63,16 @@ enum class Restitution : std::uint8_t {
     bouncing
 };
 
-/// Columns of one length: [contact], sorted by (a, b, feature).
-struct ContactTable {
-    std::vector<Contact> found;  ///< as the collider reported them, at the start of the step
-    std::vector<ContactMemory> memory;
-    std::vector<ContactTrack> track;  ///< only with more than one substep
-    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none; only where shapes
-                                      ///< have rims
-    std::vector<Vector3d> bend;   ///< mean velocity over the substep less that at its start [m/s];
-                                  ///< empty with the paper's push, and before the first substep
-    std::vector<double> gap;      ///< at the start of the substep [m]
-    std::vector<Vector3d> point;  ///< where it acts at the start of the substep [m]
+/// Columns of one length: [contact], sorted by (a, b, feature). The first two stay from step to
+/// step: contacts of pairs that hardly moved are brought up to date where they stand.
+struct ContactTable : RememberedContacts {  ///< as the collider reported them; poses of the start
+    std::vector<ContactTrack> track;        ///< only with more than one substep
+    std::vector<ContactRim> rims;  ///< of radius 0 where a contact is on none; only where shapes
+                                   ///< have rims
+    std::vector<Vector3d> bend;    ///< mean velocity over the substep less that at its start [m/s];
+                                   ///< empty with the paper's push, and before the first substep
+    std::vector<double> gap;       ///< at the start of the substep [m]
+    std::vector<Vector3d> point;   ///< where it acts at the start of the substep [m]
     std::vector<Restitution> restitution;  ///< of the substep; this and the next only where some
                                            ///< pair bounces
     std::vector<double> restitution_velocity;  ///< separating speed that it asks for [m/s]
@@ -75,13 +80,10 @@ struct ContactTable {
     std::vector<Vector3d>
         anchor_slip;  ///< how far a sticking contact has left its anchors [m]; else empty
 
-    std::vector<Contact> found_before;  ///< of the step before
-    std::vector<ContactMemory> memory_before;
-    std::vector<std::uint8_t>
-        used;  ///< of those before: whether a contact has taken over its memory
-
-    KeptContacts kept;            ///< only with reuse
-    std::vector<Contact> merged;  ///< memory for putting kept contacts among those found
+    RememberedContacts fresh;  ///< those that the collider reported in this step
+    RememberedContacts left;  ///< of the step before: of pairs that were detected anew, or are gone
+    std::vector<std::uint8_t> used;  ///< of those left: whether a contact has taken over its memory
+    KeptContacts kept;               ///< only with reuse
 
     std::uint64_t rejected =
         0;  ///< contacts left out since the start: a number not finite, or an id unknown

@@ -38,15 +38,18 @@ void erase_body(World& world, std::uint32_t slot) {
 void forget_contacts(World& world, std::uint32_t slot) {
     ContactTable& c = world.contacts;
     const auto is_of_body = [slot](const auto& x) { return x.a == slot || x.b == slot; };
+    const bool rides = !c.kept.rides.empty();
     std::size_t kept = 0;
-    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
-        if (is_of_body(c.found_before[i])) continue;
-        c.found_before[kept] = c.found_before[i];
-        c.memory_before[kept++] = c.memory_before[i];
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        if (is_of_body(c.found[i])) continue;
+        c.found[kept] = c.found[i];
+        c.memory[kept] = c.memory[i];
+        if (rides) c.kept.rides[kept] = c.kept.rides[i];
+        ++kept;
     }
-    c.found_before.resize(kept);
-    c.memory_before.resize(kept);
-    c.found.clear(), c.memory.clear();
+    c.found.resize(kept);
+    c.memory.resize(kept);
+    if (rides) c.kept.rides.resize(kept);
     std::erase_if(c.kept.pairs, is_of_body);
     world.particle_contacts = {};
     world.surface_contacts.clear();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Contacts that are kept from step to step while the two bodies of a pair stand still to each
-/// other.
+/// Contacts that stay in their table from step to step while the two bodies of a pair stand still
+/// to each other.
 #pragma once
 
 #include <plumb/contact_set.h>
@@ -15,7 +15,7 @@ namespace plumb {
 /// A pair as it was when its narrow phase ran.
 struct KeptPair {
     std::uint32_t a, b;          ///< bodies, a < b
-    std::uint32_t first, count;  ///< its contacts in KeptContacts::pool
+    std::uint32_t first, count;  ///< its contacts in the table; `first` within a detection alone
     bool fresh;                  ///< its narrow phase runs in this step
     double margin;               ///< gaps up to it were asked for [m]
     Vector3d offset;             ///< the smaller body's centre of mass in the other's frame [m]
@@ -23,11 +23,25 @@ struct KeptPair {
     double moved = 0;            ///< bound on how far its points have come since [m]
 };
 
+/// Where a contact rides: point_a and normal in a's frame, point_b in b's frame.
+struct ContactRide {
+    Vec3 point_a, point_b, normal;  ///< [m], [m], unit
+};
+
+/// Contacts that stand side by side in the table and move together.
+struct ContactMove {
+    std::uint32_t from, to, count;
+};
+
 struct KeptContacts {
-    std::vector<KeptPair> pairs;         ///< sorted by (a, b); those without a contact as well
-    std::vector<KeptPair> pairs_before;  ///< of the step before
-    std::vector<Contact> pool;           ///< point_a and normal in a's frame, point_b in b's frame
-    std::uint64_t reused = 0;            ///< contacts that were kept in this step
+    std::vector<KeptPair> pairs;     ///< sorted by (a, b); those without a contact as well
+    std::vector<ContactRide> rides;  ///< [contact]; empty where nothing is kept
+    std::uint64_t reused = 0;        ///< contacts that were kept in this step
+
+    // memory of a detection
+    std::vector<KeptPair> born;      ///< pairs that were no candidates in the step before
+    std::vector<ContactMove> stays;  ///< kept contacts: where they stood, where they will
+    std::vector<ContactMove> comes;  ///< detected ones: from ContactTable::fresh to the table
 };
 
 }  // namespace plumb

@@ -41,7 +41,7 @@ TEST(Plan, RimsLeaveNoTablesOnceTheLastIsGone) {
     EXPECT_FALSE(c.rims.empty());
     simulation.remove_body(2);
     run_for(simulation, 0.1);
-    EXPECT_GT(c.found_before.size(), 0u) << "the box";
+    EXPECT_GT(c.found.size(), 0u) << "the box";
     EXPECT_TRUE(c.rims.empty());
 }
 

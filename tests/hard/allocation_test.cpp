@@ -84,7 +84,7 @@ TEST(Allocation, AWarmStepAllocatesNothing) {
                 Simulation teacher(s, colliders(), "reference");
                 teacher.step();
                 Replayed replayed;
-                replayed.contacts = teacher.world().contacts.found_before;
+                replayed.contacts = teacher.world().contacts.found;
                 ASSERT_GT(replayed.contacts.size(), 100u);
 
                 for (const bool watched : {false, true}) {
@@ -119,7 +119,7 @@ TEST(Allocation, AWarmStepOfDeformablesAllocatesNothing) {
                 c.a -= teacher.world().deformables[d].first;
                 replayed.touches[d].push_back(c);
             }
-            replayed.contacts = teacher.world().contacts.found_before;
+            replayed.contacts = teacher.world().contacts.found;
             ASSERT_GT(teacher.world().particle_contacts.found.size(), 50u);
 
             Simulation simulation(s, replayed);

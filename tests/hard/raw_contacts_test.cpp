@@ -99,8 +99,8 @@ TEST(RawContacts, WithoutFeaturesHandTheirImpulsesOn) {
     Simulation simulation(ball_on_ground(ContactOrigin::raw), listener);
     run_for(simulation, 1);
     const World& world = simulation.world();
-    ASSERT_EQ(world.contacts.memory_before.size(), 1u);
-    EXPECT_TRUE(world.contacts.memory_before[0].matched);
+    ASSERT_EQ(world.contacts.memory.size(), 1u);
+    EXPECT_TRUE(world.contacts.memory[0].matched);
     EXPECT_NEAR(world.bodies.position[1].y(), 0.5, 1e-4);
 }
 

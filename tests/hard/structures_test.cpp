@@ -23,13 +23,13 @@ std::vector<Vector> contact_forces(const World& world) {
     const double h = world.settings.dt / world.settings.substeps;
     std::vector<Vector> force(world.bodies.size(), Vector::Zero());
     const ContactTable& c = world.contacts;
-    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
         const Vector push =
-            (c.memory_before[i].normal_impulse * to_eigen(c.found_before[i].normal) +
-             c.memory_before[i].friction_impulse) /
+            (c.memory[i].normal_impulse * to_eigen(c.found[i].normal) +
+             c.memory[i].friction_impulse) /
             h;
-        force[c.found_before[i].a] += push;
-        force[c.found_before[i].b] -= push;
+        force[c.found[i].a] += push;
+        force[c.found[i].b] -= push;
     }
     return force;
 }
@@ -39,15 +39,15 @@ double carried_at(const World& world, double level) {
     const double h = world.settings.dt / world.settings.substeps;
     const ContactTable& c = world.contacts;
     double sum = 0;
-    for (std::size_t i = 0; i < c.found_before.size(); ++i) {
-        const Contact& contact = c.found_before[i];
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        const Contact& contact = c.found[i];
         const auto above = [&](std::uint32_t body) {
             return world.bodies.motion[body] == Motion::dynamic &&
                    world.bodies.position[body].y() > level;
         };
         if (above(contact.a) == above(contact.b)) continue;
-        const double push = c.memory_before[i].normal_impulse * contact.normal.y +
-                            c.memory_before[i].friction_impulse.y();
+        const double push = c.memory[i].normal_impulse * contact.normal.y +
+                            c.memory[i].friction_impulse.y();
         sum += (above(contact.a) ? push : -push) / h;
     }
     return sum;
@@ -305,9 +305,9 @@ TEST_P(Structures, PostsOfAGateShareItsWeight) {
     for (double mass : world.bodies.mass) whole += mass * kGravity;
     std::vector<double> ground(world.bodies.size(), 0);
     const ContactTable& c = world.contacts;
-    for (std::size_t i = 0; i < c.found_before.size(); ++i)
-        if (c.found_before[i].a == 0)
-            ground[c.found_before[i].b] += c.memory_before[i].normal_impulse / h;
+    for (std::size_t i = 0; i < c.found.size(); ++i)
+        if (c.found[i].a == 0)
+            ground[c.found[i].b] += c.memory[i].normal_impulse / h;
     EXPECT_NEAR(ground[1], 0.5 * whole, 0.01 * whole);
     EXPECT_NEAR(ground[2], 0.5 * whole, 0.01 * whole);
 }

@@ -197,7 +197,7 @@ TEST(EditedBody, EffectsComeWithWhatCallsForThem) {
     EXPECT_FALSE(s.plan().runs(Effect::contacts));
     make_steps(s, 3);
     EXPECT_EQ(s.step().contacts, 0u);
-    EXPECT_TRUE(s.world().contacts.found_before.empty());
+    EXPECT_TRUE(s.world().contacts.found.empty());
 }
 
 TEST(EditedBody, RemarksOfTheReaderStayAmongTheWarnings) {

@@ -49,7 +49,7 @@ void sample(const World& world, Rest& rest) {
 }
 
 void measure_end(const World& world, Rest& rest) {
-    rest.contacts = world.contacts.found_before.size();
+    rest.contacts = world.contacts.found.size();
     std::size_t near = 0;
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         if (world.bodies.motion[i] != Motion::dynamic) continue;

@@ -27,8 +27,8 @@ protected:
         ContactMemory memory{};
         memory.normal_impulse = push;
         memory.friction_impulse = {friction, 0, 0};
-        world_.contacts.found_before.push_back(contact);
-        world_.contacts.memory_before.push_back(memory);
+        world_.contacts.found.push_back(contact);
+        world_.contacts.memory.push_back(memory);
     }
 
     double gauge(const std::string& name) const {
@@ -72,9 +72,9 @@ TEST_F(Gauges, TellFrictionBeyondItsBound) {
 TEST_F(Gauges, ReadTheContactsOfTheLastStep) {
     for (int i = 0; i < 50; ++i) simulation_->step();
     world_ = simulation_->world();
-    ASSERT_FALSE(world_.contacts.found_before.empty());
+    ASSERT_FALSE(world_.contacts.found.empty());
     EXPECT_LT(gauge("complementarity"), 1e-5);
-    world_.contacts.found_before[0].gap = 1;
+    world_.contacts.found[0].gap = 1;
     EXPECT_GT(gauge("complementarity"), 0.1);
 }
 

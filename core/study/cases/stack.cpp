@@ -16,9 +16,9 @@ constexpr double kHalf = 0.25;  // [m]
 double force_on(const World& w, std::uint32_t a) {
     const ContactTable& contacts = w.contacts;
     double impulse = 0;
-    for (std::size_t i = 0; i < contacts.found_before.size(); ++i)  // what this step remembered
-        if (contacts.found_before[i].a == a && contacts.found_before[i].b == a + 1)
-            impulse += contacts.memory_before[i].normal_impulse;
+    for (std::size_t i = 0; i < contacts.found.size(); ++i)  // what this step remembered
+        if (contacts.found[i].a == a && contacts.found[i].b == a + 1)
+            impulse += contacts.memory[i].normal_impulse;
     return impulse * w.settings.substeps / w.settings.dt;
 }
 

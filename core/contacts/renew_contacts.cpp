@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "contacts/renew_contacts.h"
+
+#include "contacts/contact_pairs.h"
+#include "contacts/pair_poses.h"
+#include "contacts/reuse_contacts.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace plumb {
+namespace {
+
+std::tuple<std::uint32_t, std::uint32_t> bodies_of(const Contact& c) { return {c.a, c.b}; }
+std::tuple<std::uint32_t, std::uint32_t> bodies_of(const KeptPair& p) { return {p.a, p.b}; }
+
+/// Walks along the pairs, the contacts that stand in the table and those that were detected.
+class Setting {
+public:
+    explicit Setting(ContactTable& table) : table_(table), kept_(table.kept) {
+        kept_.stays.clear(), kept_.comes.clear();
+        kept_.reused = 0;
+        table.left.found.clear(), table.left.memory.clear();
+    }
+
+    void stay(const KeptPair& pair) {
+        leave(pair.first);
+        add(kept_.stays, old_, pair.count);
+        old_ += pair.count;
+        kept_.reused += pair.count;
+    }
+
+    /// Lets the next contacts come that were detected, as long as `is_next` says so of them.
+    /// Returns how many.
+    template <class IsNext>
+    std::uint32_t come(IsNext is_next) {
+        const std::uint32_t first = fresh_;
+        while (fresh_ < table_.fresh.found.size() && is_next(table_.fresh.found[fresh_])) ++fresh_;
+        add(kept_.comes, first, fresh_ - first);
+        return fresh_ - first;
+    }
+
+    /// Leaves out what was detected of a pair that was kept.
+    std::uint32_t skip(const KeptPair& pair) {
+        const std::uint32_t first = fresh_;
+        while (fresh_ < table_.fresh.found.size() &&
+               bodies_of(table_.fresh.found[fresh_]) == bodies_of(pair))
+            ++fresh_;
+        return fresh_ - first;
+    }
+
+    /// The contacts in the table up to `end` do not stay.
+    void leave(std::uint32_t end) {
+        for (; old_ < end; ++old_) {
+            table_.left.found.push_back(table_.found[old_]);
+            table_.left.memory.push_back(table_.memory[old_]);
+        }
+    }
+
+private:
+    /// In one with the move before where it goes on.
+    void add(std::vector<ContactMove>& moves, std::uint32_t from, std::uint32_t count) {
+        if (count == 0) return;
+        if (!moves.empty() && moves.back().from + moves.back().count == from &&
+            moves.back().to + moves.back().count == new_)
+            moves.back().count += count;
+        else
+            moves.push_back({from, new_, count});
+        new_ += count;
+    }
+
+    ContactTable& table_;
+    KeptContacts& kept_;
+    std::uint32_t old_ = 0, fresh_ = 0, new_ = 0;
+};
+
+/// Moves what stays within a column that has room for all. What goes up must not run into what
+/// goes down: nothing does if these begin below and those above, for the order stays.
+template <class Row>
+void move_within(std::vector<Row>& column, const std::vector<ContactMove>& stays) {
+    const auto at = column.begin();
+    for (const ContactMove& m : stays)
+        if (m.to < m.from) std::move(at + m.from, at + m.from + m.count, at + m.to);
+    for (auto m = stays.rbegin(); m != stays.rend(); ++m)
+        if (m->to > m->from)
+            std::move_backward(at + m->from, at + m->from + m->count, at + m->to + m->count);
+}
+
+/// Brings a column to a new size, with everything that stays in its new place.
+template <class Row>
+void make_room(std::vector<Row>& column, const KeptContacts& kept, std::size_t size) {
+    column.resize(std::max(column.size(), size));
+    move_within(column, kept.stays);
+    column.resize(size);
+}
+
+template <class Row>
+void replace(std::vector<Row>& column, const std::vector<Row>& fresh, const KeptContacts& kept,
+             std::size_t size) {
+    make_room(column, kept, size);
+    for (const ContactMove& m : kept.comes)
+        std::copy_n(fresh.begin() + m.from, m.count, column.begin() + m.to);
+}
+
+/// Calls visit(first, end) for the pairs among the contacts of a move.
+template <class Visit>
+void each_pair(const std::vector<Contact>& found, const ContactMove& move, Visit visit) {
+    for (std::size_t i = move.to; i < move.to + move.count;) {
+        const std::size_t end = end_of_pair(found, i);
+        visit(i, end);
+        i = end;
+    }
+}
+
+void bring_up_to_date(World& world) {
+    std::vector<Contact>& found = world.contacts.found;
+    const std::vector<ContactRide>& rides = world.contacts.kept.rides;
+    for (const ContactMove& stay : world.contacts.kept.stays)
+        each_pair(found, stay, [&](std::size_t first, std::size_t end) {
+            const PairPoses poses(world.bodies, found[first].a, found[first].b);
+            for (std::size_t i = first; i < end; ++i) poses.put_into_world(found[i], rides[i]);
+        });
+}
+
+void let_ride(World& world) {
+    const std::vector<Contact>& found = world.contacts.found;
+    std::vector<ContactRide>& rides = world.contacts.kept.rides;
+    for (const ContactMove& come : world.contacts.kept.comes)
+        each_pair(found, come, [&](std::size_t first, std::size_t end) {
+            const PairPoses poses(world.bodies, found[first].a, found[first].b);
+            for (std::size_t i = first; i < end; ++i) rides[i] = poses.put_into_bodies(found[i]);
+        });
+}
+
+}  // namespace
+
+std::uint32_t set_aside(World& world) {
+    ContactTable& table = world.contacts;
+    Setting setting(table);
+    std::uint32_t unasked = 0, foreign = 0;
+    for (KeptPair& pair : table.kept.pairs) {
+        const auto key = bodies_of(pair);
+        foreign += setting.come([&](const Contact& c) { return bodies_of(c) < key; });
+        if (pair.fresh) {
+            pair.count = setting.come([&](const Contact& c) { return bodies_of(c) == key; });
+            continue;
+        }
+        setting.stay(pair);
+        unasked += setting.skip(pair);
+    }
+    setting.leave(static_cast<std::uint32_t>(table.found.size()));
+    foreign += setting.come([](const Contact&) { return true; });
+    if (foreign > 0) forget_kept_contacts(world);  // of pairs that were no candidates
+    return unasked;
+}
+
+std::uint32_t contacts_to_be(const KeptContacts& kept) {
+    std::uint32_t count = 0;
+    for (const ContactMove& m : kept.stays) count += m.count;
+    for (const ContactMove& m : kept.comes) count += m.count;
+    return count;
+}
+
+void put_in(World& world) {
+    ContactTable& table = world.contacts;
+    KeptContacts& kept = table.kept;
+    const std::size_t size = contacts_to_be(kept);
+    replace(table.found, table.fresh.found, kept, size);
+    replace(table.memory, table.fresh.memory, kept, size);
+    make_room(kept.rides, kept, kept.pairs.empty() && kept.stays.empty() ? 0 : size);
+    bring_up_to_date(world);
+    if (kept.pairs.empty())
+        kept.rides.clear();
+    else
+        let_ride(world);
+}
+
+}  // namespace plumb

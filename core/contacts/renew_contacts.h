@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+/// The table of contacts from one detection to the next: those of pairs that were kept stay where
+/// they are, or move up or down together, and are brought to the poses now; only the others are
+/// replaced.
+///
+/// Between the two calls, what was detected (ContactTable::fresh) takes over the memory of what is
+/// left (ContactTable::left).
+#pragma once
+
+#include "world/world.h"
+
+namespace plumb {
+
+/// Which contacts stay, which come, and the others into ContactTable::left. Returns how many were
+/// detected of pairs that were kept, and are left out.
+std::uint32_t set_aside(World& world);
+
+/// How many contacts there will be.
+std::uint32_t contacts_to_be(const KeptContacts& kept);
+
+/// Puts what was detected, with its memory, among what was kept.
+void put_in(World& world);
+
+}  // namespace plumb
