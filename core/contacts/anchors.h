@@ -4,16 +4,15 @@
 #pragma once
 
 #include "contacts/pair_poses.h"
-#include "world/bodies.h"
 #include "world/contacts.h"
 
 namespace plumb {
 
 /// A contact begins to stick at `point`, with a slip behind it already [m].
-inline void set_anchors(ContactMemory& memory, const Bodies& b, const Contact& contact,
-                        const Vector3d& point, const Vector3d& slip) {
-    memory.stick_a = in_body(b, contact.a, point + 0.5 * slip);
-    memory.stick_b = in_body(b, contact.b, point - 0.5 * slip);
+inline void set_anchors(ContactMemory& memory, const PairPoses& poses, const Vector3d& point,
+                        const Vector3d& slip) {
+    memory.stick_a = poses.in_a(point + 0.5 * slip);
+    memory.stick_b = poses.in_b(point - 0.5 * slip);
 }
 
 /// How far apart the points have come by now [m].

@@ -24,6 +24,7 @@ namespace plumb {
 /// Reused memory of detection.
 struct DetectBuffers {
     std::vector<Pose> poses;
+    std::vector<double> travels;
     std::vector<double> sweeps;
     std::vector<PoseChange> changes;   ///< [body] since the detection before
     std::vector<Roundness> roundness;  ///< [body]

@@ -10,14 +10,13 @@
 namespace plumb {
 namespace {
 
-/// How far a body may come in dt beyond what the margin covers already [m].
-double sweep(const World& world, std::size_t i, double dt) {
+/// How far a body may come in dt [m].
+double travel_in(const World& world, std::size_t i, double dt) {
     const Bodies& b = world.bodies;
     if (b.motion[i] == Motion::fixed || !(b.bounding_radius[i] > 0)) return 0;
     const double turn = std::min(b.angular_velocity[i].norm() * dt, 2.0);
     const double spin = turn * b.bounding_radius[i];
-    const double travel = b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
-    return std::max(0.0, travel - world.settings.margin / 2);
+    return b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
 }
 
 bool before(const Contact& x, const Contact& y) {
@@ -31,6 +30,7 @@ void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
     const Bodies& bodies = world.bodies;
     const std::size_t known = buffers.poses.size();
     buffers.poses.resize(bodies.size());
+    buffers.travels.resize(bodies.size());
     buffers.sweeps.resize(bodies.size());
     buffers.changes.resize(bodies.size());
     buffers.roundness.resize(bodies.size());
@@ -38,7 +38,8 @@ void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
         const Pose pose{to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
         buffers.changes[i] = i < known ? PoseChange::between(buffers.poses[i], pose) : PoseChange();
         buffers.poses[i] = pose;
-        buffers.sweeps[i] = sweep(world, i, dt);
+        buffers.travels[i] = travel_in(world, i, dt);
+        buffers.sweeps[i] = std::max(0.0, buffers.travels[i] - world.settings.margin / 2);
         buffers.roundness[i] = {is_round(world, i), has_rim(world, i)};
     }
     buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
@@ -105,7 +106,8 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
     }
     const bool reuse = plan.runs(Effect::contact_reuse);
     const TaskRunner runner = runner_on(workers);
-    ReuseContext context{&world, &buffers.sweeps, &buffers.changes, &buffers.roundness};
+    ReuseContext context{&world, &buffers.travels, &buffers.sweeps, &buffers.changes,
+                         &buffers.roundness};
     PairFilter filter{};
     if (reuse) filter = reuse_filter(context);
     const DetectRequest request{buffers.poses.data(),

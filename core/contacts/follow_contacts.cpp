@@ -62,18 +62,16 @@ void measure(World& world) {
 }
 
 /// Points that a rim has rolled away from do not hold it any more: it sticks where it is now.
-void let_go_of_what_rolled(World& world, std::size_t i) {
+void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) {
     const ContactTable& c = world.contacts;
     const Contact& contact = c.found[i];
     if (!c.rims[i].runs) return;
     const double far = kRolledOn * c.rims[i].rim.radius;
-    const Bodies& b = world.bodies;
     ContactMemory& m = world.contacts.memory[i];
     const Vector3d n = to_eigen(contact.normal), &now = c.point[i];
-    for (const Vector3d& was :
-         {in_world(b, contact.a, m.stick_a), in_world(b, contact.b, m.stick_b)})
+    for (const Vector3d& was : {poses.a_in_world(m.stick_a), poses.b_in_world(m.stick_b)})
         if ((now - was).cross(n).squaredNorm() < far * far) return;
-    set_anchors(m, b, contact, now, Vector3d::Zero());
+    set_anchors(m, poses, now, Vector3d::Zero());
 }
 
 /// How far apart the points have come that met when a contact began to stick.
@@ -87,7 +85,7 @@ void measure_anchor_slips(World& world) {
         const PairPoses poses(world.bodies, at[first].a, at[first].b);
         for (std::size_t i = first; i < end; ++i) {
             if (!is_sharp(c.found[i])) continue;
-            if (!c.rims.empty()) let_go_of_what_rolled(world, i);
+            if (!c.rims.empty()) let_go_of_what_rolled(world, poses, i);
             c.anchor_slip[i] = anchor_slip_of(poses, c.memory[i]);
         }
     }

@@ -92,6 +92,8 @@ std::size_t nearest_sticking(const PairRun& before, const Vector3d& point) {
 /// over the slip of the nearest contact of the pair that stuck, or what the pair has crept would
 /// be forgotten with every feature that changes and every corner that lifts for a moment.
 void anchor_pair(const Bodies& bodies, const PairRun& now, const PairRun& before) {
+    if (std::none_of(now.found.begin(), now.found.end(), is_sharp)) return;
+    const PairPoses poses(bodies, now.found[0].a, now.found[0].b);
     for (std::size_t i = 0; i < now.size(); ++i) {
         ContactMemory& m = now.memory[i];
         const Contact& contact = now.found[i];
@@ -100,9 +102,8 @@ void anchor_pair(const Bodies& bodies, const PairRun& now, const PairRun& before
         const Vector3d point = common_point(contact);
         const std::size_t from = slid ? before.size() : nearest_sticking(before, point);
         Vector3d slip = Vector3d::Zero();
-        if (from < before.size())
-            slip = anchor_slip_of({bodies, contact.a, contact.b}, before.memory[from]);
-        set_anchors(m, bodies, contact, point, slip);
+        if (from < before.size()) slip = anchor_slip_of(poses, before.memory[from]);
+        set_anchors(m, poses, point, slip);
     }
 }
 

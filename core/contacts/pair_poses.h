@@ -22,10 +22,13 @@ public:
     Vector3d a_in_world(const Vector3d& point) const { return at_a_ + turn_a_ * point; }
     Vector3d b_in_world(const Vector3d& point) const { return at_b_ + turn_b_ * point; }
 
+    /// Points of the world in the frames of a and b [m].
+    Vector3d in_a(const Vector3d& point) const { return turn_a_.transpose() * (point - at_a_); }
+    Vector3d in_b(const Vector3d& point) const { return turn_b_.transpose() * (point - at_b_); }
+
     /// Where a contact rides, and the contact brought to the poses now.
     ContactRide put_into_bodies(const Contact& c) const {
-        return {to_plain(turn_a_.transpose() * (to_eigen(c.point_a) - at_a_)),
-                to_plain(turn_b_.transpose() * (to_eigen(c.point_b) - at_b_)),
+        return {to_plain(in_a(to_eigen(c.point_a))), to_plain(in_b(to_eigen(c.point_b))),
                 to_plain(turn_a_.transpose() * to_eigen(c.normal))};
     }
     void put_into_world(Contact& c, const ContactRide& ride) const {

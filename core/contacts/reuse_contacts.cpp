@@ -29,16 +29,15 @@ Watched watched(const Bodies& b, std::uint32_t i, std::uint32_t j) {
     return b.bounding_radius[i] < b.bounding_radius[j] ? Watched{i, j} : Watched{j, i};
 }
 
-void measure_pose(KeptPair& pair, const Bodies& b) {
+PairPose pose_of(const KeptPair& pair, const Bodies& b) {
     const auto [small, large] = watched(b, pair.a, pair.b);
     const Quaterniond back = b.orientation[large].conjugate();
-    pair.offset = back * (b.position[small] - b.position[large]);
-    pair.turn = back * b.orientation[small];
+    return {back * (b.position[small] - b.position[large]), back * b.orientation[small]};
 }
 
 /// Twice the sine of half the angle by which the smaller body has turned in the other's frame: a
 /// point at distance r has moved by r times it.
-double turned(const KeptPair& then, const KeptPair& now) {
+double turned(const PairPose& then, const PairPose& now) {
     return 2 * (then.turn.conjugate() * now.turn).vec().norm();
 }
 
@@ -49,32 +48,15 @@ struct Allowed {
     double moved, turned;
 };
 
-/// What the bodies of a pair have moved by since the detection before, at most [m].
-double motion_of(const KeptPair& pair, const Bodies& b, const std::vector<PoseChange>& changes) {
-    const PoseChange &of_a = changes[pair.a], &of_b = changes[pair.b];
-    const double radius = std::min(b.bounding_radius[pair.a], b.bounding_radius[pair.b]);
-    const double reach = pair.offset.norm() + pair.moved + radius;
-    return of_a.travel + of_b.travel + (of_a.turn + of_b.turn) * reach;
-}
-
-/// Whether the contacts of a pair will do at the poses now. Its bound is brought up to date.
-bool will_do(KeptPair& pair, const Bodies& b, const Allowed& most) {
-    const double surely = kSure * std::min(most.moved, most.turned);
-    if (pair.moved <= surely) return true;
-    KeptPair now = pair;
-    measure_pose(now, b);
-    const double radius = b.bounding_radius[watched(b, pair.a, pair.b).small];
-    const double turn = turned(pair, now) * radius;
-    pair.moved = (now.offset - pair.offset).norm() + turn;
-    return turn <= most.turned && pair.moved <= most.moved;
-}
-
 /// Goes through the candidates of a detection and the pairs of the one before side by side.
 class Choice {
 public:
     explicit Choice(const ReuseContext& context)
-        : context_(context), world_(*context.world), contacts_(world_.contacts) {
-        contacts_.kept.born.clear();
+        : context_(context),
+          world_(*context.world),
+          contacts_(world_.contacts),
+          kept_(contacts_.kept) {
+        kept_.born.clear(), kept_.born_poses.clear();
     }
 
     /// Whether the narrow phase must run on a pair. Nothing is kept of one that is out of order or
@@ -82,46 +64,48 @@ public:
     bool is_wanted(std::uint32_t a, std::uint32_t b) {
         if (!(a < b) || b >= context_.sweeps->size() || std::tie(a, b) <= last_) return true;
         last_ = {a, b};
-        std::vector<KeptPair>& pairs = contacts_.kept.pairs;
-        while (read_ < pairs.size() && key(pairs[read_]) < std::tie(a, b)) leave_out();
+        std::vector<KeptPair>& pairs = kept_.pairs;
+        while (read_ < pairs.size() && key(pairs[read_]) < std::tie(a, b))
+            contact_ += pairs[read_++].count;
         const double margin =
             world_.settings.margin + (*context_.sweeps)[a] + (*context_.sweeps)[b];
         if (read_ == pairs.size() || key(pairs[read_]) != std::tie(a, b)) {
-            KeptPair& born = contacts_.kept.born.emplace_back();
-            born.a = a, born.b = b;
-            renew(born, margin);
+            kept_.born.push_back({a, b, 0, 0, true, margin, 0, 0});
+            renew(kept_.born.back(), kept_.born_poses.emplace_back(), margin);
             return true;
         }
         KeptPair& pair = pairs[read_];
+        PairPose& pose = kept_.poses[read_];
         pair.first = contact_;
-        if (is_kept(pair, margin))
+        contact_ += pair.count;
+        if (is_kept(pair, pose, margin))
             keep(pair);
         else
-            renew(pair, margin);
+            renew(pair, pose, margin);
         const bool wanted = pair.fresh;
-        contact_ += pair.count;
-        if (write_ != read_) pairs[write_] = pair;
+        if (write_ != read_) pairs[write_] = pair, kept_.poses[write_] = pose;
         ++write_, ++read_;
         return wanted;
     }
 
-    /// Only pairs that are candidates stay, and new ones go among them.
+    /// Only pairs that are candidates stay, and new ones go among them, the last first.
     void finish() {
-        std::vector<KeptPair>&pairs = contacts_.kept.pairs, &born = contacts_.kept.born;
-        pairs.resize(write_);
-        if (born.empty()) return;
-        pairs.insert(pairs.end(), born.begin(), born.end());
-        std::inplace_merge(pairs.begin(), pairs.begin() + static_cast<std::ptrdiff_t>(write_),
-                           pairs.end(),
-                           [](const KeptPair& p, const KeptPair& q) { return key(p) < key(q); });
+        const std::size_t size = write_ + kept_.born.size();
+        kept_.pairs.resize(size), kept_.poses.resize(size);
+        for (std::size_t to = size, from = write_, born = kept_.born.size(); born > 0;) {
+            const bool stays = from > 0 && key(kept_.born[born - 1]) < key(kept_.pairs[from - 1]);
+            --to, stays ? --from : --born;
+            kept_.pairs[to] = stays ? kept_.pairs[from] : kept_.born[born];
+            kept_.poses[to] = stays ? kept_.poses[from] : kept_.born_poses[born];
+        }
     }
 
 private:
-    void leave_out() { contact_ += contacts_.kept.pairs[read_++].count; }
-
-    void renew(KeptPair& pair, double margin) const {
+    void renew(KeptPair& pair, PairPose& pose, double margin) const {
+        const Bodies& b = world_.bodies;
+        pose = pose_of(pair, b);
         pair.fresh = true, pair.margin = margin, pair.moved = 0;
-        measure_pose(pair, world_.bodies);
+        pair.reach = pose.offset.norm() + smaller_radius(pair);
     }
 
     /// What was detected in the step before is known from now on.
@@ -134,19 +118,40 @@ private:
         pair.fresh = false;
     }
 
-    bool is_kept(KeptPair& pair, double margin) const {
-        const double motion = motion_of(pair, world_.bodies, *context_.changes);
-        pair.moved += motion;
-        const double apart = allowed_apart(pair, margin, motion);
+    double smaller_radius(const KeptPair& pair) const {
+        const std::vector<double>& radius = world_.bodies.bounding_radius;
+        return std::min(radius[pair.a], radius[pair.b]);
+    }
+
+    bool is_kept(KeptPair& pair, const PairPose& then, double margin) const {
+        add_motion(pair);
+        const double apart = allowed_apart(pair, margin);
         const double distance = world_.settings.reuse_distance;
-        if (apart > distance) return will_do(pair, world_.bodies, {apart, apart});
-        return pair.margin >= margin - distance && will_do(pair, world_.bodies, allowed(pair));
+        if (apart > distance) return will_do(pair, then, {apart, apart});
+        return pair.margin >= margin - distance && will_do(pair, then, allowed(pair));
+    }
+
+    /// Adds what the bodies have moved since the detection before to the bound of a pair.
+    void add_motion(KeptPair& pair) const {
+        const PoseChange &a = (*context_.changes)[pair.a], &b = (*context_.changes)[pair.b];
+        pair.moved += a.travel + b.travel + (a.turn + b.turn) * (pair.reach + pair.moved);
+    }
+
+    /// Whether the contacts of a pair will do at the poses now. Its bound is brought up to date.
+    bool will_do(KeptPair& pair, const PairPose& then, const Allowed& most) const {
+        const double surely = kSure * std::min(most.moved, most.turned);
+        if (pair.moved <= surely) return true;
+        const PairPose now = pose_of(pair, world_.bodies);
+        const double turn = turned(then, now) * smaller_radius(pair);
+        pair.moved = (now.offset - then.offset).norm() + turn;
+        return turn <= most.turned && pair.moved <= most.moved;
     }
 
     /// By how much a pair may move that was farther apart than its margin [m]; 0 where it was not.
-    double allowed_apart(const KeptPair& pair, double margin, double motion) const {
+    double allowed_apart(const KeptPair& pair, double margin) const {
         if (pair.count > 0) return 0;
-        return pair.margin - std::max(margin - world_.settings.margin / 2, 2 * motion);
+        const double step = (*context_.travels)[pair.a] + (*context_.travels)[pair.b];
+        return pair.margin - std::max(margin - world_.settings.margin / 2, 2 * step);
     }
 
     Allowed allowed(const KeptPair& pair) const {
@@ -162,6 +167,7 @@ private:
     const ReuseContext& context_;
     World& world_;
     ContactTable& contacts_;
+    KeptContacts& kept_;
     std::size_t read_ = 0, write_ = 0;                     // of the pairs
     std::uint32_t contact_ = 0;                            // the first of pair `read_`
     std::tuple<std::uint32_t, std::uint32_t> last_{0, 0};  // that was in order
@@ -179,6 +185,9 @@ void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uin
 
 PairFilter reuse_filter(ReuseContext& context) { return {&context, choose}; }
 
-void forget_kept_contacts(World& world) { world.contacts.kept.pairs.clear(); }
+void forget_kept_contacts(World& world) {
+    world.contacts.kept.pairs.clear();
+    world.contacts.kept.poses.clear();
+}
 
 }  // namespace plumb

@@ -9,7 +9,7 @@
 ///   gaps        exact to first order: off by at most d²/2r for features of size r,
 ///   outlines    of contact areas within d,
 ///   new points  from being found at a gap of margin − d at the latest; the first of a pair, at
-///               half of the margin, and before the pair may have moved by half of the gap,
+///               half of the margin, and before half of their gap may close in a step,
 ///
 /// and no error adds up, because the motion is measured from the pose of the last narrow phase.
 /// What is round rolls on its contacts, and where these are solved exactly it moves by as little as
@@ -33,7 +33,8 @@ struct Roundness {
 /// What a question to the collider needs to leave out pairs.
 struct ReuseContext {
     World* world;
-    const std::vector<double>* sweeps;        ///< [body] [m]
+    const std::vector<double>* travels;       ///< [body] what it may move by in the step [m]
+    const std::vector<double>* sweeps;        ///< [body] beyond what the margin covers [m]
     const std::vector<PoseChange>* changes;   ///< [body]
     const std::vector<Roundness>* roundness;  ///< [body]
     bool asked = false;                       ///< whether the collider has asked

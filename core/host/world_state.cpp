@@ -81,9 +81,11 @@ void each_number_of_memory(Io& io, Table& table) {
         plain_vector(io, r.point_a), plain_vector(io, r.point_b), plain_vector(io, r.normal);
     io.count(table.kept.pairs);
     for (auto& pair : table.kept.pairs) {
-        io(pair.a), io(pair.b), io(pair.count), io(pair.fresh), io(pair.margin);
-        vector(io, pair.offset), quaternion(io, pair.turn), io(pair.moved);
+        io(pair.a), io(pair.b), io(pair.count), io(pair.fresh);
+        io(pair.margin), io(pair.reach), io(pair.moved);
     }
+    io.count(table.kept.poses);
+    for (auto& pose : table.kept.poses) vector(io, pose.offset), quaternion(io, pose.turn);
 }
 
 template <class Io, class W>
@@ -111,10 +113,13 @@ void each_number(Io& io, W& world) {
 /// Columns of one length, and pairs that have all contacts between them; else nothing is kept.
 void drop_what_does_not_fit(ContactTable& table) {
     table.memory.resize(table.found.size());
-    std::uint64_t kept = 0;
-    for (const KeptPair& pair : table.kept.pairs) kept += pair.count;
-    if (kept == table.found.size() && kept == table.kept.rides.size()) return;
-    table.kept.pairs.clear(), table.kept.rides.clear();
+    KeptContacts& kept = table.kept;
+    std::uint64_t count = 0;
+    for (const KeptPair& pair : kept.pairs) count += pair.count;
+    if (count == table.found.size() && count == kept.rides.size() &&
+        kept.pairs.size() == kept.poses.size())
+        return;
+    kept.pairs.clear(), kept.poses.clear(), kept.rides.clear();
 }
 
 }  // namespace

@@ -60,12 +60,13 @@ public:
         const double fall = world.settings.gravity.norm() * world.settings.dt * world.settings.dt;
         const double where_free = world.joints.size() == 0 ? kTrusted : kOutOfReach;
         const bool is_loose = world.joints.size() == 0 && world.particles.size() == 0;
-        const double weight = is_loose && world.kinematic_count > 0 ? weight_of_all(world) : 0;
-        greatest_.assign(pairs_.size(), kOutOfReach);
+        has_bounds_ = is_loose && world.kinematic_count > 0;
+        greatest_.assign(has_bounds_ ? pairs_.size() : 0, kOutOfReach);
+        const double weight = has_bounds_ ? weight_of_all(world) : 0;
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             const BodyPair& pair = pairs_[i];
             const bool driven = is_driven(world, exact, pair);
-            if (driven && is_loose) greatest_[i] = greatest_impulse(world, pair, weight);
+            if (driven && has_bounds_) greatest_[i] = greatest_impulse(world, pair, weight);
             const double share = driven ? kTrustedWhereDriven : where_free;
             const double radius = smaller_radius(world.bodies, world.contacts.found[pair.first]);
             std::fill_n(trusted_.begin() + pair.first, pair.count, std::max(share * radius, fall));
@@ -111,7 +112,7 @@ public:
         batches_.each_contact(pairs_, [&](const ContactPlace& at) {
             const auto [contact, k, lane] = std::tuple(at.contact, at.row, at.lane);
             NormalRow<Real, W>& row = rows.normals[k];
-            bound_impulses(rows, k, lane, greatest_[at.pair]);
+            if (has_bounds_) bound_impulses(rows, k, lane, greatest_[at.pair]);
             const double gap = gap_to_solve_for(world, contact, pass.recovery);
             row.gap[lane] = static_cast<Real>(gap);
             row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
@@ -424,6 +425,7 @@ private:
     ContactBatches<Real, W> batches_;
     ContactImpacts<Real, W> impacts_;
     std::vector<double> trusted_;     // [contact] overlap [m]
+    bool has_bounds_ = false;         // whether any is below kOutOfReach
     std::vector<double> greatest_;    // [pair], see greatest_impulse [N s]
     std::vector<std::uint8_t> deep_;  // [pair]
     const std::vector<std::uint32_t>* levels_ = nullptr;

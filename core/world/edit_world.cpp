@@ -11,6 +11,17 @@ void count(World& world, Motion motion, std::int32_t change) {
     if (motion == Motion::kinematic) world.kinematic_count += change;
 }
 
+template <class Is>
+void forget_pairs(KeptContacts& kept, Is is_of_body) {
+    std::size_t stays = 0;
+    for (std::size_t i = 0; i < kept.pairs.size(); ++i) {
+        if (is_of_body(kept.pairs[i])) continue;
+        kept.pairs[stays] = kept.pairs[i];
+        kept.poses[stays++] = kept.poses[i];
+    }
+    kept.pairs.resize(stays), kept.poses.resize(stays);
+}
+
 }  // namespace
 
 std::uint32_t insert_body(World& world, BodyRow row) {
@@ -50,7 +61,7 @@ void forget_contacts(World& world, std::uint32_t slot) {
     c.found.resize(kept);
     c.memory.resize(kept);
     if (rides) c.kept.rides.resize(kept);
-    std::erase_if(c.kept.pairs, is_of_body);
+    forget_pairs(c.kept, is_of_body);
     world.particle_contacts = {};
     world.surface_contacts.clear();
 }

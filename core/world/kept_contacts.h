@@ -12,15 +12,20 @@
 
 namespace plumb {
 
-/// A pair as it was when its narrow phase ran.
+/// What a walk over all pairs reads of one.
 struct KeptPair {
     std::uint32_t a, b;          ///< bodies, a < b
     std::uint32_t first, count;  ///< its contacts in the table; `first` within a detection alone
     bool fresh;                  ///< its narrow phase runs in this step
     double margin;               ///< gaps up to it were asked for [m]
-    Vector3d offset;             ///< the smaller body's centre of mass in the other's frame [m]
-    Quaterniond turn;            ///< the smaller body's frame → the other's
-    double moved = 0;            ///< bound on how far its points have come since [m]
+    double reach;                ///< |PairPose::offset| and the smaller body's radius [m]
+    double moved;                ///< bound on how far its points have come since [m]
+};
+
+/// How the bodies of a pair stood to each other when its narrow phase ran.
+struct PairPose {
+    Vector3d offset;   ///< the smaller body's centre of mass in the other's frame [m]
+    Quaterniond turn;  ///< the smaller body's frame → the other's
 };
 
 /// Where a contact rides: point_a and normal in a's frame, point_b in b's frame.
@@ -35,13 +40,15 @@ struct ContactMove {
 
 struct KeptContacts {
     std::vector<KeptPair> pairs;     ///< sorted by (a, b); those without a contact as well
+    std::vector<PairPose> poses;     ///< [pair]
     std::vector<ContactRide> rides;  ///< [contact]; empty where nothing is kept
     std::uint64_t reused = 0;        ///< contacts that were kept in this step
 
     // memory of a detection
-    std::vector<KeptPair> born;      ///< pairs that were no candidates in the step before
-    std::vector<ContactMove> stays;  ///< kept contacts: where they stood, where they will
-    std::vector<ContactMove> comes;  ///< detected ones: from ContactTable::fresh to the table
+    std::vector<KeptPair> born;        ///< pairs that were no candidates in the step before
+    std::vector<PairPose> born_poses;  ///< [born]
+    std::vector<ContactMove> stays;    ///< kept contacts: where they stood, where they will
+    std::vector<ContactMove> comes;    ///< detected ones: from ContactTable::fresh to the table
 };
 
 }  // namespace plumb
