@@ -23,7 +23,6 @@ namespace plumb {
 
 /// Reused memory of detection.
 struct DetectBuffers {
-    std::vector<Pose> poses;
     std::vector<double> travels;
     std::vector<double> sweeps;
     std::vector<PoseChange> changes;   ///< [body] since the detection before

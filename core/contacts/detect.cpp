@@ -26,18 +26,19 @@ bool before(const Contact& x, const Contact& y) {
 }
 
 /// Poses, sweeps and roundness of all bodies, and empty sinks.
-void prepare_request(const World& world, DetectBuffers& buffers, double dt) {
+void prepare_request(World& world, DetectBuffers& buffers, double dt) {
     const Bodies& bodies = world.bodies;
-    const std::size_t known = buffers.poses.size();
-    buffers.poses.resize(bodies.size());
+    std::vector<Pose>& poses = world.contacts.kept.seen;
+    const std::size_t known = poses.size();
+    poses.resize(bodies.size());
     buffers.travels.resize(bodies.size());
     buffers.sweeps.resize(bodies.size());
     buffers.changes.resize(bodies.size());
     buffers.roundness.resize(bodies.size());
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Pose pose{to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
-        buffers.changes[i] = i < known ? PoseChange::between(buffers.poses[i], pose) : PoseChange();
-        buffers.poses[i] = pose;
+        buffers.changes[i] = i < known ? PoseChange::between(poses[i], pose) : PoseChange();
+        poses[i] = pose;
         buffers.travels[i] = travel_in(world, i, dt);
         buffers.sweeps[i] = std::max(0.0, buffers.travels[i] - world.settings.margin / 2);
         buffers.roundness[i] = {is_round(world, i), has_rim(world, i)};
@@ -110,9 +111,9 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
                          &buffers.roundness};
     PairFilter filter{};
     if (reuse) filter = reuse_filter(context);
-    const DetectRequest request{buffers.poses.data(),
+    const DetectRequest request{world.contacts.kept.seen.data(),
                                 buffers.sweeps.data(),
-                                static_cast<std::uint32_t>(buffers.poses.size()),
+                                static_cast<std::uint32_t>(world.contacts.kept.seen.size()),
                                 detect_flags(world.settings),
                                 world.settings.margin,
                                 reuse ? &filter : nullptr,

@@ -47,7 +47,7 @@ void ContactRecord::take_contacts(const World& world, const Stepper& stepper) {
     if (!stepper.plan.runs(Effect::contacts)) return;
     const Bodies& b = world.bodies;
     const ContactTable& table = world.contacts;
-    const std::vector<Pose>& then = stepper.buffers.poses;
+    const std::vector<Pose>& then = table.kept.seen;
     for (std::size_t i = 0; i < table.found.size(); ++i) {
         const Contact& found = table.found[i];
         const ContactSum& sum = stepper.sums->bodies()[i];

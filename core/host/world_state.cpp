@@ -76,6 +76,11 @@ void each_number_of_memory(Io& io, Table& table) {
         io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.known), io(m.matched);
     }
     io(table.rejected);
+    io.count(table.kept.seen);
+    for (auto& pose : table.kept.seen) {
+        plain_vector(io, pose.position);
+        io(pose.rotation.x), io(pose.rotation.y), io(pose.rotation.z), io(pose.rotation.w);
+    }
     io.count(table.kept.rides);
     for (auto& r : table.kept.rides)
         plain_vector(io, r.point_a), plain_vector(io, r.point_b), plain_vector(io, r.normal);

@@ -42,6 +42,7 @@ struct KeptContacts {
     std::vector<KeptPair> pairs;     ///< sorted by (a, b); those without a contact as well
     std::vector<PairPose> poses;     ///< [pair]
     std::vector<ContactRide> rides;  ///< [contact]; empty where nothing is kept
+    std::vector<Pose> seen;          ///< [body] at the last detection
     std::uint64_t reused = 0;        ///< contacts that were kept in this step
 
     // memory of a detection
