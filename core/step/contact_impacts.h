@@ -34,8 +34,7 @@ public:
         find_blocks(impacts, pairs, batches);
         const ContactArrays<Real, W> rows = batches.arrays();
         resting_.take(rows, blocks_);
-        batches.each_contact(pairs, [&](const ContactPlace& at) {
-            if (!impacts.is_hit(at.pair)) return;
+        each_hit(impacts, pairs, batches, [&](const ContactPlace& at) {
             NormalRow<Real, W>& row = rows.normals[at.row];
             row.gap[at.lane] = static_cast<Real>(gap_in_substep(c, at.contact));
             row.restitution_velocity[at.lane] = 0;
@@ -57,8 +56,8 @@ public:
         if (c.restitution.empty()) return false;
         const ContactArrays<Real, W> rows = batches.arrays();
         given_.clear(), hit_.clear();
-        batches.each_contact(pairs, [&](const ContactPlace& at) {
-            if (!impacts.is_hit(at.pair) || c.is_passing(at.contact)) return;
+        each_hit(impacts, pairs, batches, [&](const ContactPlace& at) {
+            if (c.is_passing(at.contact)) return;
             c.set_restitution(at.contact, 0);
             const Real impulse = restitution(world, rows, at);
             hit_.push_back(at.contact);
@@ -90,6 +89,14 @@ public:
     }
 
 private:
+    /// Calls visit(ContactPlace) for the contacts of islands in which bodies collide.
+    template <class Visit>
+    static void each_hit(const Impacts& impacts, const std::vector<BodyPair>& pairs,
+                         const Batches& batches, Visit visit) {
+        for (std::size_t p = 0; p < pairs.size(); ++p)
+            if (impacts.is_hit(p)) batches.each_contact(pairs, p, visit);
+    }
+
     void find_blocks(const Impacts& impacts, const std::vector<BodyPair>& pairs,
                      const Batches& batches) {
         is_hit_.assign(batches.block_count(), 0);
