@@ -24,7 +24,6 @@ struct PairRun {
     std::span<const Contact> found;
     std::span<ContactMemory> memory;
 
-    PairRun() = default;
     PairRun(RememberedContacts& of, std::size_t first, std::size_t end)
         : found(of.found.data() + first, end - first),
           memory(of.memory.data() + first, end - first) {}

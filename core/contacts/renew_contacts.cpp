@@ -15,9 +15,9 @@ std::tuple<std::uint32_t, std::uint32_t> bodies_of(const Contact& c) { return {c
 std::tuple<std::uint32_t, std::uint32_t> bodies_of(const KeptPair& p) { return {p.a, p.b}; }
 
 /// Walks along the pairs, the contacts that stand in the table and those that were detected.
-class Setting {
+class Renewal {
 public:
-    explicit Setting(ContactTable& table) : table_(table), kept_(table.kept) {
+    explicit Renewal(ContactTable& table) : table_(table), kept_(table.kept) {
         kept_.stays.clear(), kept_.comes.clear();
         kept_.reused = 0;
         table.left.found.clear(), table.left.memory.clear();
@@ -136,20 +136,20 @@ void let_ride(World& world) {
 
 std::uint32_t set_aside(World& world) {
     ContactTable& table = world.contacts;
-    Setting setting(table);
+    Renewal renewal(table);
     std::uint32_t unasked = 0, foreign = 0;
     for (KeptPair& pair : table.kept.pairs) {
         const auto key = bodies_of(pair);
-        foreign += setting.come([&](const Contact& c) { return bodies_of(c) < key; });
+        foreign += renewal.come([&](const Contact& c) { return bodies_of(c) < key; });
         if (pair.fresh) {
-            pair.count = setting.come([&](const Contact& c) { return bodies_of(c) == key; });
+            pair.count = renewal.come([&](const Contact& c) { return bodies_of(c) == key; });
             continue;
         }
-        setting.stay(pair);
-        unasked += setting.skip(pair);
+        renewal.stay(pair);
+        unasked += renewal.skip(pair);
     }
-    setting.leave(static_cast<std::uint32_t>(table.found.size()));
-    foreign += setting.come([](const Contact&) { return true; });
+    renewal.leave(static_cast<std::uint32_t>(table.found.size()));
+    foreign += renewal.come([](const Contact&) { return true; });
     if (foreign > 0) forget_kept_contacts(world);  // of pairs that were no candidates
     return unasked;
 }
