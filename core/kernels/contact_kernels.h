@@ -17,6 +17,22 @@ using ContactPass = void (*)(const ContactArrays<Real, W>& arrays, const BodyRow
                              const PassSettings<Real>& pass, std::uint32_t first,
                              std::uint32_t last);
 
+/// What one more solution of each of a pair's rows alone would change, in squares: see
+/// effects/residual.h. A row's impulse is here the vector of its normal and its friction.
+template <class Real, int W>
+struct alignas(kRowAlignment<Real, W>) PairResidual {
+    Real worst[W], sum[W];  // of impulses, the greatest and all [N² s²]
+    Real error[W];          // of velocities, the greatest [m²/s²]
+    Real push[W];           // normal impulses, summed [N s]
+};
+
+/// Fills those of the blocks [first, last), and changes nothing else.
+template <class Real, int W>
+using ResidualPass = void (*)(PairResidual<Real, W>* residuals,
+                              const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
+                              const PassSettings<Real>& pass, std::uint32_t first,
+                              std::uint32_t last);
+
 template <class Real, int W>
 struct ContactKernels {
     ContactPass<Real, W> prepare;           // at new poses: tangents, effective masses
@@ -24,6 +40,7 @@ struct ContactKernels {
     ContactPass<Real, W> warm_start;        // applies the impulses that the rows already hold
     ContactPass<Real, W> solve_velocities;  // one iteration
     ContactPass<Real, W> solve_positions;   // one iteration
+    ResidualPass<Real, W> find_residuals;   // after the last
 };
 
 /// The kernels of one variant. Throws std::logic_error when this processor cannot run W lanes.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The loops behind the contact kernels. Included by the units of each instruction set and by
-/// nothing else.
+/// The loops behind the contact kernels. Included by the units of each instruction set, through
+/// kernels/contact_tables.h, and by nothing else.
 ///
 /// A block's bodies are gathered once, its points are solved one after another, and the bodies are
 /// written back.
@@ -11,8 +11,6 @@
 #include "constraints/rolling.h"
 #include "kernels/contact_kernels.h"
 #include "kernels/gather.h"
-
-#include <array>
 
 namespace plumb::kernels {
 
@@ -335,20 +333,6 @@ void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
         }
         write_pair(bodies, block, pair);
     }
-}
-
-template <class Real, int W, ContactVariant V>
-constexpr ContactKernels<Real, W> kernels_of() {
-    return {prepare<Real, W, V>, begin<Real, W, V>, warm_start<Real, W, V>,
-            solve<Pass::velocity, Real, W, V>, solve<Pass::position, Real, W, V>};
-}
-
-/// All variants of one precision and width, indexed by ContactVariant.
-template <class Real, int W>
-constexpr std::array<ContactKernels<Real, W>, kContactVariants> all_contact_kernels() {
-    return {kernels_of<Real, W, ContactVariant::frictionless>(),
-            kernels_of<Real, W, ContactVariant::friction>(),
-            kernels_of<Real, W, ContactVariant::rolling>()};
 }
 
 }  // namespace plumb::kernels

@@ -191,14 +191,29 @@ public:
         islands_->solve(world, report);
     }
 
+    /// Shock propagation has the last word about contacts.
+    StepResidual find_residual(const World& world) override {
+        residuals_.begin(world);
+        for (const auto& group : groups_) group->join_islands(residuals_);
+        if (islands_) islands_->join_islands(world, residuals_);
+        residuals_.end_joining();
+        for (const auto& group : groups_)
+            if (!(shocks_ && group.get() == contacts_))
+                group->add_residuals(residuals_, table_.rows(), pass_);
+        if (shocks_) shock_->add_residuals(residuals_, table_.rows(), shock_pass());
+        if (islands_) islands_->add_residuals(world, residuals_);
+        return residuals_.find(world, substep_of(world.settings));
+    }
+    const std::vector<IslandResidual>& island_residuals() const override {
+        return residuals_.islands();
+    }
+
     /// One iteration from the ground up in which the lower body of each pair is immovable
     /// (Guendelman et al.).
     void propagate_shock() override {
         if (contacts_->empty()) return;
         shock_->copy_impulses(*contacts_);
-        PassSettings<Real> pass = pass_;
-        pass.shared_cone = true;
-        pass.shared_push = false;
+        PassSettings<Real> pass = shock_pass();
         pass.forwards = substeps_ % 2 == 0;  // the order of a pair's points favours no side
         workers_.run([&](std::uint32_t worker) {
             shock_->rounds_iteration(table_.rows(), pass, kShockRounds, worker);
@@ -274,6 +289,13 @@ private:
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
     }
 
+    PassSettings<Real> shock_pass() const {
+        PassSettings<Real> pass = pass_;
+        pass.shared_cone = true;
+        pass.shared_push = false;
+        return pass;
+    }
+
     /// Books what is done while it lives on a group's stage.
     static std::optional<ShareTimer> share_of(const Group& group, Ledger& ledger, Stage around) {
         using Share = std::optional<ShareTimer>;
@@ -332,6 +354,7 @@ private:
     Impacts impacts_;
     std::vector<Velocity<Real>> settled_;  // [row], of what collides
     EnergyBound<Real, W> energy_;
+    IslandResiduals residuals_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t iterations_ = 0;

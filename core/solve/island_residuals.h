@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+/// Gathers the residuals of constraints (effects/residual.h) by the islands of their bodies.
+#pragma once
+
+#include "effects/residual.h"
+#include "world/world.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace plumb {
+
+/// What constraints of one island lack together, in squares.
+struct ResidualSum {
+    double worst = 0, sum = 0;  ///< of their impulses, the greatest and all [N² s²]
+    double error = 0;           ///< of their velocities, the greatest [m²/s²]
+    double push = 0;            ///< what contacts bear along their normals [N s]
+    std::uint32_t count = 0;    ///< of constraints
+
+    void add(const ResidualSum& other);
+};
+
+/// Reusable memory. Bodies are named by their rows in the velocity table; those that are not of
+/// dynamic bodies join nothing. Sums are in the order of the calls.
+class IslandResiduals {
+public:
+    /// Forgets all, and joins what joints and links between bodies hold together.
+    void begin(const World& world);
+    /// Joins the islands of two bodies; not after the first `add`.
+    void join(std::int32_t row_a, std::int32_t row_b);
+    /// Once all are joined.
+    void end_joining();
+
+    /// Constraints between two bodies.
+    void add(std::int32_t row_a, std::int32_t row_b, const ResidualSum& lacking);
+    /// The island of a body was solved exactly.
+    void mark_exact(std::int32_t row) { bodies_[parent_[row]].exact = true; }
+
+    /// What came of the last substep, of length h [s].
+    StepResidual find(const World& world, double h);
+
+    /// Of that, each island that has constraints, in the order of their bodies' least rows.
+    const std::vector<IslandResidual>& islands() const { return islands_; }
+
+private:
+    void weigh(const World& world);
+
+    std::vector<std::int32_t> parent_;    // [dynamic row] the root, once all are joined
+    std::vector<ResidualSum> sums_;       // [root]
+    std::vector<IslandResidual> bodies_;  // [root] with what its bodies tell, not its constraints
+    std::vector<IslandResidual> islands_;
+};
+
+}  // namespace plumb
