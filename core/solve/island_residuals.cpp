@@ -22,14 +22,6 @@ IslandResidual island_residual(const IslandResidual& bodies, const ResidualSum& 
 
 }  // namespace
 
-void ResidualSum::add(const ResidualSum& other) {
-    worst = std::max(worst, other.worst);
-    error = std::max(error, other.error);
-    sum += other.sum;
-    push += other.push;
-    count += other.count;
-}
-
 void IslandResiduals::begin(const World& world) {
     const auto count = static_cast<std::size_t>(world.dynamic_count);
     parent_.resize(count);
@@ -47,26 +39,8 @@ void IslandResiduals::begin(const World& world) {
         if (link.is_between_bodies()) join(row_of(link.a.body), row_of(link.b.body));
 }
 
-/// The least row becomes the root.
-void IslandResiduals::join(std::int32_t row_a, std::int32_t row_b) {
-    const auto count = static_cast<std::int32_t>(parent_.size());
-    if (row_a >= count || row_b >= count) return;
-    const auto root = [this](std::int32_t row) {
-        while (parent_[row] != row) row = parent_[row] = parent_[parent_[row]];
-        return row;
-    };
-    const std::int32_t a = root(row_a), b = root(row_b);
-    parent_[std::max(a, b)] = std::min(a, b);
-}
-
 void IslandResiduals::end_joining() {
     for (std::int32_t& row : parent_) row = parent_[parent_[row]];
-}
-
-void IslandResiduals::add(std::int32_t row_a, std::int32_t row_b, const ResidualSum& lacking) {
-    const auto count = static_cast<std::int32_t>(parent_.size());
-    const std::int32_t row = row_a < count ? row_a : row_b;
-    if (row < count) sums_[parent_[row]].add(lacking);
 }
 
 /// How many bodies each island has, and what they weigh.

@@ -5,6 +5,7 @@
 #include "effects/residual.h"
 #include "world/world.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -17,7 +18,13 @@ struct ResidualSum {
     double push = 0;            ///< what contacts bear along their normals [N s]
     std::uint32_t count = 0;    ///< of constraints
 
-    void add(const ResidualSum& other);
+    void add(const ResidualSum& other) {
+        worst = std::max(worst, other.worst);
+        error = std::max(error, other.error);
+        sum += other.sum;
+        push += other.push;
+        count += other.count;
+    }
 };
 
 /// Reusable memory. Bodies are named by their rows in the velocity table; those that are not of
@@ -27,12 +34,21 @@ public:
     /// Forgets all, and joins what joints and links between bodies hold together.
     void begin(const World& world);
     /// Joins the islands of two bodies; not after the first `add`.
-    void join(std::int32_t row_a, std::int32_t row_b);
+    void join(std::int32_t row_a, std::int32_t row_b) {
+        const auto count = static_cast<std::int32_t>(parent_.size());
+        if (row_a >= count || row_b >= count) return;
+        const std::int32_t a = root(row_a), b = root(row_b);
+        parent_[std::max(a, b)] = std::min(a, b);
+    }
     /// Once all are joined.
     void end_joining();
 
     /// Constraints between two bodies.
-    void add(std::int32_t row_a, std::int32_t row_b, const ResidualSum& lacking);
+    void add(std::int32_t row_a, std::int32_t row_b, const ResidualSum& lacking) {
+        const auto count = static_cast<std::int32_t>(parent_.size());
+        const std::int32_t row = row_a < count ? row_a : row_b;
+        if (row < count) sums_[parent_[row]].add(lacking);
+    }
     /// The island of a body was solved exactly.
     void mark_exact(std::int32_t row) { bodies_[parent_[row]].exact = true; }
 
@@ -44,6 +60,12 @@ public:
 
 private:
     void weigh(const World& world);
+
+    /// The least row of an island is its root.
+    std::int32_t root(std::int32_t row) {
+        while (parent_[row] != row) row = parent_[row] = parent_[parent_[row]];
+        return row;
+    }
 
     std::vector<std::int32_t> parent_;    // [dynamic row] the root, once all are joined
     std::vector<ResidualSum> sums_;       // [root]

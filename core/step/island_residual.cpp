@@ -10,36 +10,17 @@
 namespace plumb {
 namespace {
 
-InverseMass<double> inverse_mass_of(const Island& island, std::uint32_t body) {
-    if (body == kImmovable) return {0, {0, 0, 0, 0, 0, 0}};
-    return {1 / island.bodies[body].mass, island.bodies[body].inverse_inertia};
-}
-
-/// Inverse of what the bodies answer along the point's two tangents.
-TangentMass<double> tangent_mass_of(const Island& island, const IslandPoint& p) {
-    const InverseMass<double> of_a = inverse_mass_of(island, p.a),
-                              of_b = inverse_mass_of(island, p.b);
-    const auto k = [&](int i, int j) -> double {
-        const Vector3d d = p.frame.col(i), e = p.frame.col(j);
-        return response<double>(of_a, p.arm_a, d, e) + response<double>(of_b, p.arm_b, d, e);
-    };
-    return tangent_mass<double>(k(1, 1), k(1, 2), k(2, 2), [](double x) { return 1 / x; });
-}
-
+/// Friction by the least mass of the point in any direction.
 ResidualSum residual_of(const Island& island, const IslandPoint& p) {
     const Vector6d lack = p.wanted - velocity_of(p, island.velocity);
-    const double push = p.impulse[0];
+    const double push = p.impulse[0], m = p.mass;
     const double normal = std::clamp(push + p.mass_normal * lack[0], 0.0, p.cone.most) - push;
-    const TangentMass<double> mass = tangent_mass_of(island, p);
     Planar<double> friction{p.impulse[1], p.impulse[2]};
     const Planar<double> across = solve_friction<double>(friction, {0, 0}, {-lack[1], -lack[2]},
-                                                         mass, p.cone.friction * push);
-    const double slid = across.x * across.x + across.y * across.y;
-    const double slip = lack[1] * lack[1] + lack[2] * lack[2];
-    const double squared = normal * normal + slid;
-    const double error = std::max(normal * normal / (p.mass_normal * p.mass_normal),
-                                  std::min(slip, slid / (mass.least * mass.least)));
-    return {squared, squared, error, push, 1};
+                                                         {m, 0, m, m}, p.cone.friction * push);
+    const double pushed = normal * normal, slid = across.x * across.x + across.y * across.y;
+    return {pushed + slid, pushed + slid,
+            std::max(pushed / (p.mass_normal * p.mass_normal), slid / (m * m)), push, 1};
 }
 
 ResidualSum residual_of(const Island& island, const IslandRow& row) {
