@@ -5,6 +5,7 @@
 /// `contact_kernels`, which hands out none that this processor could not run.
 #pragma once
 
+#include "kernels/pair_residual.h"
 #include "schedule/contact_rows.h"
 
 #include <cstdint>
@@ -17,16 +18,7 @@ using ContactPass = void (*)(const ContactArrays<Real, W>& arrays, const BodyRow
                              const PassSettings<Real>& pass, std::uint32_t first,
                              std::uint32_t last);
 
-/// What one more solution of each of a pair's rows alone would change, in squares: see
-/// effects/residual.h. A row's impulse is here the vector of its normal and its friction.
-template <class Real, int W>
-struct alignas(kRowAlignment<Real, W>) PairResidual {
-    Real worst[W], sum[W];  // of impulses, the greatest and all [N² s²]
-    Real error[W];          // of velocities, the greatest [m²/s²]
-    Real push[W];           // normal impulses, summed [N s]
-};
-
-/// Fills those of the blocks [first, last), and changes nothing else.
+/// Finds the residuals of the blocks [first, last), and changes nothing else.
 template <class Real, int W>
 using ResidualPass = void (*)(PairResidual<Real, W>* residuals,
                               const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,

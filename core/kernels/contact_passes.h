@@ -11,6 +11,7 @@
 #include "constraints/rolling.h"
 #include "kernels/contact_kernels.h"
 #include "kernels/gather.h"
+#include "kernels/inverse.h"
 
 namespace plumb::kernels {
 
@@ -53,12 +54,6 @@ inline void apply(PairVelocity<T>& pair, const PairMass<T>& mass, const Vector3<
                   const Vector3<T>& r_b, const Vector3<T>& impulse) {
     apply_impulse<T>(pair.a, mass.a, r_a, impulse);
     apply_impulse<T>(pair.b, mass.b, r_b, -impulse);
-}
-
-/// 1/x, and 0 where x is 0 (both bodies immovable, or an empty lane).
-template <class T>
-inline T inverse_or_zero(const T& x) {
-    return select_greater(x, T(1e-30), T(1) / max(x, T(1e-30)), T(0));
 }
 
 template <class T>

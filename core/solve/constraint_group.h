@@ -45,8 +45,9 @@ public:
     virtual void end_substep(World&) {}
     virtual void end_step(World&) {}
 
-    /// After the last substep's iterations: joins the bodies of its constraints, then tells how far
-    /// those are from being solved.
+    /// After the last substep's iterations: whether it tells how far its constraints are from being
+    /// solved. If some do, all join the bodies of theirs, and then tell.
+    virtual bool has_residuals() const { return false; }
     virtual void join_islands(IslandResiduals&) const {}
     virtual void add_residuals(IslandResiduals&, const BodyRows<Real>&, const PassSettings<Real>&) {
     }

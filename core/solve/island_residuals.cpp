@@ -22,13 +22,12 @@ IslandResidual island_residual(const IslandResidual& bodies, const ResidualSum& 
 
 }  // namespace
 
-void IslandResiduals::begin(const World& world) {
+void IslandResiduals::join_ties(const World& world) {
     const auto count = static_cast<std::size_t>(world.dynamic_count);
     parent_.resize(count);
     std::iota(parent_.begin(), parent_.end(), 0);
     sums_.assign(count, {});
     bodies_.assign(count, {});
-    islands_.clear();
     islands_.reserve(count);
     const auto row_of = [&](std::uint32_t body) {
         return body == kNoIndex ? world.zero_row() : world.bodies.row[body];

@@ -31,8 +31,10 @@ struct ResidualSum {
 /// dynamic bodies join nothing. Sums are in the order of the calls.
 class IslandResiduals {
 public:
-    /// Forgets all, and joins what joints and links between bodies hold together.
-    void begin(const World& world);
+    /// Forgets what there was.
+    void begin() { islands_.clear(); }
+    /// Takes the bodies as they are, and joins what joints and links hold together.
+    void join_ties(const World& world);
     /// Joins the islands of two bodies; not after the first `add`.
     void join(std::int32_t row_a, std::int32_t row_b) {
         const auto count = static_cast<std::int32_t>(parent_.size());

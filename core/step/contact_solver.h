@@ -197,6 +197,7 @@ public:
         iterate(kernels_.solve_positions, bodies, pass, worker);
     }
 
+    bool has_residuals() const override { return !pairs_.empty(); }
     void join_islands(IslandResiduals& islands) const override {
         for (const BodyPair& pair : pairs_) islands.join(pair.row_a, pair.row_b);
     }

@@ -49,7 +49,8 @@ public:
     void add_impulses(ContactSums& sums) const;
 
     /// After the last substep: joins the bodies of each island, then tells how far those are from
-    /// being solved.
+    /// being solved, if there are any.
+    bool has_residuals() const { return count_ > 0; }
     void join_islands(const World& world, IslandResiduals& islands) const;
     void add_residuals(const World& world, IslandResiduals& islands);
 

@@ -49,7 +49,8 @@ void IslandGroup::add_residuals(const World& world, IslandResiduals& islands) {
         for (const IslandRow& row : island.rows) sum.add(residual_of(island, row));
         const std::int32_t row = world.bodies.row[bodies_[member.first_body].body];
         islands.add(row, row, sum);
-        if (member.effort != IslandEffort::swept && member.solved) islands.mark_exact(row);
+        const bool open = member.open > world.settings.joint_tolerance;
+        if (member.effort != IslandEffort::swept && member.solved && !open) islands.mark_exact(row);
     }
 }
 

@@ -191,16 +191,15 @@ public:
         islands_->solve(world, report);
     }
 
-    /// Shock propagation has the last word about contacts.
     StepResidual find_residual(const World& world) override {
-        residuals_.begin(world);
+        residuals_.begin();
+        if (!has_residuals()) return {};
+        residuals_.join_ties(world);
         for (const auto& group : groups_) group->join_islands(residuals_);
         if (islands_) islands_->join_islands(world, residuals_);
         residuals_.end_joining();
         for (const auto& group : groups_)
-            if (!(shocks_ && group.get() == contacts_))
-                group->add_residuals(residuals_, table_.rows(), pass_);
-        if (shocks_) shock_->add_residuals(residuals_, table_.rows(), shock_pass());
+            if (group->has_residuals()) add_residuals(*group);
         if (islands_) islands_->add_residuals(world, residuals_);
         return residuals_.find(world, substep_of(world.settings));
     }
@@ -287,6 +286,20 @@ private:
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
         if (plan.runs(Effect::particle_contacts))
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
+    }
+
+    bool has_residuals() const {
+        return (islands_ && islands_->has_residuals()) ||
+               std::any_of(groups_.begin(), groups_.end(),
+                           [](const auto& group) { return group->has_residuals(); });
+    }
+
+    /// Shock propagation has the last word about contacts.
+    void add_residuals(Group& group) {
+        if (shocks_ && &group == contacts_)
+            shock_->add_residuals(residuals_, table_.rows(), shock_pass());
+        else
+            group.add_residuals(residuals_, table_.rows(), pass_);
     }
 
     PassSettings<Real> shock_pass() const {

@@ -84,6 +84,36 @@ TEST_P(Residual, OfTwoBallsAfterOneIteration) {
     }
 }
 
+/// The same of two bodies that hang below each other by joints: the upper joint, which comes first,
+/// lacks what the lower one took from it.
+TEST_P(Residual, OfTwoJointsAfterOneIteration) {
+    for (const JointKind kind : {JointKind::ball, JointKind::hinge, JointKind::fixed})
+        for (const double mass : {0.5, 30.0}) {
+            Scene s = scene();
+            sweep_from_nothing(s.settings, 0, 1);
+            s.settings.joints = JointMethod::iterate;
+            add_body(s, sphere(0.2), {0, -0.5, 0}).mass = 2;
+            add_body(s, sphere(0.2), {0, -1.5, 0}).mass = mass;
+            for (const std::uint32_t body : {0u, 1u}) {
+                JointSpec joint;
+                joint.kind = kind;
+                joint.body_a = body, joint.body_b = body == 0 ? kNoIndex : 0;
+                joint.anchor = {0, -1.0 * body, 0};
+                s.joints.push_back(joint);
+            }
+            Simulation simulation(s, colliders(), collider());
+            const IslandResidual worst = simulation.step().residual.worst;
+
+            const double h = s.settings.dt, force = 2 * mass / (2 + mass) * kGravity;
+            const double within = s.settings.precision == Precision::single ? 1e-5 : 1e-9;
+            EXPECT_EQ(worst.first_body, 0u);
+            EXPECT_EQ(worst.bodies, 2u);
+            EXPECT_NEAR(worst.force, force, within * force);
+            EXPECT_NEAR(worst.rms_force, force * std::sqrt(0.5), within * force);
+            EXPECT_NEAR(worst.error, force / 2 * h * h, within * force / 2 * h * h);
+        }
+}
+
 /// Without gravity an island is weighed by what its contacts bear.
 TEST_P(Residual, IsWeighedByForcesWhereThereIsNoGravity) {
     Scene s = scene();
