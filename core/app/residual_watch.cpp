@@ -50,8 +50,8 @@ std::string ResidualWatch::in_words(const Settings& settings) const {
     char text[160];
     std::snprintf(
         text, sizeof text,
-        "worst island: %u bodies from body %u on, %.2g %% of its weight unbalanced %s, at "
-        "%.2f s; %.2g %% at the end",
+        "worst island: %u bodies from body %u on, %.3g %% of its weight unbalanced %s, at "
+        "%.2f s; %.3g %% at the end",
         worst_.island.bodies, worst_.first_body, 100 * worst_.island.force_of_weight(), how.c_str(),
         worst_.time, 100 * last_.island.force_of_weight());
     return text;
