@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "solve/island_residuals.h"
 
-#include "world/tie.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -10,25 +8,26 @@
 namespace plumb {
 namespace {
 
-/// `bodies`: with what its bodies tell.
-IslandResidual island_residual(const IslandResidual& bodies, const ResidualSum& sum, double h) {
-    IslandResidual island = bodies;
+constexpr std::uint32_t kNoIsland = ~0u;
+
+/// Adds what its constraints tell to what its bodies do.
+void put_residual(IslandResidual& island, const ResidualSum& sum, double h) {
     if (!(island.weight > 0)) island.weight = sum.push / h;
     island.force = std::sqrt(sum.worst) / h;
     island.rms_force = std::sqrt(sum.sum / sum.count) / h;
     island.error = std::sqrt(sum.error) * h;
-    return island;
 }
 
 }  // namespace
 
+void IslandResiduals::take(const World& world, const ContactIslands& found) {
+    island_ = found.island_of();
+    weigh(world, found.islands().size());
+}
+
 void IslandResiduals::join_ties(const World& world) {
-    const auto count = static_cast<std::size_t>(world.dynamic_count);
-    parent_.resize(count);
+    parent_.resize(static_cast<std::size_t>(world.dynamic_count));
     std::iota(parent_.begin(), parent_.end(), 0);
-    sums_.assign(count, {});
-    bodies_.assign(count, {});
-    islands_.reserve(count);
     const auto row_of = [&](std::uint32_t body) {
         return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
     };
@@ -38,34 +37,46 @@ void IslandResiduals::join_ties(const World& world) {
         if (link.is_between_bodies()) join(row_of(link.a.body), row_of(link.b.body));
 }
 
-void IslandResiduals::end_joining() {
-    for (std::int32_t& row : parent_) row = parent_[parent_[row]];
+/// A body by itself is an island, too.
+void IslandResiduals::end_joining(const World& world) {
+    island_.resize(parent_.size());
+    std::uint32_t count = 0;
+    for (std::size_t row = 0; row < parent_.size(); ++row) {
+        const auto parent = static_cast<std::size_t>(parent_[row]);
+        island_[row] = parent == row ? count++ : island_[parent];
+    }
+    weigh(world, count);
 }
 
 /// How many bodies each island has, and what they weigh.
-void IslandResiduals::weigh(const World& world) {
+void IslandResiduals::weigh(const World& world, std::size_t count) {
+    sums_.reserve(island_.size()), islands_.reserve(island_.size());
+    sums_.assign(count, {});
+    islands_.assign(count, {});
     const double g = world.settings.gravity.norm();
     for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
-        if (world.bodies.motion[i] != Motion::dynamic) continue;
-        IslandResidual& island = bodies_[parent_[world.bodies.row[i]]];
+        const auto row = static_cast<std::size_t>(world.bodies.row[i]);
+        if (row >= island_.size() || island_[row] == kNoIsland) continue;
+        IslandResidual& island = islands_[island_[row]];
         island.first_body = std::min(island.first_body, i);
         island.weight += g * world.bodies.mass[i];
         ++island.bodies;
     }
 }
 
-StepResidual IslandResiduals::find(const World& world, double h) {
-    weigh(world);
+StepResidual IslandResiduals::find(double h) {
     StepResidual step;
-    for (std::size_t root = 0; root < sums_.size(); ++root) {
-        if (sums_[root].count == 0) continue;
-        const IslandResidual& island =
-            islands_.emplace_back(island_residual(bodies_[root], sums_[root], h));
+    for (std::size_t i = 0; i < sums_.size(); ++i) {
+        if (sums_[i].count == 0) continue;
+        IslandResidual& island = islands_[step.islands];
+        island = islands_[i];
+        put_residual(island, sums_[i], h);
         step.force = std::max(step.force, island.force);
         step.error = std::max(step.error, island.error);
         if (step.islands++ == 0 || island.force_of_weight() > step.worst.force_of_weight())
             step.worst = island;
     }
+    islands_.resize(step.islands);
     return step;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "effects/residual.h"
+#include "schedule/contact_islands.h"
 #include "world/world.h"
 
 #include <algorithm>
@@ -33,35 +34,41 @@ class IslandResiduals {
 public:
     /// Forgets what there was.
     void begin() { islands_.clear(); }
-    /// Takes the bodies as they are, and joins what joints and links hold together.
+
+    /// Takes a partition that others have found, of which some bodies may be no part.
+    void take(const World& world, const ContactIslands& found);
+
+    // or makes one
+
+    /// Joins what joints and links hold together.
     void join_ties(const World& world);
-    /// Joins the islands of two bodies; not after the first `add`.
     void join(std::int32_t row_a, std::int32_t row_b) {
         const auto count = static_cast<std::int32_t>(parent_.size());
         if (row_a >= count || row_b >= count) return;
         const std::int32_t a = root(row_a), b = root(row_b);
         parent_[std::max(a, b)] = std::min(a, b);
     }
-    /// Once all are joined.
-    void end_joining();
+    void end_joining(const World& world);
 
-    /// Constraints between two bodies.
+    // then
+
+    /// Constraints between two bodies, at least one of which moves others.
     void add(std::int32_t row_a, std::int32_t row_b, const ResidualSum& lacking) {
-        const auto count = static_cast<std::int32_t>(parent_.size());
+        const auto count = static_cast<std::int32_t>(island_.size());
         const std::int32_t row = row_a < count ? row_a : row_b;
-        if (row < count) sums_[parent_[row]].add(lacking);
+        if (row < count) sums_[island_[row]].add(lacking);
     }
     /// The island of a body was solved exactly.
-    void mark_exact(std::int32_t row) { bodies_[parent_[row]].exact = true; }
+    void mark_exact(std::int32_t row) { islands_[island_[row]].exact = true; }
 
     /// What came of the last substep, of length h [s].
-    StepResidual find(const World& world, double h);
+    StepResidual find(double h);
 
     /// Of that, each island that has constraints, in the order of their bodies' least rows.
     const std::vector<IslandResidual>& islands() const { return islands_; }
 
 private:
-    void weigh(const World& world);
+    void weigh(const World& world, std::size_t count);
 
     /// The least row of an island is its root.
     std::int32_t root(std::int32_t row) {
@@ -69,9 +76,9 @@ private:
         return row;
     }
 
-    std::vector<std::int32_t> parent_;    // [dynamic row] the root, once all are joined
-    std::vector<ResidualSum> sums_;       // [root]
-    std::vector<IslandResidual> bodies_;  // [root] with what its bodies tell, not its constraints
+    std::vector<std::int32_t> parent_;   // [dynamic row] while islands are joined
+    std::vector<std::uint32_t> island_;  // [dynamic row] ~0u where there is none
+    std::vector<ResidualSum> sums_;      // [island]
     std::vector<IslandResidual> islands_;
 };
 

@@ -194,14 +194,11 @@ public:
     StepResidual find_residual(const World& world) override {
         residuals_.begin();
         if (!has_residuals()) return {};
-        residuals_.join_ties(world);
-        for (const auto& group : groups_) group->join_islands(residuals_);
-        if (islands_) islands_->join_islands(world, residuals_);
-        residuals_.end_joining();
+        find_islands(world);
         for (const auto& group : groups_)
             if (group->has_residuals()) add_residuals(*group);
         if (islands_) islands_->add_residuals(world, residuals_);
-        return residuals_.find(world, substep_of(world.settings));
+        return residuals_.find(substep_of(world.settings));
     }
     const std::vector<IslandResidual>& island_residuals() const override {
         return residuals_.islands();
@@ -269,7 +266,7 @@ private:
         if (plan.runs(Effect::joints)) {
             const bool grows = plan.runs(Effect::joint_trees);
             const JointForest forest = grows ? find_forest(world) : JointForest();
-            add<JointSolver<Real, W>>(
+            joints_ = add<JointSolver<Real, W>>(
                 world, grows ? forest.in_tree : std::vector<std::uint8_t>(world.joints.size(), 0),
                 solved_ties_, workers_);
             if (grows && is_narrow(forest))
@@ -292,6 +289,16 @@ private:
         return (islands_ && islands_->has_residuals()) ||
                std::any_of(groups_.begin(), groups_.end(),
                            [](const auto& group) { return group->has_residuals(); });
+    }
+
+    /// Exact islands know them, but for those of joints that are iterated where nothing touches.
+    void find_islands(const World& world) {
+        const bool known = islands_ && !(joints_ && joints_->has_residuals());
+        if (known) return residuals_.take(world, islands_->choice().islands());
+        residuals_.join_ties(world);
+        for (const auto& group : groups_) group->join_islands(residuals_);
+        if (islands_) islands_->join_islands(world, residuals_);
+        residuals_.end_joining(world);
     }
 
     /// Shock propagation has the last word about contacts.
@@ -361,7 +368,7 @@ private:
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;
     ParticleContactGroup<Real, W>* particle_contacts_ = nullptr;
-    Group* trees_ = nullptr;
+    Group *joints_ = nullptr, *trees_ = nullptr;  // iterated; solved exactly
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;
     Impacts impacts_;
