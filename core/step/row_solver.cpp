@@ -2,7 +2,6 @@
 #include "step/row_solver.h"
 
 #include "contacts/impacts.h"
-#include "math/root.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
 #include "schedule/motion_lists.h"
@@ -15,6 +14,7 @@
 #include "step/energy_bound.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
+#include "step/push_out_shares.h"
 
 #include <algorithm>
 #include <memory>
@@ -25,31 +25,6 @@
 
 namespace plumb {
 namespace {
-
-/// What the five iterations of a step leave of old overlap, to the paper's letter: there s is the
-/// share of one of them, and other numbers of iterations remove as much.
-double left_after_five(const Settings& s) {
-    const double left = 1 - s.stiffness;
-    return left * left * left * left * left;
-}
-
-/// Share of old overlap that sweeps remove in a substep. Where both passes share one push it is s.
-double share_of_substep(const Settings& s) {
-    return s.shared_push ? s.stiffness : 1 - root_of_share(left_after_five(s), s.substeps);
-}
-
-/// Share by which a position iteration closes old overlap. Where both passes share one push, all
-/// iterations of a substep close the same share of it.
-double share_of_iteration(const Settings& s) {
-    if (s.shared_push) return s.stiffness;
-    const std::uint32_t iterations = s.position_iterations * s.substeps;
-    return iterations > 0 ? 1 - root_of_share(left_after_five(s), iterations) : 0;
-}
-
-/// Removes a share of old overlap in a substep of h [s], at no more than the set speed.
-PushOut push_out(const Settings& s, double share, double h) {
-    return {share, share > 0 ? h * s.recovery_speed / share : 0};
-}
 
 /// How often shock propagation solves a level before it goes on to the next: until the points of a
 /// pair agree, for the error that is left at one level tips over all that stands on it.
