@@ -128,13 +128,15 @@ void print_stages(const Json& j) {
                 j["booked"]["ms"].get<double>(), 100 * j["booked"]["share_of_step"].get<double>());
 }
 
-void print(const Json& j, const EffectsArguments& o) {
+/// `residual`: a sentence about it, or nothing.
+void print(const Json& j, const EffectsArguments& o, const std::string& residual) {
     if (o.ablate)
         print_ablation(j["effects"]);
     else
         print_effects(j["effects"], !o.no_run);
     if (o.no_run) return;
     print_stages(j);
+    if (!residual.empty()) std::printf("\n%s\n", residual.c_str());
     std::printf("\nmedians of the first %llu steps on collider %s\n",
                 static_cast<unsigned long long>(o.steps), j["collider"].get<std::string>().c_str());
     if (o.ablate)
@@ -166,6 +168,7 @@ int tell(const EffectsArguments& o) {
     j["effects"] = effects_summary(*simulation, statistics);
     j["stages"] = stages_figures(statistics);
     j["booked"] = booked_figures(statistics);
+    j["residual"] = statistics.residual().json();
     if (o.ablate)
         add_ablation(j["effects"], ablate(scene, colliders, o.run, *simulation, {o.steps}));
 
@@ -174,7 +177,7 @@ int tell(const EffectsArguments& o) {
     if (o.json == "-")
         std::fputs(text.c_str(), stdout);
     else
-        print(j, o);
+        print(j, o, statistics.residual().in_words(simulation->world().settings));
     return interrupted() ? kInterrupted : kDone;
 }
 

@@ -83,6 +83,7 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
         if (gaps[i] > worst_joint_)
             worst_joint_ = gaps[i], widest_joint_ = world.joints.joints[i].id;
     energy_.add(world, report);
+    residual_.add(world, report);
     if (simulation.steps() % sample_every_ == 0) samples_.push_back(sample_of(world));
     while (!samples_.empty() && samples_.front().time <= 0.8 * world.time) samples_.pop_front();
 }

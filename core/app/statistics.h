@@ -3,6 +3,7 @@
 #pragma once
 
 #include "app/energy_watch.h"
+#include "app/residual_watch.h"
 #include "host/simulation.h"
 
 #include <array>
@@ -51,6 +52,7 @@ public:
     std::uint32_t widest_joint() const { return widest_joint_; }
 
     const EnergyWatch& energy() const { return energy_; }
+    const ResidualWatch& residual() const { return residual_; }
 
     std::vector<double> detect_ms, solve_ms, step_ms;
     std::array<std::vector<double>, kStageCount> stage_ms;
@@ -71,6 +73,7 @@ private:
     void add_times(const Ledger& ledger);
 
     EnergyWatch energy_;
+    ResidualWatch residual_;
     std::uint64_t sample_every_;  ///< steps
     std::deque<Sample> samples_;
     bool finite_ = true;

@@ -246,6 +246,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
         {"unsolved_trees", s.unsolved_trees},       {"tree_error_m", s.tree_error},
         {"stretched_links", s.stretched_links},     {"link_error_m", s.link_error},
         {"rejected_contacts", s.rejected_contacts}, {"collider_failures", s.collider_failures}};
+    j["residual"] = s.residual().json();
     j["state_hash"] = hex(state_hash(world));
     j["effects"] = effects_summary(simulation, s);
     j["build"] = build_json();

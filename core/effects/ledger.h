@@ -32,12 +32,13 @@ enum class Stage : std::uint32_t {
     surface_contacts,   ///< points found near surfaces that deform, and kept off them
     islands,            ///< islands solved exactly
     shock,              ///< shock propagation
+    residual,           ///< how far the end of the step is from its constraints
     move,               ///< new poses
     tearing,            ///< elements that are strained too far
     still_ground,       ///< energy that the ground gave, taken back
     remember,           ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 25;
+inline constexpr std::size_t kStageCount = 26;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{"detect",
                                                                        "reuse",
                                                                        "match",
@@ -59,6 +60,7 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames{"detect",
                                                                        "surface_contacts",
                                                                        "islands",
                                                                        "shock",
+                                                                       "residual",
                                                                        "move",
                                                                        "tearing",
                                                                        "still_ground",

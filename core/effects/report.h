@@ -3,6 +3,8 @@
 /// computed.
 #pragma once
 
+#include "effects/residual.h"
+
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -54,13 +56,14 @@ struct StepReport {
     double tree_error = 0;                ///< by how much they were open at most [m], [rad]
     std::uint32_t open_joint = ~0u;       ///< a joint of the tree that was open the most
     std::vector<OpenTree> open_trees;     ///< of the last substep
-    std::uint32_t stretched_links = 0;  ///< links that the step left longer or shorter than
-                                        ///< they may be, by more than 1 % of that
-    double link_error = 0;              ///< by how much they were wrong at most [m]
+    std::uint32_t stretched_links = 0;    ///< links that the step left longer or shorter than
+                                          ///< they may be, by more than 1 % of that
+    double link_error = 0;                ///< by how much they were wrong at most [m]
     std::uint32_t rejected_contacts = 0;  ///< left out for one of the faults
     std::array<std::uint32_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::uint32_t broken_joints = 0;                         ///< joints that gave way in this step
     std::uint32_t torn_elements = 0;  ///< of deformables, that gave way in this step
+    StepResidual residual;            ///< how far its end is from the constraints
     bool finite = true;               ///< no position or velocity is NaN or infinite
     bool collider_failed = false;     ///< the collider reported trouble: see `message`
     bool collider_unusable = false;   ///< it wrote where it must not: it should not be called again

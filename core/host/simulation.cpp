@@ -145,6 +145,9 @@ const Plan& Simulation::plan() const {
 }
 const Ledger& Simulation::ledger() const { return parts_->stepper.ledger; }
 DetectStats Simulation::detect_stats() const { return parts_->stats; }
+const std::vector<IslandResidual>& Simulation::island_residuals() const {
+    return parts_->stepper.solver->island_residuals();
+}
 const std::string& Simulation::collider_name() const { return parts_->collider_name; }
 const std::string& Simulation::collider_version() const { return parts_->collider_version; }
 const std::string& Simulation::collider_reason() const { return parts_->collider_reason; }

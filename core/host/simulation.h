@@ -65,6 +65,11 @@ public:
     const Plan& plan() const;
     const Ledger& ledger() const;  ///< of the last step
     DetectStats detect_stats() const;
+
+    /// How far the last step's end is from its constraints, each island that has some: what
+    /// StepReport::residual tells of all. Stays until the next step or edit.
+    const std::vector<IslandResidual>& island_residuals() const;
+
     const std::string& collider_name() const;
     const std::string& collider_version() const;
     const std::string& collider_reason() const;  ///< why "auto" took it; empty where it was named

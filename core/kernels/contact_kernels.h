@@ -5,6 +5,7 @@
 /// `contact_kernels`, which hands out none that this processor could not run.
 #pragma once
 
+#include "kernels/pair_residual.h"
 #include "schedule/contact_rows.h"
 
 #include <cstdint>
@@ -17,6 +18,13 @@ using ContactPass = void (*)(const ContactArrays<Real, W>& arrays, const BodyRow
                              const PassSettings<Real>& pass, std::uint32_t first,
                              std::uint32_t last);
 
+/// Finds the residuals of the blocks [first, last), and changes nothing else.
+template <class Real, int W>
+using ResidualPass = void (*)(PairResidual<Real, W>* residuals,
+                              const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
+                              const PassSettings<Real>& pass, std::uint32_t first,
+                              std::uint32_t last);
+
 template <class Real, int W>
 struct ContactKernels {
     ContactPass<Real, W> prepare;           // at new poses: tangents, effective masses
@@ -24,6 +32,7 @@ struct ContactKernels {
     ContactPass<Real, W> warm_start;        // applies the impulses that the rows already hold
     ContactPass<Real, W> solve_velocities;  // one iteration
     ContactPass<Real, W> solve_positions;   // one iteration
+    ResidualPass<Real, W> find_residuals;   // after the last
 };
 
 /// The kernels of one variant. Throws std::logic_error when this processor cannot run W lanes.

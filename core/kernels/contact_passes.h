@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The loops behind the contact kernels. Included by the units of each instruction set and by
-/// nothing else.
+/// The loops behind the contact kernels. Included by the units of each instruction set, through
+/// kernels/contact_tables.h, and by nothing else.
 ///
 /// A block's bodies are gathered once, its points are solved one after another, and the bodies are
 /// written back.
@@ -11,8 +11,7 @@
 #include "constraints/rolling.h"
 #include "kernels/contact_kernels.h"
 #include "kernels/gather.h"
-
-#include <array>
+#include "kernels/inverse.h"
 
 namespace plumb::kernels {
 
@@ -55,12 +54,6 @@ inline void apply(PairVelocity<T>& pair, const PairMass<T>& mass, const Vector3<
                   const Vector3<T>& r_b, const Vector3<T>& impulse) {
     apply_impulse<T>(pair.a, mass.a, r_a, impulse);
     apply_impulse<T>(pair.b, mass.b, r_b, -impulse);
-}
-
-/// 1/x, and 0 where x is 0 (both bodies immovable, or an empty lane).
-template <class T>
-inline T inverse_or_zero(const T& x) {
-    return select_greater(x, T(1e-30), T(1) / max(x, T(1e-30)), T(0));
 }
 
 template <class T>
@@ -335,20 +328,6 @@ void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
         }
         write_pair(bodies, block, pair);
     }
-}
-
-template <class Real, int W, ContactVariant V>
-constexpr ContactKernels<Real, W> kernels_of() {
-    return {prepare<Real, W, V>, begin<Real, W, V>, warm_start<Real, W, V>,
-            solve<Pass::velocity, Real, W, V>, solve<Pass::position, Real, W, V>};
-}
-
-/// All variants of one precision and width, indexed by ContactVariant.
-template <class Real, int W>
-constexpr std::array<ContactKernels<Real, W>, kContactVariants> all_contact_kernels() {
-    return {kernels_of<Real, W, ContactVariant::frictionless>(),
-            kernels_of<Real, W, ContactVariant::friction>(),
-            kernels_of<Real, W, ContactVariant::rolling>()};
 }
 
 }  // namespace plumb::kernels

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The loops behind the joints' kernels. Included by the units of each instruction set and by
-/// nothing else.
+/// The loops behind the joints' kernels. Included by the units of each instruction set, through
+/// kernels/joint_tables.h, and by nothing else.
 #pragma once
 
 #include "constraints/drive.h"
@@ -63,22 +63,28 @@ inline void each_block(Block* blocks, const BodyRows<Real>& bodies, std::uint32_
 
 // ---- ball joints
 
+/// One iteration of a block; returns the impulses on a [N s].
+template <class Real, int W, class T = Number<Real, W>>
+inline Vector3<T> join_balls(const BallBlock<Real, W>& block, JoinedBodies<Real, W>& j,
+                             const T& h) {
+    // an empty lane, or a joint that an exact island has, has unit mass, so that its 3 × 3 system
+    // can be solved, and neither gap nor velocity, so that it gives no impulse
+    const T used = load(block.used);
+    j.mass_a.mass = j.mass_a.mass + (T(1) - used);
+    j.total_a = {j.total_a.v * used, j.total_a.w * used};
+    j.total_b = {j.total_b.v * used, j.total_b.w * used};
+    return join<T>(j.a, j.b, j.total_a, j.total_b, j.mass_a, j.mass_b, load_vector(block.arm_a),
+                   load_vector(block.arm_b), load_vector(block.gap),
+                   {load(block.share_a), load_vector(block.lag_a)},
+                   {load(block.share_b), load_vector(block.lag_b)}, h);
+}
+
 template <class Real, int W>
 [[gnu::flatten]] void solve_balls(BallBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real h,
                                   std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     each_block<Real, W>(blocks, bodies, first, last, [h](auto& block, auto& j) {
-        // an empty lane, or a joint that an exact island has, has unit mass, so that its 3 × 3
-        // system can be solved, and neither gap nor velocity, so that it gives no impulse
-        const T used = load(block.used);
-        j.mass_a.mass = j.mass_a.mass + (T(1) - used);
-        j.total_a = {j.total_a.v * used, j.total_a.w * used};
-        j.total_b = {j.total_b.v * used, j.total_b.w * used};
-        const Vector3<T> impulse =
-            join<T>(j.a, j.b, j.total_a, j.total_b, j.mass_a, j.mass_b, load_vector(block.arm_a),
-                    load_vector(block.arm_b), load_vector(block.gap),
-                    {load(block.share_a), load_vector(block.lag_a)},
-                    {load(block.share_b), load_vector(block.lag_b)}, T(h));
+        const Vector3<T> impulse = join_balls(block, j, T(h));
         store_vector(block.impulse, Vector3<T>(load_vector(block.impulse) + impulse));
     });
 }
@@ -131,26 +137,26 @@ inline void push_drive(const DriveBlock<Real, W>& block, JoinedBodies<Real, W>& 
     j.b.w -= j.mass_b.inertia * Vector3<T>(load_vector(block.turn_b) * impulse);
 }
 
+/// How fast a driven axis moves or turns [m/s], [rad/s].
+template <class Real, int W, class T = Number<Real, W>>
+inline T drive_rate(const DriveBlock<Real, W>& block, const JoinedBodies<Real, W>& j) {
+    return dot(load_vector(block.along), Vector3<T>(j.total_a.v - j.total_b.v)) +
+           (dot(load_vector(block.turn_a), j.total_a.w) -
+            dot(load_vector(block.turn_b), j.total_b.w));
+}
+
 template <class Real, int W>
 [[gnu::flatten]] void solve_drives(DriveBlock<Real, W>* blocks, const BodyRows<Real>& bodies, Real,
                                    std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     each_block<Real, W>(blocks, bodies, first, last, [](auto& block, auto& j) {
-        const T rate = dot(load_vector(block.along), Vector3<T>(j.total_a.v - j.total_b.v)) +
-                       (dot(load_vector(block.turn_a), j.total_a.w) -
-                        dot(load_vector(block.turn_b), j.total_b.w));
         T lambda = load(block.lambda);
-        const T impulse = drive<T>(lambda, rate, load(block.bias), load(block.softness),
-                                   load(block.mass), load(block.lowest), load(block.highest));
+        const T impulse =
+            drive<T>(lambda, drive_rate(block, j), load(block.bias), load(block.softness),
+                     load(block.mass), load(block.lowest), load(block.highest));
         store(block.lambda, lambda);
         push_drive(block, j, impulse);
     });
-}
-
-template <class Real, int W>
-constexpr JointKernels<Real, W> all_joint_kernels() {
-    return {begin_balls<Real, W>, solve_balls<Real, W>, solve_joints<Real, W>,
-            solve_drives<Real, W>};
 }
 
 }  // namespace plumb::kernels

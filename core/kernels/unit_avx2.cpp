@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Kernels for processors with AVX2: lanes of width 8.
 #include "kernels/body_passes.h"
-#include "kernels/contact_passes.h"
-#include "kernels/joint_passes.h"
+#include "kernels/contact_tables.h"
+#include "kernels/joint_tables.h"
 #include "kernels/kernel_tables.h"
 #include "kernels/point_passes.h"
 #include "kernels/tree_passes.h"

@@ -30,6 +30,8 @@ public:
     const std::vector<std::int32_t>& bodies() const { return bodies_; }  ///< rows
     const std::vector<std::uint32_t>& pairs() const { return pairs_; }   ///< indices of pairs
     const std::vector<std::uint32_t>& ties() const { return ties_; }     ///< indices of ties
+    /// [dynamic row] index of the body's island, ~0u where it has none.
+    const std::vector<std::uint32_t>& island_of() const { return island_; }
     std::uint32_t index_in_island(std::int32_t row) const { return index_[row]; }
 
 private:

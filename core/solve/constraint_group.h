@@ -9,6 +9,7 @@
 #include "effects/ledger.h"
 #include "effects/report.h"
 #include "schedule/contact_rows.h"
+#include "solve/island_residuals.h"
 #include "world/world.h"
 
 namespace plumb {
@@ -43,6 +44,13 @@ public:
     /// Once a substep and once a step, after the move: impulses, into the world's tables.
     virtual void end_substep(World&) {}
     virtual void end_step(World&) {}
+
+    /// After the last substep's iterations: whether it tells how far its constraints are from being
+    /// solved. If some do, all join the bodies of theirs, and then tell.
+    virtual bool has_residuals() const { return false; }
+    virtual void join_islands(IslandResiduals&) const {}
+    virtual void add_residuals(IslandResiduals&, const BodyRows<Real>&, const PassSettings<Real>&) {
+    }
 
     /// What could not be solved.
     virtual void report(StepReport&) const {}

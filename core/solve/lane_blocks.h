@@ -7,6 +7,7 @@
 #include "schedule/colouring.h"
 #include "schedule/workers.h"
 #include "solve/fill_mass.h"
+#include "solve/island_residuals.h"
 #include "world/world.h"
 
 #include <vector>
@@ -60,6 +61,24 @@ public:
         }
     }
 
+    /// The residuals of those items of which `counts(item)`, after the last iteration, in their
+    /// order.
+    template <class Counts>
+    void add_residuals(IslandResiduals& islands, JointResidualPass<Block, Real, W> pass,
+                       const BodyRows<Real>& bodies, Real h, Counts counts) {
+        residuals_.resize(blocks_.size());
+        pass(residuals_.data(), blocks_.data(), bodies, h, 0,
+             static_cast<std::uint32_t>(blocks_.size()));
+        for (std::size_t i = 0; i < places_.size(); ++i) {
+            if (!counts(i)) continue;
+            const auto [block, lane] = places_[i];
+            const PairResidual<Real, W>& r = residuals_[block];
+            islands.add(blocks_[block].row_a[lane], blocks_[block].row_b[lane],
+                        {double(r.worst[lane]), double(r.sum[lane]), double(r.error[lane]),
+                         double(r.push[lane]), 1});
+        }
+    }
+
 private:
     struct Place {
         std::uint32_t block, lane;
@@ -81,6 +100,7 @@ private:
     std::vector<Block> blocks_;
     std::vector<BlockRange> ranges_;
     std::vector<Place> places_;
+    std::vector<PairResidual<Real, W>> residuals_;  // [block]
 };
 
 }  // namespace plumb

@@ -13,6 +13,7 @@
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
 #include "solve/contact_iteration.h"
+#include "solve/contact_residuals.h"
 #include "solve/fill_mass.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
@@ -195,6 +196,16 @@ public:
     void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
         iterate(kernels_.solve_positions, bodies, pass, worker);
+    }
+
+    bool has_residuals() const override { return !pairs_.empty(); }
+    void join_islands(IslandResiduals& islands) const override {
+        for (const BodyPair& pair : pairs_) islands.join(pair.row_a, pair.row_b);
+    }
+    void add_residuals(IslandResiduals& islands, const BodyRows<Real>& bodies,
+                       const PassSettings<Real>& pass) override {
+        residuals_.add_to(islands, batches_, pairs_, kernels_.find_residuals, bodies, pass,
+                          workers_);
     }
 
     /// One iteration in which each batch is solved `rounds` times before the next.
@@ -424,6 +435,7 @@ private:
     Colouring colouring_;
     ContactBatches<Real, W> batches_;
     ContactImpacts<Real, W> impacts_;
+    ContactResiduals<Real, W> residuals_;
     std::vector<double> trusted_;     // [contact] overlap [m]
     bool has_bounds_ = false;         // whether any is below kOutOfReach
     std::vector<double> greatest_;    // [pair], see greatest_impulse [N s]

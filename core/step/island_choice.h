@@ -40,6 +40,9 @@ public:
     /// Once a step, before the others: finds the islands that pairs and ties make.
     const ContactIslands& find(const World& world, const std::vector<BodyPair>& pairs);
 
+    /// Those that it found.
+    const ContactIslands& islands() const { return found_; }
+
     /// A tie of the islands.
     const Tie& tie(std::uint32_t i) const { return ties_[i]; }
 

@@ -9,6 +9,7 @@
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
+#include "solve/island_residuals.h"
 #include "step/island_choice.h"
 #include "step/island_effort.h"
 #include "step/island_solver.h"
@@ -46,6 +47,12 @@ public:
 
     /// Adds what the contacts bear in this substep.
     void add_impulses(ContactSums& sums) const;
+
+    /// After the last substep: joins the bodies of each island, then tells how far those are from
+    /// being solved, if there are any.
+    bool has_residuals() const { return count_ > 0; }
+    void join_islands(const World& world, IslandResiduals& islands) const;
+    void add_residuals(const World& world, IslandResiduals& islands);
 
     /// Once a substep, impulses of ties; once a step, those of contacts.
     void store_tie_impulses(World& world) const;

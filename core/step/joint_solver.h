@@ -60,6 +60,18 @@ public:
         blocks_.iterate(kernels_.joints, bodies, h, workers_, worker);
     }
 
+    bool has_residuals() const override { return !idle_; }
+    void add_residuals(IslandResiduals& islands, const BodyRows<Real>& bodies,
+                       const PassSettings<Real>& pass) override {
+        balls_.add_residuals(islands, kernels_.ball_residuals, bodies, pass.h,
+                             [&](std::size_t i) { return !in_island_[ball_joints_[i]]; });
+        blocks_.add_residuals(islands, kernels_.joint_residuals, bodies, pass.h,
+                              [&](std::size_t i) { return !in_island_[block_joints_[i]]; });
+        drives_.add_residuals(
+            islands, kernels_.drive_residuals, bodies, pass.h,
+            [&](std::size_t i) { return drives_.block(i).mass[drives_.lane(i)] > 0; });
+    }
+
     void end_substep(World& world) override {
         if (idle_) return;
         JointTable& table = world.joints;

@@ -2,7 +2,6 @@
 #include "step/row_solver.h"
 
 #include "contacts/impacts.h"
-#include "math/root.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
 #include "schedule/motion_lists.h"
@@ -15,6 +14,7 @@
 #include "step/energy_bound.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
+#include "step/push_out_shares.h"
 
 #include <algorithm>
 #include <memory>
@@ -25,31 +25,6 @@
 
 namespace plumb {
 namespace {
-
-/// What the five iterations of a step leave of old overlap, to the paper's letter: there s is the
-/// share of one of them, and other numbers of iterations remove as much.
-double left_after_five(const Settings& s) {
-    const double left = 1 - s.stiffness;
-    return left * left * left * left * left;
-}
-
-/// Share of old overlap that sweeps remove in a substep. Where both passes share one push it is s.
-double share_of_substep(const Settings& s) {
-    return s.shared_push ? s.stiffness : 1 - root_of_share(left_after_five(s), s.substeps);
-}
-
-/// Share by which a position iteration closes old overlap. Where both passes share one push, all
-/// iterations of a substep close the same share of it.
-double share_of_iteration(const Settings& s) {
-    if (s.shared_push) return s.stiffness;
-    const std::uint32_t iterations = s.position_iterations * s.substeps;
-    return iterations > 0 ? 1 - root_of_share(left_after_five(s), iterations) : 0;
-}
-
-/// Removes a share of old overlap in a substep of h [s], at no more than the set speed.
-PushOut push_out(const Settings& s, double share, double h) {
-    return {share, share > 0 ? h * s.recovery_speed / share : 0};
-}
 
 /// How often shock propagation solves a level before it goes on to the next: until the points of a
 /// pair agree, for the error that is left at one level tips over all that stands on it.
@@ -191,14 +166,25 @@ public:
         islands_->solve(world, report);
     }
 
+    StepResidual find_residual(const World& world) override {
+        residuals_.begin();
+        if (!has_residuals()) return {};
+        find_islands(world);
+        for (const auto& group : groups_)
+            if (group->has_residuals()) add_residuals(*group);
+        if (islands_) islands_->add_residuals(world, residuals_);
+        return residuals_.find(substep_of(world.settings));
+    }
+    const std::vector<IslandResidual>& island_residuals() const override {
+        return residuals_.islands();
+    }
+
     /// One iteration from the ground up in which the lower body of each pair is immovable
     /// (Guendelman et al.).
     void propagate_shock() override {
         if (contacts_->empty()) return;
         shock_->copy_impulses(*contacts_);
-        PassSettings<Real> pass = pass_;
-        pass.shared_cone = true;
-        pass.shared_push = false;
+        PassSettings<Real> pass = shock_pass();
         pass.forwards = substeps_ % 2 == 0;  // the order of a pair's points favours no side
         workers_.run([&](std::uint32_t worker) {
             shock_->rounds_iteration(table_.rows(), pass, kShockRounds, worker);
@@ -255,7 +241,7 @@ private:
         if (plan.runs(Effect::joints)) {
             const bool grows = plan.runs(Effect::joint_trees);
             const JointForest forest = grows ? find_forest(world) : JointForest();
-            add<JointSolver<Real, W>>(
+            joints_ = add<JointSolver<Real, W>>(
                 world, grows ? forest.in_tree : std::vector<std::uint8_t>(world.joints.size(), 0),
                 solved_ties_, workers_);
             if (grows && is_narrow(forest))
@@ -272,6 +258,37 @@ private:
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
         if (plan.runs(Effect::particle_contacts))
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
+    }
+
+    bool has_residuals() const {
+        return (islands_ && islands_->has_residuals()) ||
+               std::any_of(groups_.begin(), groups_.end(),
+                           [](const auto& group) { return group->has_residuals(); });
+    }
+
+    /// Exact islands know them, but for those of joints that are iterated where nothing touches.
+    void find_islands(const World& world) {
+        const bool known = islands_ && !(joints_ && joints_->has_residuals());
+        if (known) return residuals_.take(world, islands_->choice().islands());
+        residuals_.join_ties(world);
+        for (const auto& group : groups_) group->join_islands(residuals_);
+        if (islands_) islands_->join_islands(world, residuals_);
+        residuals_.end_joining(world);
+    }
+
+    /// Shock propagation has the last word about contacts.
+    void add_residuals(Group& group) {
+        if (shocks_ && &group == contacts_)
+            shock_->add_residuals(residuals_, table_.rows(), shock_pass());
+        else
+            group.add_residuals(residuals_, table_.rows(), pass_);
+    }
+
+    PassSettings<Real> shock_pass() const {
+        PassSettings<Real> pass = pass_;
+        pass.shared_cone = true;
+        pass.shared_push = false;
+        return pass;
     }
 
     /// Books what is done while it lives on a group's stage.
@@ -326,12 +343,13 @@ private:
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;
     ParticleContactGroup<Real, W>* particle_contacts_ = nullptr;
-    Group* trees_ = nullptr;
+    Group *joints_ = nullptr, *trees_ = nullptr;  // iterated; solved exactly
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;
     Impacts impacts_;
     std::vector<Velocity<Real>> settled_;  // [row], of what collides
     EnergyBound<Real, W> energy_;
+    IslandResiduals residuals_;
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t iterations_ = 0;

@@ -13,6 +13,7 @@
 #include "world/world.h"
 
 #include <memory>
+#include <vector>
 
 namespace plumb {
 
@@ -45,6 +46,11 @@ public:
     /// Adds what the passes changed to the velocities of dynamic bodies and particles, and keeps
     /// the turns'.
     virtual void take_changes(World& world) const = 0;
+
+    /// After the last substep: how far its end is from its constraints.
+    virtual StepResidual find_residual(const World& world) = 0;
+    /// The same of each island.
+    virtual const std::vector<IslandResidual>& island_residuals() const = 0;
 
     /// Once a substep and once a step, after the move: impulses, into the world's tables.
     virtual void end_substep(World& world, Ledger& ledger) = 0;

@@ -114,6 +114,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         timed(Stage::joints, [&] { solver.end_substep(world, ledger); });
         world.time += h;
     }
+    timed(Stage::residual, [&] { report.residual = solver.find_residual(world); });
     timed(Stage::remember, [&] {
         solver.end_step(world);
         report.finite = is_finite(world);

@@ -18,7 +18,10 @@ for file in html png csv plumb; do [ -s "$work/x.$file" ]; done
   /time_ms/detect/median /time_ms/solve/mean /time_ms/step/p99 /time_ms/stages/positions /energy/start /energy/end \
   /momentum/linear /momentum/angular /penetration/mean /penetration/p99 /penetration/max /joint_error/mean /joint_error/max /link_error/max \
   /speed/median /speed/p90 /speed/rms /speed/max /speed_near/left_out /particle_speed/p90 /final_height/mean /fallen_through /clamps \
-  /state_hash /effects/0/name /effects/0/ran /effects/0/why /effects/0/ms /build/compiler
+  /residual/force_of_weight/mean /residual/force_of_weight/max /residual/force_of_weight/end /residual/force_n/max /residual/force_n/end \
+  /residual/error_m/max /residual/error_m/end /residual/island/first_body /residual/island/bodies /residual/island/exact \
+  /residual/island/weight_n /residual/island/force_n /residual/island/rms_force_n /residual/island/error_m /residual/island/time \
+  /residual/island_at_end/bodies /state_hash /effects/0/name /effects/0/ran /effects/0/why /effects/0/ms /build/compiler
 [ "$("$json_has" "$work/summary.json" --print /fallen_through)" = 0 ]
 
 # who detects and why: the cheapest for the pile by the plugins' tables, told in the summary and on stderr
@@ -57,6 +60,10 @@ for scene in pile walker mobile; do
   "$json_has" "$work/effects.json" --print /booked/share_of_step | awk '{ exit !($1 >= 0.95 && $1 <= 1) }'
 done
 grep -q "^trees " "$work/effects.txt"
+
+# what iterations leave unsolved, in a sentence
+"$plumb" effects "$scenes/stack.json" >"$work/effects.txt"
+grep -qE "^worst island: 20 bodies from body 1 on, [0-9.e-]+ % of its weight unbalanced after 1 \+ 1 iterations, at [0-9.]+ s; " "$work/effects.txt"
 
 # what each effect costs and what goes wrong without it: figures for all that run
 "$plumb" effects "$scenes/car.json" --ablate --json - >"$work/ablation.json"

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+/// Residuals of islands that are solved as one (effects/residual.h): contacts by the formulas of
+/// swept rows, ties by the answers of their rows.
+#include "constraints/friction.h"
+#include "step/island_group.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+namespace {
+
+/// Friction by the least mass of the point in any direction.
+ResidualSum residual_of(const Island& island, const IslandPoint& p) {
+    const Vector6d lack = p.wanted - velocity_of(p, island.velocity);
+    const double push = p.impulse[0], m = p.mass;
+    const double normal = std::clamp(push + p.mass_normal * lack[0], 0.0, p.cone.most) - push;
+    Planar<double> friction{p.impulse[1], p.impulse[2]};
+    const Planar<double> across = solve_friction<double>(friction, {0, 0}, {-lack[1], -lack[2]},
+                                                         {m, 0, m, m}, p.cone.friction * push);
+    const double pushed = normal * normal, slid = across.x * across.x + across.y * across.y;
+    return {pushed + slid, pushed + slid,
+            std::max(pushed / (p.mass_normal * p.mass_normal), slid / (m * m)), push, 1};
+}
+
+ResidualSum residual_of(const Island& island, const IslandRow& row) {
+    const double rate = rate_of(row, island.velocity);
+    const double off = answer_of(row, rate, row.mass).impulse - row.impulse;
+    const double impulse = off / row.length, speed = off / row.mass * row.length;
+    return {impulse * impulse, impulse * impulse, speed * speed, 0, 1};
+}
+
+}  // namespace
+
+void IslandGroup::join_islands(const World& world, IslandResiduals& islands) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+        const std::int32_t first = world.bodies.row[bodies_[members_[i].first_body].body];
+        for (std::uint32_t k = members_[i].first_body + 1; k < members_[i].last_body; ++k)
+            islands.join(first, world.bodies.row[bodies_[k].body]);
+    }
+}
+
+void IslandGroup::add_residuals(const World& world, IslandResiduals& islands) {
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Member& member = members_[i];
+        const Island island = island_of(member);
+        ResidualSum sum;
+        for (const IslandPoint& point : island.points) sum.add(residual_of(island, point));
+        for (const IslandRow& row : island.rows) sum.add(residual_of(island, row));
+        const std::int32_t row = world.bodies.row[bodies_[member.first_body].body];
+        islands.add(row, row, sum);
+        const bool open = member.open > world.settings.joint_tolerance;
+        if (member.effort != IslandEffort::swept && member.solved && !open) islands.mark_exact(row);
+    }
+}
+
+}  // namespace plumb
