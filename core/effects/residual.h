@@ -16,7 +16,7 @@ namespace plumb {
 struct IslandResidual {
     std::uint32_t first_body = ~0u;  ///< the least index of its bodies
     std::uint32_t bodies = 0;
-    bool exact = false;    ///< it was solved exactly, not by iterations
+    bool exact = false;    ///< nothing of it was iterated
     double weight = 0;     ///< of its bodies; without gravity, the sum of its normal forces [N]
     double force = 0;      ///< of its worst constraint [N]
     double rms_force = 0;  ///< root mean square over its constraints [N]

@@ -46,11 +46,11 @@ public:
     virtual void end_step(World&) {}
 
     /// After the last substep's iterations: whether it tells how far its constraints are from being
-    /// solved. If some do, all join the bodies of theirs, and then tell.
+    /// solved. If some do, all join the bodies of theirs, and then tell what they can.
     virtual bool has_residuals() const { return false; }
     virtual void join_islands(IslandResiduals&) const {}
-    virtual void add_residuals(IslandResiduals&, const BodyRows<Real>&, const PassSettings<Real>&) {
-    }
+    virtual void add_residuals(IslandResiduals&, const World&, const BodyRows<Real>&,
+                               const PassSettings<Real>&) {}
 
     /// What could not be solved.
     virtual void report(StepReport&) const {}

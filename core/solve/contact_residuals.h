@@ -29,7 +29,7 @@ public:
             const PairResidual<Real, W>& r = blocks_[block];
             islands.add(pairs[p].row_a, pairs[p].row_b,
                         {double(r.worst[lane]), double(r.sum[lane]), double(r.error[lane]),
-                         double(r.push[lane]), pairs[p].count});
+                         double(r.push[lane]), pairs[p].count, true});
         }
     }
 

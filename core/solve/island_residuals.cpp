@@ -8,11 +8,10 @@
 namespace plumb {
 namespace {
 
-constexpr std::uint32_t kNoIsland = ~0u;
-
 /// Adds what its constraints tell to what its bodies do.
 void put_residual(IslandResidual& island, const ResidualSum& sum, double h) {
     if (!(island.weight > 0)) island.weight = sum.push / h;
+    island.exact = !sum.swept;
     island.force = std::sqrt(sum.worst) / h;
     island.rms_force = std::sqrt(sum.sum / sum.count) / h;
     island.error = std::sqrt(sum.error) * h;

@@ -18,6 +18,7 @@ struct ResidualSum {
     double error = 0;           ///< of their velocities, the greatest [m²/s²]
     double push = 0;            ///< what contacts bear along their normals [N s]
     std::uint32_t count = 0;    ///< of constraints
+    bool swept = false;         ///< whether some were iterated
 
     void add(const ResidualSum& other) {
         worst = std::max(worst, other.worst);
@@ -25,6 +26,7 @@ struct ResidualSum {
         sum += other.sum;
         push += other.push;
         count += other.count;
+        swept |= other.swept;
     }
 };
 
@@ -52,14 +54,12 @@ public:
 
     // then
 
-    /// Constraints between two bodies, at least one of which moves others.
+    /// Constraints between two bodies. Nothing is kept of bodies that are in no island.
     void add(std::int32_t row_a, std::int32_t row_b, const ResidualSum& lacking) {
         const auto count = static_cast<std::int32_t>(island_.size());
         const std::int32_t row = row_a < count ? row_a : row_b;
-        if (row < count) sums_[island_[row]].add(lacking);
+        if (row < count && island_[row] != kNoIsland) sums_[island_[row]].add(lacking);
     }
-    /// The island of a body was solved exactly.
-    void mark_exact(std::int32_t row) { islands_[island_[row]].exact = true; }
 
     /// What came of the last substep, of length h [s].
     StepResidual find(double h);
@@ -68,6 +68,8 @@ public:
     const std::vector<IslandResidual>& islands() const { return islands_; }
 
 private:
+    static constexpr std::uint32_t kNoIsland = ~0u;
+
     void weigh(const World& world, std::size_t count);
 
     /// The least row of an island is its root.

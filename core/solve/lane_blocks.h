@@ -75,7 +75,7 @@ public:
             const PairResidual<Real, W>& r = residuals_[block];
             islands.add(blocks_[block].row_a[lane], blocks_[block].row_b[lane],
                         {double(r.worst[lane]), double(r.sum[lane]), double(r.error[lane]),
-                         double(r.push[lane]), 1});
+                         double(r.push[lane]), 1, true});
         }
     }
 

@@ -202,7 +202,7 @@ public:
     void join_islands(IslandResiduals& islands) const override {
         for (const BodyPair& pair : pairs_) islands.join(pair.row_a, pair.row_b);
     }
-    void add_residuals(IslandResiduals& islands, const BodyRows<Real>& bodies,
+    void add_residuals(IslandResiduals& islands, const World&, const BodyRows<Real>& bodies,
                        const PassSettings<Real>& pass) override {
         residuals_.add_to(islands, batches_, pairs_, kernels_.find_residuals, bodies, pass,
                           workers_);

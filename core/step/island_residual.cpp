@@ -47,10 +47,10 @@ void IslandGroup::add_residuals(const World& world, IslandResiduals& islands) {
         ResidualSum sum;
         for (const IslandPoint& point : island.points) sum.add(residual_of(island, point));
         for (const IslandRow& row : island.rows) sum.add(residual_of(island, row));
+        sum.swept = member.effort == IslandEffort::swept || !member.solved ||
+                    member.open > world.settings.joint_tolerance;
         const std::int32_t row = world.bodies.row[bodies_[member.first_body].body];
         islands.add(row, row, sum);
-        const bool open = member.open > world.settings.joint_tolerance;
-        if (member.effort != IslandEffort::swept && member.solved && !open) islands.mark_exact(row);
     }
 }
 

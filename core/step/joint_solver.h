@@ -61,8 +61,9 @@ public:
     }
 
     bool has_residuals() const override { return !idle_; }
-    void add_residuals(IslandResiduals& islands, const BodyRows<Real>& bodies,
+    void add_residuals(IslandResiduals& islands, const World&, const BodyRows<Real>& bodies,
                        const PassSettings<Real>& pass) override {
+        if (idle_) return;
         balls_.add_residuals(islands, kernels_.ball_residuals, bodies, pass.h,
                              [&](std::size_t i) { return !in_island_[ball_joints_[i]]; });
         blocks_.add_residuals(islands, kernels_.joint_residuals, bodies, pass.h,

@@ -5,10 +5,12 @@
 #include "schedule/joint_forest.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "step/joint_residual.h"
 #include "step/tree_solver.h"
 
 #include <algorithm>
 #include <deque>
+#include <vector>
 
 namespace plumb {
 
@@ -21,6 +23,8 @@ public:
         : in_island_(in_island), workers_(workers) {
         for (const JointForest& share : share_out_trees(forest, workers.count()))
             trees_.emplace_back(world, share, world.settings.joint_tolerance);
+        for (std::uint32_t i = 0; i < forest.in_tree.size(); ++i)
+            if (forest.in_tree[i]) joints_.push_back(i);
     }
 
     Stage stage() const override { return Stage::trees; }
@@ -39,6 +43,20 @@ public:
                            std::uint32_t worker) override {
         if (worker < trees_.size()) trees_[worker].solve(rows, pass.alone);
         workers_.barrier();
+    }
+
+    /// Only where others touch them: alone they are exact.
+    void add_residuals(IslandResiduals& islands, const World& world, const BodyRows<Real>&,
+                       const PassSettings<Real>&) override {
+        for (const std::uint32_t i : joints_) {
+            const Joint& joint = world.joints.joints[i];
+            if (in_island_[i] || joint.broken || joint.pace.is_divided()) continue;
+            const auto row_of = [&](std::uint32_t body) {
+                return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
+            };
+            islands.add(row_of(joint.a), row_of(joint.b),
+                        open_residual(world, joint, substep_of(world.settings)));
+        }
     }
 
     void end_substep(World& world) override {
@@ -63,7 +81,8 @@ private:
 
     const std::vector<std::uint8_t>& in_island_;
     Workers& workers_;
-    std::deque<TreeSolver<W>> trees_;  ///< [worker], or fewer
+    std::vector<std::uint32_t> joints_;  ///< of all trees
+    std::deque<TreeSolver<W>> trees_;    ///< [worker], or fewer
 };
 
 }  // namespace plumb

@@ -170,8 +170,7 @@ public:
         residuals_.begin();
         if (!has_residuals()) return {};
         find_islands(world);
-        for (const auto& group : groups_)
-            if (group->has_residuals()) add_residuals(*group);
+        for (const auto& group : groups_) add_residuals(world, *group);
         if (islands_) islands_->add_residuals(world, residuals_);
         return residuals_.find(substep_of(world.settings));
     }
@@ -277,11 +276,11 @@ private:
     }
 
     /// Shock propagation has the last word about contacts.
-    void add_residuals(Group& group) {
+    void add_residuals(const World& world, Group& group) {
         if (shocks_ && &group == contacts_)
-            shock_->add_residuals(residuals_, table_.rows(), shock_pass());
+            shock_->add_residuals(residuals_, world, table_.rows(), shock_pass());
         else
-            group.add_residuals(residuals_, table_.rows(), pass_);
+            group.add_residuals(residuals_, world, table_.rows(), pass_);
     }
 
     PassSettings<Real> shock_pass() const {

@@ -114,6 +114,28 @@ TEST_P(Residual, OfTwoJointsAfterOneIteration) {
         }
 }
 
+/// A ball that hangs at a height by a joint, which alone is exact, overlaps the ground: the
+/// contact, which has the last word, pushes a share of that out, and opens the joint by as much.
+TEST_P(Residual, OfAJointThatIsExactUntilItTouches) {
+    constexpr double kOverlap = 1e-3, kMass = 2;
+    Scene s = scene();
+    sweep_from_nothing(s.settings, 0, 1);
+    add_ground(s);
+    add_body(s, sphere(0.5), {0, 0.5 - kOverlap, 0}).mass = kMass;
+    JointSpec joint;
+    joint.body_a = 1, joint.anchor = {0, 0.5 - kOverlap, 0};
+    s.joints.push_back(joint);
+    Simulation simulation(s, colliders(), collider());
+    const IslandResidual worst = simulation.step().residual.worst;
+
+    const double h = s.settings.dt, error = s.settings.stiffness * kOverlap;
+    const double force = kMass * error / (h * h);
+    EXPECT_FALSE(worst.exact);
+    EXPECT_NEAR(worst.error, error, 1e-5 * error);
+    EXPECT_NEAR(worst.force, force, 1e-5 * force);
+    EXPECT_NEAR(joint_errors(simulation.world())[0], error, 1e-5 * error);
+}
+
 /// Without gravity an island is weighed by what its contacts bear.
 TEST_P(Residual, IsWeighedByForcesWhereThereIsNoGravity) {
     Scene s = scene();
