@@ -7,6 +7,7 @@
 #include "step/lever_of.h"
 #include "step/stages.h"
 #include "step/substep_time.h"
+#include "world/body_momentum.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,7 @@ constexpr double kJerk = 0.01;
 
 /// For how long fewer parts must do before fewer are taken [s]: longer than what swings quickly
 /// takes to come back.
-constexpr double kCalm = 5;
+constexpr double kCalmTime = 5;
 
 /// What is left of a joint's error by its last Newton step has always the same sign, and feeds or
 /// brakes the swing: it must be small against the way of a part.
@@ -275,7 +276,7 @@ void DividedTrees::choose(World& world, double h) {
         if (needed >= before) {
             pace = {needed, before, 0};
         } else {
-            const bool calm = ++pace.calm * h > kCalm;
+            const bool calm = ++pace.calm * h > kCalmTime;
             pace = {calm ? before / 2 : before, before, calm ? 0 : pace.calm};
         }
     }
