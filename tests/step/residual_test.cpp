@@ -185,8 +185,8 @@ Vector velocity_of_point(const World& after, const Bodies& before, std::uint32_t
 }
 
 Lacking lacking_of(const World& after, const Before& at, std::size_t contact) {
-    const Contact& c = after.contacts.found_before[contact];
-    const ContactMemory& bears = after.contacts.memory_before[contact];
+    const Contact& c = after.contacts.found[contact];
+    const ContactMemory& bears = after.contacts.memory[contact];
     const Vector n = to_eigen(c.normal), point = common_point(c);
     const Vector x = n.unitOrthogonal(), y = n.cross(x);
     const Eigen::Matrix3d k =
@@ -236,11 +236,11 @@ TEST(ResidualOfHeap, IsThatOfItsContactsOneByOne) {
         const StepResidual residual = simulation.step().residual;
         const World& after = simulation.world();
         double impulse = 0, error = 0;
-        for (std::size_t i = 0; i < after.contacts.found_before.size(); ++i) {
+        for (std::size_t i = 0; i < after.contacts.found.size(); ++i) {
             const Lacking lacking = lacking_of(after, before, i);
             impulse = std::max(impulse, lacking.impulse), error = std::max(error, lacking.error);
         }
-        if (after.contacts.found_before.empty()) continue;
+        if (after.contacts.found.empty()) continue;
         ++compared;
         EXPECT_NEAR(residual.force * before.h, impulse, 1e-6 * impulse + 1e-12) << step;
         EXPECT_NEAR(residual.error, error * before.h, 1e-6 * error * before.h + 1e-15) << step;
