@@ -93,6 +93,9 @@ inline bool is_open(const World& world, std::size_t i) {
     return c.gap[i] > kRounding * smaller_radius(world.bodies, c.found[i]);
 }
 
+/// What gravity moves a body by in a step, from rest and as the step counts it [m].
+inline double fall_in_step(const Settings& s) { return s.gravity.norm() * s.dt * s.dt; }
+
 /// A pair that approaches faster collides: √(2 g ε) [m/s].
 inline double collision_threshold(const Settings& s) {
     return std::sqrt(2 * s.gravity.norm() * s.collision_depth);

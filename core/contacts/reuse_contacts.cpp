@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/reuse_contacts.h"
 
+#include "contacts/contact_measures.h"
+
 #include <algorithm>
 #include <tuple>
 
@@ -150,7 +152,8 @@ private:
     /// By how much a pair may move that was farther apart than its margin [m]; 0 where it was not.
     double allowed_apart(const KeptPair& pair, double margin) const {
         if (pair.count > 0) return 0;
-        const double step = (*context_.travels)[pair.a] + (*context_.travels)[pair.b];
+        const double step = (*context_.travels)[pair.a] + (*context_.travels)[pair.b] +
+                            fall_in_step(world_.settings);
         return pair.margin - std::max(margin - world_.settings.margin / 2, 2 * step);
     }
 

@@ -58,7 +58,7 @@ public:
             fill_surface(world, contact, k, lane);
         });
         trusted_.resize(world.contacts.found.size());
-        const double fall = world.settings.gravity.norm() * world.settings.dt * world.settings.dt;
+        const double fall = fall_in_step(world.settings);
         const double where_free = world.joints.size() == 0 ? kTrusted : kOutOfReach;
         const bool is_loose = world.joints.size() == 0 && world.particles.size() == 0;
         has_bounds_ = is_loose && world.kinematic_count > 0;

@@ -62,7 +62,8 @@ Status Collider::detect_all(const DetectRequest& request, const ContactSink* sin
     candidates_.find(pairs_, table_, [this](std::vector<PartPair>& found) { find_pairs(found); });
     stats_.broad_pairs = pairs_.size();
     if (request.filter) candidates_.apply(*request.filter, pairs_);
-    if (!(request.flags & kDetectRaw)) leave_out_far_balls(pairs_, table_.parts());
+    if (!(request.flags & kDetectRaw) && !sees_far_balls())
+        leave_out_far_balls(pairs_, table_.parts());
     place_parts();
     queries_.forget();
     run_blocks(request,

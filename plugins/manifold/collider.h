@@ -53,6 +53,10 @@ protected:
     /// Called once a detection, when all parts have their world frames, before the blocks.
     virtual void place_parts() {}
 
+    /// Whether the narrow phase sees even balls that a closed form tells to be far: where it shall
+    /// share nothing with the others.
+    virtual bool sees_far_balls() const { return false; }
+
     /// Adds the contacts of some pairs, which stand sorted. `raw`: what the back-end itself says.
     /// Blocks run on several threads at once; what is written to must belong to the worker.
     virtual void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count,

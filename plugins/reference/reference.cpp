@@ -23,6 +23,8 @@ public:
 private:
     void find_pairs(std::vector<PartPair>& pairs) override { reference::find_pairs(pairs, table_); }
 
+    bool sees_far_balls() const override { return true; }
+
     void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool,
                        std::uint32_t) override {
         for (std::size_t i = 0; i < count; ++i)
