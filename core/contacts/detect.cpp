@@ -135,7 +135,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
     }
     const StageTimer timer(ledger, Stage::reuse);
     if (!context.asked) forget_kept_contacts(world);
-    const std::uint32_t unasked = set_aside(world);
+    const std::uint32_t unasked = find_moves(world);
     report.faults[static_cast<std::size_t>(ContactFault::unwanted_pair)] += unasked;
     report.rejected_contacts += unasked;
     if (report.collider_failed || report.rejected_contacts > 0) forget_kept_contacts(world);

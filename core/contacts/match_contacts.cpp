@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What was detected and what is left of the step before are both sorted, so one walk along both
-/// finds what stayed.
+/// What was detected and the table of the step before are both sorted, so one walk along both finds
+/// what goes on.
 #include "contacts/anchors.h"
 #include "contacts/contact_pairs.h"
 #include "contacts/contact_stages.h"
@@ -40,7 +40,7 @@ std::size_t nearest(std::span<const Contact> contacts, const Vector3d& point) {
 }
 
 /// `used`: of the contacts before, whether one has taken over their memory.
-void match_by_feature(const PairRun& now, const PairRun& before, std::uint8_t* used) {
+void match_by_feature(const PairRun& now, const PairRun& before, std::vector<std::uint8_t>& used) {
     for (std::size_t k = 0; k < now.size(); ++k)
         for (std::size_t j = 0; j < before.size(); ++j)
             if (now.found[k].feature != 0 && now.found[k].feature == before.found[j].feature &&
@@ -54,7 +54,8 @@ void match_by_feature(const PairRun& now, const PairRun& before, std::uint8_t* u
 
 /// Where features came and went (a corner slid over an edge), the pair keeps its summed impulses:
 /// what no contact took over goes to the nearest one.
-void hand_on_impulses(const PairRun& now, const PairRun& before, const std::uint8_t* used) {
+void hand_on_impulses(const PairRun& now, const PairRun& before,
+                      const std::vector<std::uint8_t>& used) {
     for (std::size_t j = 0; j < before.size(); ++j) {
         if (used[j]) continue;
         ContactMemory& heir = now.memory[nearest(now.found, common_point(before.found[j]))];
@@ -68,7 +69,8 @@ void hand_on_impulses(const PairRun& now, const PairRun& before, const std::uint
 }
 
 /// `before` is empty where the pair is new.
-void match_pair(const PairRun& now, const PairRun& before, std::uint8_t* used) {
+void match_pair(const PairRun& now, const PairRun& before, std::vector<std::uint8_t>& used) {
+    used.assign(before.size(), 0);
     std::fill(now.memory.begin(), now.memory.end(), ContactMemory{});
     match_by_feature(now, before, used);
     hand_on_impulses(now, before, used);
@@ -106,21 +108,34 @@ void anchor_pair(const Bodies& bodies, const PairRun& now, const PairRun& before
     }
 }
 
+/// The first contact from `at` on that is of the pair of another one, or of a later pair: most
+/// often one of the next.
+std::size_t skip_to(const std::vector<Contact>& contacts, std::size_t at, const Contact& other) {
+    const auto is_earlier = [](const Contact& x, const Contact& y) {
+        return compare_pairs(x, y) < 0;
+    };
+    std::size_t far = 1;
+    for (; at + far < contacts.size() && is_earlier(contacts[at + far], other); far *= 2) at += far;
+    const auto first = contacts.begin() + static_cast<std::ptrdiff_t>(at);
+    const auto last =
+        contacts.begin() + static_cast<std::ptrdiff_t>(std::min(at + far, contacts.size()));
+    return static_cast<std::size_t>(std::lower_bound(first, last, other, is_earlier) -
+                                    contacts.begin());
+}
+
 void match_fresh(World& world, bool anchors) {
-    RememberedContacts &fresh = world.contacts.fresh, &left = world.contacts.left;
-    std::vector<std::uint8_t>& used = world.contacts.used;
+    ContactTable& table = world.contacts;
+    RememberedContacts& fresh = table.fresh;
     fresh.memory.resize(fresh.found.size());
-    used.assign(left.found.size(), 0);
     std::size_t old = 0;
     for (std::size_t i = 0, end; i < fresh.found.size(); i = end) {
         end = end_of_pair(fresh.found, i);
-        const PairRun now(fresh, i, end);
-        while (old < left.found.size() && compare_pairs(left.found[old], fresh.found[i]) < 0) ++old;
+        old = skip_to(table.found, old, fresh.found[i]);
         const std::size_t first = old;
-        if (old < left.found.size() && compare_pairs(left.found[old], fresh.found[i]) == 0)
-            old = end_of_pair(left.found, old);
-        const PairRun before(left, first, old);
-        match_pair(now, before, used.data() + first);
+        if (old < table.found.size() && compare_pairs(table.found[old], fresh.found[i]) == 0)
+            old = end_of_pair(table.found, old);
+        const PairRun now(fresh, i, end), before(table, first, old);
+        match_pair(now, before, table.used);
         if (anchors) anchor_pair(world.bodies, now, before);
     }
 }
@@ -129,7 +144,7 @@ void match_fresh(World& world, bool anchors) {
 /// remembers, for each looks at the others of before.
 void anchor_kept(World& world) {
     ContactTable& c = world.contacts;
-    RememberedContacts& copy = c.left;  // of which nothing is needed any more
+    RememberedContacts& copy = c.copy;
     const auto needs_anchors = [&](std::size_t i) {
         return !c.memory[i].sticks && is_sharp(c.found[i]);
     };

@@ -14,19 +14,16 @@ namespace {
 std::tuple<std::uint32_t, std::uint32_t> bodies_of(const Contact& c) { return {c.a, c.b}; }
 std::tuple<std::uint32_t, std::uint32_t> bodies_of(const KeptPair& p) { return {p.a, p.b}; }
 
-/// Walks along the pairs, the contacts that stand in the table and those that were detected.
+/// Walks along the pairs and the contacts that were detected.
 class Renewal {
 public:
     explicit Renewal(ContactTable& table) : table_(table), kept_(table.kept) {
         kept_.stays.clear(), kept_.comes.clear();
         kept_.reused = 0;
-        table.left.found.clear(), table.left.memory.clear();
     }
 
     void stay(const KeptPair& pair) {
-        leave(pair.first);
-        add(kept_.stays, old_, pair.count);
-        old_ += pair.count;
+        add(kept_.stays, pair.first, pair.count);
         kept_.reused += pair.count;
     }
 
@@ -49,14 +46,6 @@ public:
         return fresh_ - first;
     }
 
-    /// The contacts in the table up to `end` do not stay.
-    void leave(std::uint32_t end) {
-        for (; old_ < end; ++old_) {
-            table_.left.found.push_back(table_.found[old_]);
-            table_.left.memory.push_back(table_.memory[old_]);
-        }
-    }
-
 private:
     /// In one with the move before where it goes on.
     void add(std::vector<ContactMove>& moves, std::uint32_t from, std::uint32_t count) {
@@ -71,7 +60,7 @@ private:
 
     ContactTable& table_;
     KeptContacts& kept_;
-    std::uint32_t old_ = 0, fresh_ = 0, new_ = 0;
+    std::uint32_t fresh_ = 0, new_ = 0;
 };
 
 /// Moves what stays within a column that has room for all. What goes up must not run into what
@@ -134,7 +123,7 @@ void let_ride(World& world) {
 
 }  // namespace
 
-std::uint32_t set_aside(World& world) {
+std::uint32_t find_moves(World& world) {
     ContactTable& table = world.contacts;
     Renewal renewal(table);
     std::uint32_t unasked = 0, foreign = 0;
@@ -148,7 +137,6 @@ std::uint32_t set_aside(World& world) {
         renewal.stay(pair);
         unasked += renewal.skip(pair);
     }
-    renewal.leave(static_cast<std::uint32_t>(table.found.size()));
     foreign += renewal.come([](const Contact&) { return true; });
     if (foreign > 0) forget_kept_contacts(world);  // of pairs that were no candidates
     return unasked;

@@ -4,16 +4,16 @@
 /// replaced.
 ///
 /// Between the two calls, what was detected (ContactTable::fresh) takes over the memory of what is
-/// left (ContactTable::left).
+/// about to go.
 #pragma once
 
 #include "world/world.h"
 
 namespace plumb {
 
-/// Which contacts stay, which come, and the others into ContactTable::left. Returns how many were
-/// detected of pairs that were kept, and are left out.
-std::uint32_t set_aside(World& world);
+/// Finds which contacts stay and which come. Returns how many were detected of pairs that were
+/// kept, and are left out.
+std::uint32_t find_moves(World& world);
 
 /// How many contacts there will be.
 std::uint32_t contacts_to_be(const KeptContacts& kept);

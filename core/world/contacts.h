@@ -80,9 +80,9 @@ struct ContactTable : RememberedContacts {  ///< as the collider reported them; 
     std::vector<Vector3d>
         anchor_slip;  ///< how far a sticking contact has left its anchors [m]; else empty
 
-    RememberedContacts fresh;  ///< those that the collider reported in this step
-    RememberedContacts left;  ///< of the step before: of pairs that were detected anew, or are gone
-    std::vector<std::uint8_t> used;  ///< of those left: whether a contact has taken over its memory
+    RememberedContacts fresh;        ///< those that the collider reported in this step
+    RememberedContacts copy;         ///< of one pair, while its contacts change
+    std::vector<std::uint8_t> used;  ///< of one pair: whether a contact has taken over the memory
     KeptContacts kept;               ///< only with reuse
 
     std::uint64_t rejected =
