@@ -9,16 +9,14 @@ void find_pairs(const World& world, const std::vector<std::uint32_t>* levels,
                 std::vector<BodyPair>& pairs) {
     pairs.clear();
     const std::vector<Contact>& found = world.contacts.found;
-    for (std::uint32_t i = 0; i < found.size(); ++i) {
-        const Contact& c = found[i];
-        if (i > 0 && found[i - 1].a == c.a && found[i - 1].b == c.b) {
-            ++pairs.back().count;
-            continue;
-        }
-        BodyPair pair{world.bodies.row[c.a], world.bodies.row[c.b], i, 1, 0};
+    each_pair(found, 0, found.size(), [&](std::size_t first, std::size_t end) {
+        const Contact& c = found[first];
+        BodyPair pair{world.bodies.row[c.a], world.bodies.row[c.b],
+                      static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first),
+                      0};
         if (levels) pair.level = std::max((*levels)[c.a], (*levels)[c.b]);
         pairs.push_back(pair);
-    }
+    });
 }
 
 void find_levels(const World& world, std::vector<std::uint32_t>& levels) {

@@ -5,17 +5,32 @@
 #include "schedule/colouring.h"
 #include "world/world.h"
 
+#include <tuple>
 #include <vector>
 
 namespace plumb {
 
+/// The two bodies of a contact or a pair, by which both are sorted.
+template <class Pair>
+std::tuple<std::uint32_t, std::uint32_t> bodies_of(const Pair& pair) {
+    return {pair.a, pair.b};
+}
+
 /// End of the run of contacts that share the pair of contact `i`.
 inline std::size_t end_of_pair(const std::vector<Contact>& contacts, std::size_t i) {
     std::size_t end = i + 1;
-    while (end < contacts.size() && contacts[end].a == contacts[i].a &&
-           contacts[end].b == contacts[i].b)
-        ++end;
+    while (end < contacts.size() && bodies_of(contacts[end]) == bodies_of(contacts[i])) ++end;
     return end;
+}
+
+/// Calls visit(first, end) for the runs of one pair each among the contacts [first, last).
+template <class Visit>
+void each_pair(const std::vector<Contact>& contacts, std::size_t first, std::size_t last,
+               Visit visit) {
+    for (std::size_t end; first < last; first = end) {
+        end = end_of_pair(contacts, first);
+        visit(first, end);
+    }
 }
 
 /// Groups neighbouring contacts of one pair. With levels, a pair is solved after those nearer to

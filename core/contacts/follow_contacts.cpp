@@ -78,17 +78,16 @@ void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) 
 void measure_anchor_slips(World& world) {
     ContactTable& c = world.contacts;
     c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
-    for (std::size_t first = 0, end; first < c.found.size(); first = end) {
-        end = end_of_pair(c.found, first);
+    each_pair(c.found, 0, c.found.size(), [&](std::size_t first, std::size_t end) {
         const auto at = c.found.begin();
-        if (std::none_of(at + first, at + end, is_sharp)) continue;
+        if (std::none_of(at + first, at + end, is_sharp)) return;
         const PairPoses poses(world.bodies, at[first].a, at[first].b);
         for (std::size_t i = first; i < end; ++i) {
             if (!is_sharp(c.found[i])) continue;
             if (!c.rims.empty()) let_go_of_what_rolled(world, poses, i);
             c.anchor_slip[i] = anchor_slip_of(poses, c.memory[i]);
         }
-    }
+    });
 }
 
 }  // namespace

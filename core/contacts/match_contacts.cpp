@@ -12,13 +12,6 @@
 namespace plumb {
 namespace {
 
-/// −1, 0, 1: order of the pairs of bodies.
-int compare_pairs(const Contact& x, const Contact& y) {
-    if (x.a != y.a) return x.a < y.a ? -1 : 1;
-    if (x.b != y.b) return x.b < y.b ? -1 : 1;
-    return 0;
-}
-
 /// The contacts of one pair.
 struct PairRun {
     std::span<const Contact> found;
@@ -112,7 +105,7 @@ void anchor_pair(const Bodies& bodies, const PairRun& now, const PairRun& before
 /// often one of the next.
 std::size_t skip_to(const std::vector<Contact>& contacts, std::size_t at, const Contact& other) {
     const auto is_earlier = [](const Contact& x, const Contact& y) {
-        return compare_pairs(x, y) < 0;
+        return bodies_of(x) < bodies_of(y);
     };
     std::size_t far = 1;
     for (; at + far < contacts.size() && is_earlier(contacts[at + far], other); far *= 2) at += far;
@@ -128,16 +121,15 @@ void match_fresh(World& world, bool anchors) {
     RememberedContacts& fresh = table.fresh;
     fresh.memory.resize(fresh.found.size());
     std::size_t old = 0;
-    for (std::size_t i = 0, end; i < fresh.found.size(); i = end) {
-        end = end_of_pair(fresh.found, i);
+    each_pair(fresh.found, 0, fresh.found.size(), [&](std::size_t i, std::size_t end) {
         old = skip_to(table.found, old, fresh.found[i]);
         const std::size_t first = old;
-        if (old < table.found.size() && compare_pairs(table.found[old], fresh.found[i]) == 0)
+        if (old < table.found.size() && bodies_of(table.found[old]) == bodies_of(fresh.found[i]))
             old = end_of_pair(table.found, old);
         const PairRun now(fresh, i, end), before(table, first, old);
         match_pair(now, before, table.used);
         if (anchors) anchor_pair(world.bodies, now, before);
-    }
+    });
 }
 
 /// Contacts that stay, where one of them slid or carried nothing: with a copy of what their pair
@@ -149,15 +141,14 @@ void anchor_kept(World& world) {
         return !c.memory[i].sticks && is_sharp(c.found[i]);
     };
     for (const ContactMove& stay : c.kept.stays)
-        for (std::size_t i = stay.to, end; i < stay.to + stay.count; i = end) {
-            end = end_of_pair(c.found, i);
+        each_pair(c.found, stay.to, stay.to + stay.count, [&](std::size_t i, std::size_t end) {
             bool any = false;
             for (std::size_t k = i; k < end; ++k) any |= needs_anchors(k);
-            if (!any) continue;
+            if (!any) return;
             copy.found.assign(c.found.begin() + i, c.found.begin() + end);
             copy.memory.assign(c.memory.begin() + i, c.memory.begin() + end);
             anchor_pair(world.bodies, PairRun(c, i, end), PairRun(copy, 0, end - i));
-        }
+        });
 }
 
 }  // namespace

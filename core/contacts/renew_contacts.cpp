@@ -6,13 +6,9 @@
 #include "contacts/reuse_contacts.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace plumb {
 namespace {
-
-std::tuple<std::uint32_t, std::uint32_t> bodies_of(const Contact& c) { return {c.a, c.b}; }
-std::tuple<std::uint32_t, std::uint32_t> bodies_of(const KeptPair& p) { return {p.a, p.b}; }
 
 /// Walks along the pairs and the contacts that were detected.
 class Renewal {
@@ -31,18 +27,16 @@ public:
     /// Returns how many.
     template <class IsNext>
     std::uint32_t come(IsNext is_next) {
-        const std::uint32_t first = fresh_;
-        while (fresh_ < table_.fresh.found.size() && is_next(table_.fresh.found[fresh_])) ++fresh_;
-        add(kept_.comes, first, fresh_ - first);
-        return fresh_ - first;
+        const std::uint32_t first = fresh_, count = skip(is_next);
+        add(kept_.comes, first, count);
+        return count;
     }
 
-    /// Leaves out what was detected of a pair that was kept.
-    std::uint32_t skip(const KeptPair& pair) {
+    /// Leaves them out.
+    template <class IsNext>
+    std::uint32_t skip(IsNext is_next) {
         const std::uint32_t first = fresh_;
-        while (fresh_ < table_.fresh.found.size() &&
-               bodies_of(table_.fresh.found[fresh_]) == bodies_of(pair))
-            ++fresh_;
+        while (fresh_ < table_.fresh.found.size() && is_next(table_.fresh.found[fresh_])) ++fresh_;
         return fresh_ - first;
     }
 
@@ -91,33 +85,14 @@ void replace(std::vector<Row>& column, const std::vector<Row>& fresh, const Kept
         std::copy_n(fresh.begin() + m.from, m.count, column.begin() + m.to);
 }
 
-/// Calls visit(first, end) for the pairs among the contacts of a move.
+/// Calls visit(contact, poses of its bodies) for the contacts of moves, at their new places.
 template <class Visit>
-void each_pair(const std::vector<Contact>& found, const ContactMove& move, Visit visit) {
-    for (std::size_t i = move.to; i < move.to + move.count;) {
-        const std::size_t end = end_of_pair(found, i);
-        visit(i, end);
-        i = end;
-    }
-}
-
-void bring_up_to_date(World& world) {
-    std::vector<Contact>& found = world.contacts.found;
-    const std::vector<ContactRide>& rides = world.contacts.kept.rides;
-    for (const ContactMove& stay : world.contacts.kept.stays)
-        each_pair(found, stay, [&](std::size_t first, std::size_t end) {
-            const PairPoses poses(world.bodies, found[first].a, found[first].b);
-            for (std::size_t i = first; i < end; ++i) poses.put_into_world(found[i], rides[i]);
-        });
-}
-
-void let_ride(World& world) {
+void each_moved(const World& world, const std::vector<ContactMove>& moves, Visit visit) {
     const std::vector<Contact>& found = world.contacts.found;
-    std::vector<ContactRide>& rides = world.contacts.kept.rides;
-    for (const ContactMove& come : world.contacts.kept.comes)
-        each_pair(found, come, [&](std::size_t first, std::size_t end) {
+    for (const ContactMove& m : moves)
+        each_pair(found, m.to, m.to + m.count, [&](std::size_t first, std::size_t end) {
             const PairPoses poses(world.bodies, found[first].a, found[first].b);
-            for (std::size_t i = first; i < end; ++i) rides[i] = poses.put_into_bodies(found[i]);
+            for (std::size_t i = first; i < end; ++i) visit(i, poses);
         });
 }
 
@@ -128,14 +103,15 @@ std::uint32_t find_moves(World& world) {
     Renewal renewal(table);
     std::uint32_t unasked = 0, foreign = 0;
     for (KeptPair& pair : table.kept.pairs) {
-        const auto key = bodies_of(pair);
-        foreign += renewal.come([&](const Contact& c) { return bodies_of(c) < key; });
+        const auto is_earlier = [&](const Contact& c) { return bodies_of(c) < bodies_of(pair); };
+        const auto is_of_pair = [&](const Contact& c) { return bodies_of(c) == bodies_of(pair); };
+        foreign += renewal.come(is_earlier);
         if (pair.fresh) {
-            pair.count = renewal.come([&](const Contact& c) { return bodies_of(c) == key; });
+            pair.count = renewal.come(is_of_pair);
             continue;
         }
         renewal.stay(pair);
-        unasked += renewal.skip(pair);
+        unasked += renewal.skip(is_of_pair);
     }
     foreign += renewal.come([](const Contact&) { return true; });
     if (foreign > 0) forget_kept_contacts(world);  // of pairs that were no candidates
@@ -156,11 +132,13 @@ void put_in(World& world) {
     replace(table.found, table.fresh.found, kept, size);
     replace(table.memory, table.fresh.memory, kept, size);
     make_room(kept.rides, kept, kept.pairs.empty() && kept.stays.empty() ? 0 : size);
-    bring_up_to_date(world);
-    if (kept.pairs.empty())
-        kept.rides.clear();
-    else
-        let_ride(world);
+    each_moved(world, kept.stays, [&](std::size_t i, const PairPoses& poses) {
+        poses.put_into_world(table.found[i], kept.rides[i]);
+    });
+    if (kept.pairs.empty()) return kept.rides.clear();
+    each_moved(world, kept.comes, [&](std::size_t i, const PairPoses& poses) {
+        kept.rides[i] = poses.put_into_bodies(table.found[i]);
+    });
 }
 
 }  // namespace plumb

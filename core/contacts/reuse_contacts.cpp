@@ -2,6 +2,7 @@
 #include "contacts/reuse_contacts.h"
 
 #include "contacts/contact_measures.h"
+#include "contacts/contact_pairs.h"
 
 #include <algorithm>
 #include <tuple>
@@ -20,8 +21,6 @@ constexpr double kStill = 1e-4;
 /// Share of what is allowed up to which a bound on the motion is as good as the motion: roundings
 /// are less than the rest.
 constexpr double kSure = 0.99;
-
-std::tuple<std::uint32_t, std::uint32_t> key(const KeptPair& p) { return {p.a, p.b}; }
 
 /// The smaller body of a pair, whose points are watched in the frame of the other.
 struct Watched {
@@ -67,11 +66,11 @@ public:
         if (!(a < b) || b >= context_.sweeps->size() || std::tie(a, b) <= last_) return true;
         last_ = {a, b};
         std::vector<KeptPair>& pairs = kept_.pairs;
-        while (read_ < pairs.size() && key(pairs[read_]) < std::tie(a, b))
+        while (read_ < pairs.size() && bodies_of(pairs[read_]) < std::tie(a, b))
             contact_ += pairs[read_++].count;
         const double margin =
             world_.settings.margin + (*context_.sweeps)[a] + (*context_.sweeps)[b];
-        if (read_ == pairs.size() || key(pairs[read_]) != std::tie(a, b)) {
+        if (read_ == pairs.size() || bodies_of(pairs[read_]) != std::tie(a, b)) {
             kept_.born.push_back({a, b, 0, 0, true, margin, 0, 0});
             renew(kept_.born.back(), kept_.born_poses.emplace_back(), margin);
             return true;
@@ -95,7 +94,8 @@ public:
         const std::size_t size = write_ + kept_.born.size();
         kept_.pairs.resize(size), kept_.poses.resize(size);
         for (std::size_t to = size, from = write_, born = kept_.born.size(); born > 0;) {
-            const bool stays = from > 0 && key(kept_.born[born - 1]) < key(kept_.pairs[from - 1]);
+            const bool stays =
+                from > 0 && bodies_of(kept_.born[born - 1]) < bodies_of(kept_.pairs[from - 1]);
             --to, stays ? --from : --born;
             kept_.pairs[to] = stays ? kept_.pairs[from] : kept_.born[born];
             kept_.poses[to] = stays ? kept_.poses[from] : kept_.born_poses[born];

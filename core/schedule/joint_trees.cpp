@@ -11,11 +11,8 @@ namespace {
 /// A joint's bodies as rows of the velocity table, and how many rows it takes away.
 BodyPair joined_pair(const World& world, std::uint32_t index) {
     const Joint& joint = world.joints.joints[index];
-    const auto row_of = [&](std::uint32_t body) {
-        return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
-    };
     const auto rows = std::count(joint.locked.begin(), joint.locked.end(), true);
-    return {row_of(joint.a), row_of(joint.b), index,
+    return {world.row_of(joint.a), world.row_of(joint.b), index,
             joint.broken ? 0 : static_cast<std::uint32_t>(rows)};
 }
 

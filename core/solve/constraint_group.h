@@ -46,9 +46,9 @@ public:
     virtual void end_step(World&) {}
 
     /// After the last substep's iterations: whether it tells how far its constraints are from being
-    /// solved. If some do, all join the bodies of theirs, and then tell what they can.
+    /// solved. If some do, all name the bodies of theirs that no tie holds, and tell what they can.
     virtual bool has_residuals() const { return false; }
-    virtual void join_islands(IslandResiduals&) const {}
+    virtual void add_rows(std::vector<BodyPair>&) const {}
     virtual void add_residuals(IslandResiduals&, const World&, const BodyRows<Real>&,
                                const PassSettings<Real>&) {}
 

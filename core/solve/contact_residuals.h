@@ -27,9 +27,7 @@ public:
         for (std::size_t p = 0; p < pairs.size(); ++p) {
             const auto [block, lane] = batches.slot(p);
             const PairResidual<Real, W>& r = blocks_[block];
-            islands.add(pairs[p].row_a, pairs[p].row_b,
-                        {double(r.worst[lane]), double(r.sum[lane]), double(r.error[lane]),
-                         double(r.push[lane]), pairs[p].count, true});
+            islands.add(pairs[p].row_a, pairs[p].row_b, swept_residual(r, lane, pairs[p].count));
         }
     }
 

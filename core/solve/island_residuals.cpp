@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace plumb {
 namespace {
@@ -19,32 +18,19 @@ void put_residual(IslandResidual& island, const ResidualSum& sum, double h) {
 
 }  // namespace
 
+void add_tied_rows(const World& world, std::vector<BodyPair>& pairs) {
+    const auto add = [&](std::uint32_t a, std::uint32_t b) {
+        pairs.push_back({world.row_of(a), world.row_of(b), 0, 1});
+    };
+    for (const Joint& joint : world.joints.joints)
+        if (!joint.broken) add(joint.a, joint.b);
+    for (const Link& link : world.links)
+        if (link.is_between_bodies()) add(link.a.body, link.b.body);
+}
+
 void IslandResiduals::take(const World& world, const ContactIslands& found) {
     island_ = found.island_of();
     weigh(world, found.islands().size());
-}
-
-void IslandResiduals::join_ties(const World& world) {
-    parent_.resize(static_cast<std::size_t>(world.dynamic_count));
-    std::iota(parent_.begin(), parent_.end(), 0);
-    const auto row_of = [&](std::uint32_t body) {
-        return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
-    };
-    for (const Joint& joint : world.joints.joints)
-        if (!joint.broken) join(row_of(joint.a), row_of(joint.b));
-    for (const Link& link : world.links)
-        if (link.is_between_bodies()) join(row_of(link.a.body), row_of(link.b.body));
-}
-
-/// A body by itself is an island, too.
-void IslandResiduals::end_joining(const World& world) {
-    island_.resize(parent_.size());
-    std::uint32_t count = 0;
-    for (std::size_t row = 0; row < parent_.size(); ++row) {
-        const auto parent = static_cast<std::size_t>(parent_[row]);
-        island_[row] = parent == row ? count++ : island_[parent];
-    }
-    weigh(world, count);
 }
 
 /// How many bodies each island has, and what they weigh.

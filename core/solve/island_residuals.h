@@ -3,6 +3,7 @@
 #pragma once
 
 #include "effects/residual.h"
+#include "kernels/pair_residual.h"
 #include "schedule/contact_islands.h"
 #include "world/world.h"
 
@@ -30,29 +31,30 @@ struct ResidualSum {
     }
 };
 
-/// Reusable memory. Bodies are named by their rows in the velocity table; those that are not of
-/// dynamic bodies join nothing. Sums are in the order of the calls.
+/// What a kernel tells of `count` constraints that were swept.
+template <class Real, int W>
+ResidualSum swept_residual(const PairResidual<Real, W>& r, std::uint32_t lane,
+                           std::uint32_t count) {
+    return {double(r.worst[lane]),
+            double(r.sum[lane]),
+            double(r.error[lane]),
+            double(r.push[lane]),
+            count,
+            true};
+}
+
+/// The bodies that joints and links hold together, as rows of the velocity table.
+void add_tied_rows(const World& world, std::vector<BodyPair>& pairs);
+
+/// Reusable memory. Bodies are named by their rows in the velocity table. Sums are in the order of
+/// the calls.
 class IslandResiduals {
 public:
     /// Forgets what there was.
     void begin() { islands_.clear(); }
 
-    /// Takes a partition that others have found, of which some bodies may be no part.
+    /// Takes a partition, of which some bodies may be no part.
     void take(const World& world, const ContactIslands& found);
-
-    // or makes one
-
-    /// Joins what joints and links hold together.
-    void join_ties(const World& world);
-    void join(std::int32_t row_a, std::int32_t row_b) {
-        const auto count = static_cast<std::int32_t>(parent_.size());
-        if (row_a >= count || row_b >= count) return;
-        const std::int32_t a = root(row_a), b = root(row_b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    void end_joining(const World& world);
-
-    // then
 
     /// Constraints between two bodies. Nothing is kept of bodies that are in no island.
     void add(std::int32_t row_a, std::int32_t row_b, const ResidualSum& lacking) {
@@ -72,13 +74,6 @@ private:
 
     void weigh(const World& world, std::size_t count);
 
-    /// The least row of an island is its root.
-    std::int32_t root(std::int32_t row) {
-        while (parent_[row] != row) row = parent_[row] = parent_[parent_[row]];
-        return row;
-    }
-
-    std::vector<std::int32_t> parent_;   // [dynamic row] while islands are joined
     std::vector<std::uint32_t> island_;  // [dynamic row] ~0u where there is none
     std::vector<ResidualSum> sums_;      // [island]
     std::vector<IslandResidual> islands_;

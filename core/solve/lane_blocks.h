@@ -74,8 +74,7 @@ public:
             const auto [block, lane] = places_[i];
             const PairResidual<Real, W>& r = residuals_[block];
             islands.add(blocks_[block].row_a[lane], blocks_[block].row_b[lane],
-                        {double(r.worst[lane]), double(r.sum[lane]), double(r.error[lane]),
-                         double(r.push[lane]), 1, true});
+                        swept_residual(r, lane, 1));
         }
     }
 

@@ -199,8 +199,8 @@ public:
     }
 
     bool has_residuals() const override { return !pairs_.empty(); }
-    void join_islands(IslandResiduals& islands) const override {
-        for (const BodyPair& pair : pairs_) islands.join(pair.row_a, pair.row_b);
+    void add_rows(std::vector<BodyPair>& pairs) const override {
+        pairs.insert(pairs.end(), pairs_.begin(), pairs_.end());
     }
     void add_residuals(IslandResiduals& islands, const World&, const BodyRows<Real>& bodies,
                        const PassSettings<Real>& pass) override {

@@ -198,13 +198,10 @@ void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& 
 
 void IslandChoice::find_ties(const World& world) {
     ties_.clear(), tied_rows_.clear();
-    const auto row_of = [&](std::uint32_t body) {
-        return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
-    };
     const auto add = [&](TieKind kind, std::uint32_t i, std::uint32_t a, std::uint32_t b) {
         if (!holds(world, {kind, i})) return;
         ties_.push_back({kind, i});
-        tied_rows_.push_back({row_of(a), row_of(b), i, 1});
+        tied_rows_.push_back({world.row_of(a), world.row_of(b), i, 1});
     };
     const std::vector<Joint>& joints = world.joints.joints;
     for (std::uint32_t i = 0; i < joints.size(); ++i)

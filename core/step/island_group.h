@@ -48,10 +48,10 @@ public:
     /// Adds what the contacts bear in this substep.
     void add_impulses(ContactSums& sums) const;
 
-    /// After the last substep: joins the bodies of each island, then tells how far those are from
-    /// being solved, if there are any.
+    /// After the last substep: names the rows that each island holds together, then tells how far
+    /// those are from being solved, if there are any.
     bool has_residuals() const { return count_ > 0; }
-    void join_islands(const World& world, IslandResiduals& islands) const;
+    void add_rows(const World& world, std::vector<BodyPair>& pairs) const;
     void add_residuals(const World& world, IslandResiduals& islands);
 
     /// Once a substep, impulses of ties; once a step, those of contacts.

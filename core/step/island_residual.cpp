@@ -32,11 +32,11 @@ ResidualSum residual_of(const Island& island, const IslandRow& row) {
 
 }  // namespace
 
-void IslandGroup::join_islands(const World& world, IslandResiduals& islands) const {
+void IslandGroup::add_rows(const World& world, std::vector<BodyPair>& pairs) const {
     for (std::size_t i = 0; i < count_; ++i) {
         const std::int32_t first = world.bodies.row[bodies_[members_[i].first_body].body];
-        for (std::uint32_t k = members_[i].first_body + 1; k < members_[i].last_body; ++k)
-            islands.join(first, world.bodies.row[bodies_[k].body]);
+        for (std::uint32_t k = members_[i].first_body; k < members_[i].last_body; ++k)
+            pairs.push_back({first, world.bodies.row[bodies_[k].body], 0, 1});
     }
 }
 

@@ -51,10 +51,7 @@ public:
         for (const std::uint32_t i : joints_) {
             const Joint& joint = world.joints.joints[i];
             if (in_island_[i] || joint.broken || joint.pace.is_divided()) continue;
-            const auto row_of = [&](std::uint32_t body) {
-                return body == kNoIndex ? world.zero_row() : world.bodies.row[body];
-            };
-            islands.add(row_of(joint.a), row_of(joint.b),
+            islands.add(world.row_of(joint.a), world.row_of(joint.b),
                         open_residual(world, joint, substep_of(world.settings)));
         }
     }

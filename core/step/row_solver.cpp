@@ -269,10 +269,12 @@ private:
     void find_islands(const World& world) {
         const bool known = islands_ && !(joints_ && joints_->has_residuals());
         if (known) return residuals_.take(world, islands_->choice().islands());
-        residuals_.join_ties(world);
-        for (const auto& group : groups_) group->join_islands(residuals_);
-        if (islands_) islands_->join_islands(world, residuals_);
-        residuals_.end_joining(world);
+        held_rows_.clear();
+        add_tied_rows(world, held_rows_);
+        for (const auto& group : groups_) group->add_rows(held_rows_);
+        if (islands_) islands_->add_rows(world, held_rows_);
+        held_.find(held_rows_, {}, 0, world.dynamic_count);
+        residuals_.take(world, held_);
     }
 
     /// Shock propagation has the last word about contacts.
@@ -349,6 +351,8 @@ private:
     std::vector<Velocity<Real>> settled_;  // [row], of what collides
     EnergyBound<Real, W> energy_;
     IslandResiduals residuals_;
+    std::vector<BodyPair> held_rows_;  // that any constraint holds together
+    ContactIslands held_;              // the islands that these make
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t iterations_ = 0;

@@ -77,6 +77,10 @@ struct World {
                     visit(p->body);
     }
     std::int32_t zero_row() const { return moving_count() + kinematic_count; }
+    /// Row of a body; kNoIndex stands for the world, which is fixed.
+    std::int32_t row_of(std::uint32_t body) const {
+        return body == kNoIndex ? zero_row() : bodies.row[body];
+    }
 };
 
 /// Makes the world of a scene. Throws SceneError, with a JSON pointer, for what cannot be

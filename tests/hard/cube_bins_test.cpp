@@ -3,6 +3,7 @@
 /// other. The heap comes to rest all the same. PLUMB_BINNED_CUBES says how many (120).
 #include "math/rotation.h"
 #include "support/binned_heap.h"
+#include "support/draw_settings.h"
 #include "support/environment.h"
 
 #include <cmath>
@@ -35,9 +36,7 @@ TEST_P(CubeBins, TowersSideBySideStand) {
     for (int draw = 0; draw < 6; ++draw) {
         const double half = random.number(0.04, 0.2);
         Scene s = scene();
-        s.settings.dt = random.number(0.01, 0.02);
-        s.settings.substeps = 1 + random.below(2);
-        s.settings.velocity_iterations = s.settings.position_iterations = 3 + random.below(3);
+        draw_steps(s.settings, random, {0.01, 0.02, 2, 3, 5});
         s.materials[0].friction = random.number(0.3, 0.6);
         add_ground(s);
         for (std::uint32_t c = 0; c < kColumns; ++c)
@@ -65,9 +64,7 @@ TEST_P(CubeBins, RowsTooLongForTheirSlotComeToRest) {
     for (int draw = 0; draw < 4; ++draw) {
         const double half = random.number(0.04, 0.2), room = random.number(0.8, 0.95);
         Scene s = scene();
-        s.settings.dt = random.number(0.005, 0.017);
-        s.settings.substeps = 1 + random.below(3);
-        s.settings.velocity_iterations = s.settings.position_iterations = 3 + random.below(8);
+        draw_steps(s.settings, random, {0.005, 0.017, 3, 3, 10});
         s.materials[0].friction = random.number(0.2, 1);
         add_ground(s);
         const double wide = room * kRow * half, deep = 1.05 * half, high = 4 * kRows * half;
