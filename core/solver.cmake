@@ -2,6 +2,7 @@
 set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp math/sparse_ldlt.cpp
   world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
+  world/motion_script.cpp
   world/shape_store.cpp world/tears.cpp
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp

@@ -15,8 +15,15 @@ double milliseconds(std::uint64_t nanoseconds) { return static_cast<double>(nano
 Sample sample_of(const World& world) {
     const Vector3d g = world.settings.gravity;
     const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
-    Sample sample{world.time, penetrations(world), joint_errors(world), link_errors(world), {}, {}, {},
-                  strains(world), {}};
+    Sample sample{world.time,
+                  penetrations(world),
+                  joint_errors(world),
+                  link_errors(world),
+                  {},
+                  {},
+                  {},
+                  strains(world),
+                  {}};
     for (const double error : volume_errors(world)) sample.volume_error.push_back(std::abs(error));
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
         if (world.bodies.motion[i] != Motion::dynamic) continue;
@@ -63,6 +70,7 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     contact_max = std::max(contact_max, report.contacts);
     clamped_recoveries += report.clamped_recoveries;
     unsolved_islands += report.unsolved_islands;
+    costly_islands += report.costly_islands;
     unsolved_trees += report.unsolved_trees;
     torn += report.torn_elements;
     if (report.tree_error > tree_error)

@@ -22,11 +22,11 @@ Speeds speeds_of(const std::vector<double>& values);
 
 /// What bodies and particles do at one moment.
 struct Sample {
-    double time = 0;                               ///< [s]
+    double time = 0;                                           ///< [s]
     std::vector<double> penetration, joint_error, link_error;  ///< [pair], [joint], [link], [m]
-    std::vector<double> speed, near_speed;         ///< [dynamic body], [m/s]
-    std::vector<double> particle_speed;            ///< of those that can move [m/s]
-    std::vector<double> strain, volume_error;      ///< [deformable], [balloon that keeps a volume]
+    std::vector<double> speed, near_speed;                     ///< [dynamic body], [m/s]
+    std::vector<double> particle_speed;                        ///< of those that can move [m/s]
+    std::vector<double> strain, volume_error;  ///< [deformable], [balloon that keeps a volume]
 };
 
 class Statistics {
@@ -63,8 +63,8 @@ public:
     std::uint64_t stretched_links = 0;    ///< StepReport::stretched_links, of all steps
     double link_error = 0;                ///< StepReport::link_error, the greatest [m]
     std::uint32_t contact_max = 0;
-    std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, unsolved_trees = 0,
-                  rejected_contacts = 0, collider_failures = 0;
+    std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, costly_islands = 0,
+                  unsolved_trees = 0, rejected_contacts = 0, collider_failures = 0;
     std::uint64_t torn = 0;                                  ///< elements of deformables
     std::array<std::uint64_t, kContactFaultCount> faults{};  ///< contacts left out, by fault
     std::string first_failure;                               ///< what the collider said

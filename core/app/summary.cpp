@@ -241,11 +241,15 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
         {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
     j["fallen_through"] = fallen_through(scene, world);
     j["torn"] = s.torn;
-    j["clamps"] = {
-        {"recovery", s.clamped_recoveries},         {"unsolved_islands", s.unsolved_islands},
-        {"unsolved_trees", s.unsolved_trees},       {"tree_error_m", s.tree_error},
-        {"stretched_links", s.stretched_links},     {"link_error_m", s.link_error},
-        {"rejected_contacts", s.rejected_contacts}, {"collider_failures", s.collider_failures}};
+    j["clamps"] = {{"recovery", s.clamped_recoveries},
+                   {"unsolved_islands", s.unsolved_islands},
+                   {"costly_islands", s.costly_islands},
+                   {"unsolved_trees", s.unsolved_trees},
+                   {"tree_error_m", s.tree_error},
+                   {"stretched_links", s.stretched_links},
+                   {"link_error_m", s.link_error},
+                   {"rejected_contacts", s.rejected_contacts},
+                   {"collider_failures", s.collider_failures}};
     j["residual"] = s.residual().json();
     j["state_hash"] = hex(state_hash(world));
     j["effects"] = effects_summary(simulation, s);

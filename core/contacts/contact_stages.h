@@ -23,8 +23,8 @@ namespace plumb {
 
 /// Reused memory of detection.
 struct DetectBuffers {
-    std::vector<double> travels;
-    std::vector<double> sweeps;
+    std::vector<double> travels;       ///< [body] how far a point of it may come in the step [m]
+    std::vector<double> sweeps;        ///< [body] of that, what the margin does not cover [m]
     std::vector<PoseChange> changes;   ///< [body] since the detection before
     std::vector<Roundness> roundness;  ///< [body]
     std::vector<ContactRoom> rooms;    ///< [worker], behind the sinks

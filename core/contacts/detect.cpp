@@ -2,6 +2,7 @@
 #include "contacts/contact_faults.h"
 #include "contacts/contact_stages.h"
 #include "contacts/renew_contacts.h"
+#include "world/motion_script.h"
 #include "world/round_shapes.h"
 
 #include <algorithm>
@@ -10,13 +11,24 @@
 namespace plumb {
 namespace {
 
-/// How far a body may come in dt [m].
+/// How far a point of a body may come in a step [m]: one that moves and turns so far.
+double travel_of(const Bodies& b, std::size_t i, double way, double angle) {
+    const double spin = std::min(angle, 2.0) * b.bounding_radius[i];
+    return way + (std::isfinite(spin) ? spin : 0);
+}
+
+/// The same within dt [s], at the velocity that it has and by its own force, or as its script wants
+/// it to. What others do to it is not known yet.
 double travel_in(const World& world, std::size_t i, double dt) {
     const Bodies& b = world.bodies;
     if (b.motion[i] == Motion::fixed || !(b.bounding_radius[i] > 0)) return 0;
-    const double turn = std::min(b.angular_velocity[i].norm() * dt, 2.0);
-    const double spin = turn * b.bounding_radius[i];
-    return b.velocity[i].norm() * dt + (std::isfinite(spin) ? spin : 0);
+    if (b.motion[i] == Motion::kinematic && !b.script[i].keyframes.empty()) {
+        const Placement to = placement_at(b.script[i], world.time + dt);
+        return travel_of(b, i, (to.position - b.position[i]).norm(),
+                         to.rotation.angularDistance(b.orientation[i]));
+    }
+    const double way = b.velocity[i].norm() * dt + b.force[i].norm() * b.inverse_mass[i] * dt * dt;
+    return travel_of(b, i, way, b.angular_velocity[i].norm() * dt);
 }
 
 bool before(const Contact& x, const Contact& y) {

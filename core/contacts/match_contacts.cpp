@@ -57,6 +57,7 @@ void hand_on_impulses(const PairRun& now, const PairRun& before,
         heir.friction_impulse += memory.friction_impulse;
         heir.rolling_impulse += memory.rolling_impulse;
         heir.exact |= memory.exact;
+        heir.missed = std::max(heir.missed, memory.missed);
         heir.matched = true;
     }
 }

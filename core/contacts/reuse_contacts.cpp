@@ -178,6 +178,11 @@ private:
 
 void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uint8_t* wanted) {
     auto& context = *static_cast<ReuseContext*>(ctx);
+    if (context.asked) {  // once is enough: what was kept is no longer what it was
+        forget_kept_contacts(*context.world);
+        std::fill_n(wanted, count, std::uint8_t{1});
+        return;
+    }
     context.asked = true;
     Choice choice(context);
     for (std::uint32_t i = 0; i < count; ++i) wanted[i] = choice.is_wanted(pairs[i].a, pairs[i].b);

@@ -8,10 +8,11 @@
 ///
 ///   gaps        exact to first order: off by at most d²/2r for features of size r,
 ///   outlines    of contact areas within d,
-///   new points  from being found at a gap of margin − d at the latest; the first of a pair, at
-///               half of the margin, and before half of their gap may close in a step,
+///   new points  from being found at a gap of margin − 2 d at the latest; the first of a pair, at
+///               half of the margin, and before half of their gap may close in a step by what the
+///               two do themselves. What a third body knocks into them in that step is not known.
 ///
-/// and no error adds up, because the motion is measured from the pose of the last narrow phase.
+/// No error adds up, because the motion is measured from the pose of the last narrow phase.
 /// What is round rolls on its contacts, and where these are solved exactly it moves by as little as
 /// d/10⁴ until it gets new ones: points and normals that lag behind would push it on.
 #pragma once

@@ -51,6 +51,8 @@ struct StepReport {
                                            ///< deeper than one substep may push out
     std::uint32_t unsolved_islands = 0;   ///< islands, summed over substeps, that were to be solved
                                           ///< exactly and still miss the law of contact
+    std::uint32_t costly_islands = 0;     ///< larger ones that miss Settings::accuracy and were
+                                          ///< found to take too much; tried anew after a while
     std::uint32_t unsolved_trees = 0;     ///< trees of joints, summed over substeps, that Newton's
                                           ///< steps could not close
     double tree_error = 0;                ///< by how much they were open at most [m], [rad]

@@ -29,6 +29,9 @@ void Simulation::Parts::tell_step(const StepReport& report) const {
     if (report.unsolved_islands > 0)
         to->trace("step {}: {} islands miss the law of contact", world.steps,
                   report.unsolved_islands);
+    if (report.costly_islands > 0)
+        to->trace("step {}: {} islands miss the accuracy and would take too much", world.steps,
+                  report.costly_islands);
     if (report.unsolved_trees > 0)
         to->trace("step {}: {} trees of joints were left open, by {:.3g} at the most", world.steps,
                   report.unsolved_trees, report.tree_error);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "host/world_state.h"
 
+#include "contacts/contact_pairs.h"
+
 #include "world/tears.h"
 
 namespace plumb {
@@ -73,7 +75,8 @@ void each_number_of_memory(Io& io, Table& table) {
         io(m.normal_impulse), io(m.gap), io(m.disputed_overlap);
         vector(io, m.friction_impulse), vector(io, m.rolling_impulse);
         vector(io, m.stick_a), vector(io, m.stick_b);
-        io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.known), io(m.matched);
+        io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.settling), io(m.missed),
+            io(m.known), io(m.matched);
     }
     io(table.rejected);
     io.count(table.kept.seen);
@@ -115,14 +118,27 @@ void each_number(Io& io, W& world) {
     each_number_of_particles(io, world);
 }
 
-/// Columns of one length, and pairs that have all contacts between them; else nothing is kept.
-void drop_what_does_not_fit(ContactTable& table) {
+/// Whether pairs of known bodies, in their order, have all contacts between them.
+bool have_all_contacts(const std::vector<KeptPair>& pairs, const std::vector<Contact>& found,
+                       std::size_t bodies) {
+    std::size_t next = 0;
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const KeptPair& pair = pairs[i];
+        if (!(pair.a < pair.b && pair.b < bodies)) return false;
+        if (i > 0 && !(bodies_of(pairs[i - 1]) < bodies_of(pair))) return false;
+        if (pair.count > found.size() - next) return false;
+        for (const std::size_t end = next + pair.count; next < end; ++next)
+            if (bodies_of(found[next]) != bodies_of(pair)) return false;
+    }
+    return next == found.size();
+}
+
+/// Columns of one length, and pairs that fit their contacts; else nothing is kept.
+void drop_what_does_not_fit(ContactTable& table, std::size_t bodies) {
     table.memory.resize(table.found.size());
     KeptContacts& kept = table.kept;
-    std::uint64_t count = 0;
-    for (const KeptPair& pair : kept.pairs) count += pair.count;
-    if (count == table.found.size() && count == kept.rides.size() &&
-        kept.pairs.size() == kept.poses.size())
+    if (kept.rides.size() == table.found.size() && kept.pairs.size() == kept.poses.size() &&
+        have_all_contacts(kept.pairs, table.found, bodies))
         return;
     kept.pairs.clear(), kept.poses.clear(), kept.rides.clear();
 }
@@ -133,7 +149,7 @@ void write_state(const World& world, StateWriter& to) { each_number(to, world); 
 
 void read_state(World& world, StateReader& from) {
     each_number(from, world);
-    drop_what_does_not_fit(world.contacts);
+    drop_what_does_not_fit(world.contacts, world.bodies.size());
     for (Deformable& d : world.deformables)
         if (d.can_tear()) leave_out_torn(d);
 }

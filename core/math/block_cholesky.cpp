@@ -46,20 +46,27 @@ void solve_upper(const Matrix6d& c, Vector6d& x) {
     }
 }
 
+/// Of a column with so many blocks below the diagonal: those of its pivot, its own and its updates.
+std::uint64_t products_of(std::uint64_t blocks) { return 1 + blocks + blocks * (blocks + 1) / 2; }
+
 }  // namespace
 
-void BlockCholesky::analyse(std::uint32_t rows, const Pattern& pattern) {
+bool BlockCholesky::analyse(std::uint32_t rows, const Pattern& pattern, std::uint64_t most) {
     order_.assign(rows, 0);
     place_.assign(rows, 0);
-    find_order(pattern);
+    if (!find_order(pattern, most)) {
+        order_.clear();
+        return false;
+    }
     find_updates();
     diagonal_.resize(rows);
     below_.resize(row_of_.size());
     permuted_.resize(rows);
+    return true;
 }
 
 /// Least degree first, of equals the first; what is eliminated makes its neighbours neighbours.
-void BlockCholesky::find_order(const Pattern& pattern) {
+bool BlockCholesky::find_order(const Pattern& pattern, std::uint64_t most) {
     const auto n = static_cast<std::uint32_t>(order_.size());
     std::vector<std::vector<std::uint32_t>> near(n);
     for (const auto& [i, j] : pattern)
@@ -71,6 +78,7 @@ void BlockCholesky::find_order(const Pattern& pattern) {
     std::vector<std::uint8_t> done(n, 0);
     std::vector<std::vector<std::uint32_t>> structure(n);
     std::vector<std::uint32_t> merged;
+    products_ = 0;
     for (std::uint32_t p = 0; p < n; ++p) {
         std::uint32_t best = n;
         for (std::uint32_t i = 0; i < n; ++i)
@@ -85,6 +93,8 @@ void BlockCholesky::find_order(const Pattern& pattern) {
             near[i] = merged;
         }
         structure[p] = near[best];
+        products_ += products_of(near[best].size());
+        if (products_ > most) return false;
     }
     columns_.clear();
     row_of_.clear();
@@ -94,18 +104,17 @@ void BlockCholesky::find_order(const Pattern& pattern) {
         std::sort(row_of_.begin() + first, row_of_.end());
         columns_.push_back({first, static_cast<std::uint32_t>(row_of_.size())});
     }
+    return true;
 }
 
 void BlockCholesky::find_updates() {
     updates_.clear();
-    products_ = 0;
     for (const Column& c : columns_)
         for (std::uint32_t j = c.first; j < c.last; ++j) {
             updates_.push_back(row_of_[j] | kDiagonal);
             for (std::uint32_t i = j + 1; i < c.last; ++i)
                 updates_.push_back(slot(row_of_[i], row_of_[j]));
         }
-    products_ = updates_.size() + row_of_.size() + columns_.size();
 }
 
 std::uint32_t BlockCholesky::slot(std::uint32_t row, std::uint32_t column) const {

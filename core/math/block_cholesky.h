@@ -9,6 +9,7 @@
 #include "math/types.h"
 
 #include <cstdint>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -20,8 +21,10 @@ public:
     /// more than once, in either order.
     using Pattern = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
-    /// Chooses the order of elimination and finds the fill.
-    void analyse(std::uint32_t rows, const Pattern& pattern);
+    /// Chooses the order of elimination and finds the fill. Returns whether `factor` takes no more
+    /// than `most` products; if it does, nothing is kept.
+    bool analyse(std::uint32_t rows, const Pattern& pattern,
+                 std::uint64_t most = std::numeric_limits<std::uint64_t>::max());
 
     std::uint32_t rows() const { return static_cast<std::uint32_t>(order_.size()); }
 
@@ -48,7 +51,7 @@ private:
         std::uint32_t first, last;
     };
     std::uint32_t slot(std::uint32_t row, std::uint32_t column) const;
-    void find_order(const Pattern& pattern);
+    bool find_order(const Pattern& pattern, std::uint64_t most);
     void find_updates();
 
     std::vector<std::uint32_t> order_, place_;  // [place] block row; [block row] place

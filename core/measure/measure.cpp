@@ -9,14 +9,6 @@
 #include <algorithm>
 
 namespace plumb {
-namespace {
-
-/// The contacts of the last detection: kept as those "before" once a step is done.
-const std::vector<Contact>& last_contacts(const World& world) {
-    return world.contacts.found;
-}
-
-}  // namespace
 
 double kinetic_energy(const World& world) {
     double sum = 0;
@@ -61,7 +53,7 @@ Vector3d angular_momentum(const World& world) {
 
 std::vector<double> penetrations(const World& world) {
     std::vector<double> depths;
-    const auto& contacts = last_contacts(world);
+    const auto& contacts = world.contacts.found;
     for (std::size_t i = 0; i < contacts.size();) {
         double deepest = 0;
         const Contact& first = contacts[i];
@@ -124,11 +116,11 @@ void capture(const World& world, Frame& frame) {
     for (std::uint32_t i = 0; i < world.deformables.size(); ++i)
         for (const std::uint32_t element : world.deformables[i].torn)
             frame.torn.push_back({i, element});
-    frame.contacts = static_cast<std::uint32_t>(last_contacts(world).size());
+    frame.contacts = static_cast<std::uint32_t>(world.contacts.found.size());
     frame.kinetic_energy = kinetic_energy(world);
     frame.potential_energy = potential_energy(world);
     frame.deepest_penetration = 0;
-    for (const Contact& c : last_contacts(world))
+    for (const Contact& c : world.contacts.found)
         frame.deepest_penetration = std::max(frame.deepest_penetration, -c.gap);
 }
 

@@ -62,6 +62,10 @@ struct Settings {
     JointMethod joints = JointMethod::auto_;
     std::uint32_t exact_islands = 400;  ///< islands of at most so many bodies that touch are solved
                                         ///< exactly, whatever the iterations; 0 = all are iterated
+    double accuracy =
+        0.01;  ///< what contacts of a larger island that rests may miss, as a share of
+               ///< the mean weight of its bodies, in the root of the mean square; one
+               ///< that misses more is solved exactly; 0 = it is iterated all the same
     std::uint32_t exact_deformables = 0;  ///< deformables of at most so many particles together are
                                           ///< solved as one system; 0 = all are iterated
     std::uint32_t tree_parts = 64;        ///< into how many parts a tree of joints that touches
@@ -92,6 +96,7 @@ inline void apply_paper_preset(Settings& s) {
     s.gyroscopic = Gyroscopic::explicit_;
     s.joints = JointMethod::iterate;
     s.exact_islands = s.exact_deformables = 0;
+    s.accuracy = 0;
 }
 
 }  // namespace plumb

@@ -36,6 +36,7 @@ void IslandResiduals::take(const World& world, const ContactIslands& found) {
 /// How many bodies each island has, and what they weigh.
 void IslandResiduals::weigh(const World& world, std::size_t count) {
     sums_.reserve(island_.size()), islands_.reserve(island_.size());
+    told_.reserve(island_.size());
     sums_.assign(count, {});
     islands_.assign(count, {});
     const double g = world.settings.gravity.norm();
@@ -51,8 +52,10 @@ void IslandResiduals::weigh(const World& world, std::size_t count) {
 
 StepResidual IslandResiduals::find(double h) {
     StepResidual step;
+    told_.assign(sums_.size(), kNoIsland);
     for (std::size_t i = 0; i < sums_.size(); ++i) {
         if (sums_[i].count == 0) continue;
+        told_[i] = step.islands;
         IslandResidual& island = islands_[step.islands];
         island = islands_[i];
         put_residual(island, sums_[i], h);

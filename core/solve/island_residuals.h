@@ -51,7 +51,7 @@ void add_tied_rows(const World& world, std::vector<BodyPair>& pairs);
 class IslandResiduals {
 public:
     /// Forgets what there was.
-    void begin() { islands_.clear(); }
+    void begin() { island_.clear(), islands_.clear(); }
 
     /// Takes a partition, of which some bodies may be no part.
     void take(const World& world, const ContactIslands& found);
@@ -66,6 +66,13 @@ public:
     /// What came of the last substep, of length h [s].
     StepResidual find(double h);
 
+    /// Of that, the island of a dynamic row; null where nothing is told of one.
+    const IslandResidual* of(std::int32_t row) const {
+        const auto i = static_cast<std::size_t>(row);
+        const bool known = i < island_.size() && island_[i] != kNoIsland;
+        return known && told_[island_[i]] != kNoIsland ? &islands_[told_[island_[i]]] : nullptr;
+    }
+
     /// Of that, each island that has constraints, in the order of their bodies' least rows.
     const std::vector<IslandResidual>& islands() const { return islands_; }
 
@@ -76,6 +83,7 @@ private:
 
     std::vector<std::uint32_t> island_;  // [dynamic row] ~0u where there is none
     std::vector<ResidualSum> sums_;      // [island]
+    std::vector<std::uint32_t> told_;    // [island] its place in islands_, if it has constraints
     std::vector<IslandResidual> islands_;
 };
 

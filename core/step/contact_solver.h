@@ -18,6 +18,7 @@
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
 #include "step/island_group.h"
+#include "step/large_islands.h"
 #include "step/row_work.h"
 #include "step/velocity_table.h"
 #include "world/world.h"
@@ -268,7 +269,8 @@ public:
             memory.normal_impulse = p.normal;
             memory.rolling_impulse.setZero();
             memory.sticks = memory.exact = false;
-            memory.disputed = 0;
+            memory.disputed = memory.settling = 0;
+            memory.missed = missed_after_sweeps(memory.missed);
             if (!rows.frictions) return;
             memory.friction_impulse = p.friction();
             const double friction = double(rows.frictions[k].friction[lane]);

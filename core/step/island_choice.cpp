@@ -6,6 +6,7 @@
 #include "contacts/contact_measures.h"
 #include "solve/linked_point.h"
 #include "step/joint_state.h"
+#include "step/large_islands.h"
 #include "step/substep_time.h"
 #include "step/tie_work.h"
 
@@ -330,6 +331,9 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
             jammed_.resize(jammed_before);
             return IslandWay::swept;
         }
+    } else if (rests_and_misses(world, island, pairs)) {
+        find_upset(world, island, pairs);
+        if (upset_.empty()) return IslandWay::exact;
     }
     if (meshed && n <= world.settings.exact_islands && !is_driven(island)) return IslandWay::swept;
     mark_what_goes_on(world, island, pairs);
@@ -416,23 +420,58 @@ void IslandChoice::mark(const World& world, const BodyPair& pair, double bears) 
         if (row < world.dynamic_count) bears_[static_cast<std::size_t>(row)] = bears;
 }
 
-bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
-                           const std::vector<BodyPair>& pairs) const {
+template <class VelocityAt>
+IslandChoice::Stir IslandChoice::stir_of(const World& world, const ContactIsland& island,
+                                         const std::vector<BodyPair>& pairs,
+                                         VelocityAt velocity_at) const {
     const Bodies& b = world.bodies;
-    double squares = 0, contacts = 0, radius = 0, pull = 0;
+    Stir stir;
+    double squares = 0, contacts = 0;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
         const BodyPair& pair = pairs[found_.pairs()[i]];
         for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
-            squares += relative_velocity(world, k).squaredNorm();
+            squares += velocity_at(k).squaredNorm();
         contacts += pair.count;
         const Contact& c = world.contacts.found[pair.first];
         for (const std::uint32_t body : {c.a, c.b}) {
             if (b.motion[body] != Motion::dynamic) continue;
-            radius = std::max(radius, b.bounding_radius[body]);
-            pull = std::max(pull, pull_on(world, body));
+            stir.radius = std::max(stir.radius, b.bounding_radius[body]);
+            stir.pull = std::max(stir.pull, pull_on(world, body));
         }
     }
-    return contacts == 0 || std::sqrt(squares / contacts) <= calm_speed(world, radius, pull);
+    if (contacts > 0) stir.speed = std::sqrt(squares / contacts);
+    return stir;
+}
+
+bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
+                           const std::vector<BodyPair>& pairs) const {
+    const Stir stir =
+        stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
+    return stir.speed <= calm_speed(world, stir.radius, stir.pull);
+}
+
+/// Of a large island that nothing holds or drives: see step/large_islands.h.
+bool IslandChoice::rests_and_misses(const World& world, const ContactIsland& island,
+                                    const std::vector<BodyPair>& pairs) const {
+    if (!(world.settings.accuracy > 0) || !is_loose_heap(island)) return false;
+    std::uint8_t missed = 0;
+    std::uint32_t known = 0, contacts = 0;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[found_.pairs()[i]];
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
+            const ContactMemory& memory = world.contacts.memory[k];
+            missed = std::max(missed, memory.missed), known += memory.matched;
+        }
+        contacts += pair.count;
+    }
+    const bool is_new = 2 * known < contacts;
+    if (missed > kMissed || (missed == 0 && !is_new)) return false;
+    const Bodies& b = world.bodies;
+    const Stir stir = stir_of(world, island, pairs, [&](std::uint32_t k) {
+        return relative_velocity(b, b.velocity_now, b.angular_velocity_now, world.contacts.found[k],
+                                 world.contacts.point[k]);
+    });
+    return stir.speed <= kRestsBelow * stir.pull * substep_of(world.settings);
 }
 
 bool IslandChoice::goes_on(const World& world, std::uint32_t contact) const {

@@ -3,8 +3,8 @@
 ///
 /// An island is solved exactly where it has at most Settings::exact_islands bodies and, unless it
 /// is very small, is calm: what flies and tumbles needs no exact forces, and they would cost most
-/// there. Sweeps are enough for a body that rolls or slides on what is immovable; one that hardly
-/// moves shall not creep.
+/// there. Of larger ones large_islands.h tells. Sweeps are enough for a body that rolls or slides
+/// on what is immovable; one that hardly moves shall not creep.
 ///
 /// Ties hold an island together as contacts do, and are solved with it; links between bodies and
 /// couplings, and joints that close a loop, are so even where nothing touches: others only iterate
@@ -53,6 +53,12 @@ public:
     /// that nothing drives and no joint holds.
     bool is_loose_heap(const ContactIsland& island) const;
 
+    /// Leaves an island to others after all, that would have been solved exactly.
+    void leave(const World& world, const ContactIsland& island,
+               const std::vector<BodyPair>& pairs) {
+        mark_what_goes_on(world, island, pairs);
+    }
+
     /// Whether links, couplings or joints that close a loop tie it: others only iterate those.
     bool is_meshed(const ContactIsland& island) const;
 
@@ -96,8 +102,19 @@ private:
 
     bool can_do_work(const World& world, const ContactIsland& island) const;
     bool is_slow(const World& world, const Contact& contact) const;
+
+    /// How fast an island's contacts slide, part and approach.
+    struct Stir {
+        double speed = 0;             ///< root of the mean square [m/s]
+        double radius = 0, pull = 0;  ///< the greatest of its bodies [m], [m/s²]
+    };
+    template <class VelocityAt>
+    Stir stir_of(const World& world, const ContactIsland& island,
+                 const std::vector<BodyPair>& pairs, VelocityAt velocity_at) const;
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
+    bool rests_and_misses(const World& world, const ContactIsland& island,
+                          const std::vector<BodyPair>& pairs) const;
     void find_upset(const World& world, const ContactIsland& island,
                     const std::vector<BodyPair>& pairs);
     void mark_what_goes_on(const World& world, const ContactIsland& island,

@@ -45,7 +45,7 @@ void IslandGroup::close_gently(IslandSolver& solver, Member& m) {
     };
     const auto close = [&](double share) {
         begin(), solver.forget(island), ask(share);
-        if (!solver.solve(island, m.system, m.speed, m.effort).solved)
+        if (!solve_system(solver, m, m.effort))
             begin(), solver.sweep_anew(island, [&] { ask(share); });
         return kinetic_energy(island.bodies, island.velocity);
     };
@@ -75,7 +75,7 @@ void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
     const auto ask_for_more = [&](double share) {
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
             points_[k].wanted[0] += share * parting_[k];
-        m.solved &= solver.solve(island, m.system, m.speed, m.effort).solved;
+        m.solved &= solve_system(solver, m, m.effort);
         return kinetic_energy(island.bodies, island.velocity);
     };
     const double least = ask_for_more(-1);

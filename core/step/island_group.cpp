@@ -5,8 +5,11 @@
 #include "constraints/contact.h"
 #include "constraints/friction.h"
 #include "contacts/contact_measures.h"
+#include "contacts/contact_pairs.h"
 #include "math/rotation.h"
+#include "step/island_rows.h"
 #include "step/joint_geometry.h"
+#include "step/large_islands.h"
 #include "step/tie_work.h"
 
 #include <algorithm>
@@ -48,6 +51,12 @@ constexpr double kDrift = 0.3;
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
 
+constexpr std::uint64_t kAnyProducts = std::numeric_limits<std::uint64_t>::max();
+
+bool is_large(const World& world, std::uint32_t bodies) {
+    return bodies > world.settings.exact_islands;
+}
+
 Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
 }
@@ -85,7 +94,8 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers, SolvedTies& solved)
 // ---- once a step
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
-    count_ = 0;
+    count_ = 0, costly_ = 0;
+    set_aside_.clear();
     bodies_.clear(), points_.clear(), locked_.clear(), opening_.clear(), parting_.clear(),
         contacts_.clear(), ties_.clear(), solved_.clear();
     const ContactIslands& found = choice_.find(world, pairs);
@@ -93,8 +103,10 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     for (const ContactIsland& island : found.islands()) {
         const IslandWay way = choice_.way_of(world, island, pairs);
         if (way == IslandWay::left) continue;
-        take(world, island, found, pairs);
-        choose_effort(world, members_[count_ - 1], way == IslandWay::swept);
+        if (take(world, island, found, pairs))
+            choose_effort(world, members_[count_ - 1], way == IslandWay::swept);
+        else
+            set_aside(world, island, found, pairs);
     }
 
     std::size_t kept = 0;
@@ -110,11 +122,41 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     is_fresh_ = true;
 }
 
-void IslandGroup::take(const World& world, const ContactIsland& island, const ContactIslands& found,
+/// The system of the island's pairs and ties, if its solution does not take too much.
+bool IslandGroup::find_system(const World& world, Member& member, const ContactIsland& island,
+                              const ContactIslands& found, const std::vector<BodyPair>& pairs) {
+    pattern_.clear();
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const BodyPair& pair = pairs[found.pairs()[i]];
+        if (std::max(pair.row_a, pair.row_b) < world.dynamic_count)
+            pattern_.emplace_back(found.index_in_island(pair.row_a),
+                                  found.index_in_island(pair.row_b));
+    }
+    for (std::uint32_t i = island.first_tie; i < island.last_tie; ++i) {
+        tied_.clear();
+        each_body(world, choice_.tie(found.ties()[i]), [&](std::uint32_t body) {
+            const std::uint32_t here = index_in_island(world, found, body);
+            if (here == kImmovable) return;
+            for (const std::uint32_t other : tied_)
+                if (other != here) pattern_.emplace_back(other, here);
+            tied_.push_back(here);
+        });
+    }
+    const std::uint32_t n = island.last_body - island.first_body;
+    if (member.system.rows() == n && member.pattern == pattern_) return true;
+    member.pattern = pattern_;
+    return member.system.analyse(n, pattern_, is_large(world, n) ? kMostProducts : kAnyProducts);
+}
+
+/// Returns whether its solution does not take too much; else nothing is taken.
+bool IslandGroup::take(const World& world, const ContactIsland& island, const ContactIslands& found,
                        const std::vector<BodyPair>& pairs) {
     if (count_ == members_.size()) members_.emplace_back();
-    Member& member = members_[count_++];
+    Member& member = members_[count_];
+    if (!find_system(world, member, island, found, pairs)) return false;
+    ++count_;
     const std::uint32_t n = island.last_body - island.first_body;
+    member.is_large = is_large(world, n);
     member.first_body = static_cast<std::uint32_t>(bodies_.size());
     member.first_point = static_cast<std::uint32_t>(points_.size());
     ties_.begin_island(member.ties);
@@ -125,11 +167,9 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.flies = choice_.flies(world, island, pairs);
     bodies_.resize(bodies_.size() + n);
 
-    pattern_.clear();
     const auto place = [&](std::uint32_t body) {
-        if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic) return kImmovable;
-        const std::uint32_t here = found.index_in_island(world.bodies.row[body]);
-        bodies_[member.first_body + here].body = body;
+        const std::uint32_t here = index_in_island(world, found, body);
+        if (here != kImmovable) bodies_[member.first_body + here].body = body;
         return here;
     };
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
@@ -138,19 +178,11 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
         taken_[at] = 1;
         const Contact& first = world.contacts.found[pair.first];
         const std::uint32_t a = place(first.a), b = place(first.b);
-        if (a != kImmovable && b != kImmovable) pattern_.emplace_back(a, b);
         for (std::uint32_t k = 0; k < pair.count; ++k) add_point(world, pair.first + k, a, b);
     }
     for (std::uint32_t i = island.first_tie; i < island.last_tie; ++i) {
         const Tie& tie = choice_.tie(found.ties()[i]);
-        tied_.clear();
-        each_body(world, tie, [&](std::uint32_t body) {
-            const std::uint32_t here = place(body);
-            if (here == kImmovable) return;
-            for (const std::uint32_t other : tied_)
-                if (other != here) pattern_.emplace_back(other, here);
-            tied_.push_back(here);
-        });
+        each_body(world, tie, [&](std::uint32_t body) { place(body); });
         ties_.add(world, found, tie);
         solved_[tie] = 1;
         member.gains_nothing &= !can_do_work(world, tie);
@@ -158,9 +190,16 @@ void IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
     ties_.end_island(member.ties);
-    if (member.system.rows() == n && member.pattern == pattern_) return;
-    member.pattern = pattern_;
-    member.system.analyse(n, pattern_);
+    return true;
+}
+
+/// What would take too much is left to sweeps, and tried again after a while.
+void IslandGroup::set_aside(const World& world, const ContactIsland& island,
+                            const ContactIslands& found, const std::vector<BodyPair>& pairs) {
+    choice_.leave(world, island, pairs);
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+        set_aside_.push_back(pairs[found.pairs()[i]]);
+    ++costly_;
 }
 
 /// Whether nothing in it overlaps by much.
@@ -174,7 +213,10 @@ bool IslandGroup::is_shallow(const World& world, const Member& member) const {
 }
 
 void IslandGroup::choose_effort(const World& world, Member& member, bool swept) {
-    member.disputed = 0;
+    member.disputed = member.settling = 0;
+    member.stirred = false;
+    for (std::uint32_t k = member.first_point; k < member.last_point; ++k)
+        member.settling = std::max(member.settling, world.contacts.memory[contacts_[k]].settling);
     member.overlap = member.overlap_before = 0;
     member.is_deep = swept;
     member.splits = false;
@@ -447,6 +489,7 @@ void IslandGroup::solve(const World& world, StepReport& report) {
         for (std::size_t i = worker; i < count_; i += workers_.count())
             solve(world, solvers_[worker], members_[i]);
     });
+    report.costly_islands = costly_;
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& member = members_[i];
         report.unsolved_islands += !member.solved;
@@ -457,6 +500,14 @@ void IslandGroup::solve(const World& world, StepReport& report) {
 void IslandGroup::note_open(StepReport& report, const Member& member) const {
     const Tie& tie = ties_.first_of(member.ties);
     if (tie.kind == TieKind::joint) report.open_trees.push_back({tie.index, member.open});
+}
+
+/// Returns whether it is solved.
+bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort effort) {
+    const IslandReport report =
+        solver.solve(island_of(m), m.system, m.speed, effort, m.settling > 0 || m.stirred);
+    m.stirred |= report.stirred;
+    return report.solved;
 }
 
 /// Ties are not linear: what a solution leaves open of them is asked for again.
@@ -473,7 +524,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         if (m.is_deep)
             solver.sweep(island);
         else
-            m.solved = solver.solve(island, m.system, m.speed, IslandEffort::light).solved;
+            m.solved = solve_system(solver, m, IslandEffort::light);
         const std::size_t bodies = m.last_body - m.first_body;
         solver.open_apart(island, {opening_.data() + m.first_point, island.points.size()},
                           {shift_.data() + m.first_body, bodies});
@@ -491,7 +542,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     const int most = m.is_meshed ? kMostCloses : kCloses;
     for (int i = 0; i < most; ++i) {
         const double before = m.open;
-        m.solved = solver.solve(island, m.system, m.speed, m.effort).solved;
+        m.solved = solve_system(solver, m, m.effort);
         ask();
         if (!(m.open > tolerance) || (!m.solved && i > 0)) break;
         if (i >= kCloses && !(m.open <= kClosing * before)) break;
@@ -584,13 +635,37 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
     }
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];
+        const std::uint8_t settling = m.stirred ? kSettlingSteps : m.settling - (m.settling > 0);
         const std::uint8_t left = m.may_be_disputed ? disputed_after(m.disputed, m.solved) : 0;
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
             contacts.memory[contacts_[k]].disputed = left;
+            contacts.memory[contacts_[k]].settling = settling;
+            contacts.memory[contacts_[k]].missed = m.is_large ? kMissed : 0;
             contacts.memory[contacts_[k]].disputed_overlap = m.overlap_before;
         }
     }
     for (const std::uint32_t contact : choice_.jammed()) contacts.memory[contact].jammed = true;
+    for (const BodyPair& pair : set_aside_)
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
+            contacts.memory[k].missed = kTriesAgain;
+}
+
+void IslandGroup::note_what_misses(World& world, const IslandResiduals& residuals) const {
+    const Settings& s = world.settings;
+    const auto needs_more = [&](const IslandResidual& island) {
+        return is_large(world, island.bodies) && misses(island, s.accuracy);
+    };
+    const std::vector<IslandResidual>& all = residuals.islands();
+    if (!(s.accuracy > 0) || std::none_of(all.begin(), all.end(), needs_more)) return;
+    ContactTable& c = world.contacts;
+    each_pair(c.found, 0, c.found.size(), [&](std::size_t first, std::size_t end) {
+        const Contact& contact = c.found[first];
+        const std::int32_t a = world.bodies.row[contact.a], b = world.bodies.row[contact.b];
+        const IslandResidual* island = residuals.of(std::min(a, b));
+        if (!island || !needs_more(*island)) return;
+        for (std::size_t k = first; k < end; ++k)
+            c.memory[k].missed = std::max(c.memory[k].missed, kMissed);
+    });
 }
 
 }  // namespace plumb

@@ -58,6 +58,9 @@ public:
     void store_tie_impulses(World& world) const;
     void store_impulses(ContactTable& contacts) const;
 
+    /// After these: which large islands are to be solved in the next step (step/large_islands.h).
+    void note_what_misses(World& world, const IslandResiduals& residuals) const;
+
     /// Once a step: which ties are left to others for a while.
     void rest_ties(World& world);
 
@@ -68,10 +71,13 @@ private:
         double speed;  // at which its contacts and ties would part in this substep [m/s]
         BlockCholesky::Pattern pattern;
         BlockCholesky system;
+        bool is_large;  // beyond Settings::exact_islands
         bool may_be_disputed;
         bool is_meshed;         // by ties that others only iterate, and nothing drives it
         bool gains_nothing;     // no lid, motor or spring does work on it
         bool flies;             // it touches and hangs by nothing that is immovable
+        std::uint8_t settling;  // steps that are left, see island_effort.h
+        bool stirred;           // in this step
         std::uint8_t disputed;  // steps that are left, see island_effort.h
         double overlap;         // of all its contacts [m], if it may be disputed
         double overlap_before;  // the same when it began to be opened apart [m]
@@ -85,8 +91,12 @@ private:
         double open;    // the worst tie [m], [rad]
         bool given_up;  // in this step, its ties could not be closed
     };
-    void take(const World& world, const ContactIsland& island, const ContactIslands& found,
+    bool take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
+    bool find_system(const World& world, Member& member, const ContactIsland& island,
+                     const ContactIslands& found, const std::vector<BodyPair>& pairs);
+    void set_aside(const World& world, const ContactIsland& island, const ContactIslands& found,
+                   const std::vector<BodyPair>& pairs);
     bool is_shallow(const World& world, const Member& member) const;
     void choose_effort(const World& world, Member& member, bool swept);
     static void begin_dispute(Member& member);
@@ -95,6 +105,7 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
+    bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;
     void close_gently(IslandSolver& solver, Member& member);
     void bound_energy(IslandSolver& solver, Member& member);
@@ -116,6 +127,8 @@ private:
     bool has_friction_, resists_rolling_;
     IslandChoice choice_;
     std::vector<std::uint8_t> taken_;  // [pair]
+    std::vector<BodyPair> set_aside_;  // whose islands would take too much
+    std::uint32_t costly_ = 0;         // of those islands
     BlockCholesky::Pattern pattern_;
 
     std::vector<Member> members_;  // the first count_ are in use

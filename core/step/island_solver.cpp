@@ -13,6 +13,10 @@ namespace {
 /// Where the law holds to this, nothing is done: what rests so stays as it is.
 constexpr double kStop = 1e-8;
 
+/// To this it is solved once it does not, and in the steps after that: impulses that have just
+/// changed velocities would go on doing so.
+constexpr double kSettled = 1e-10;
+
 /// What an island may miss without counting as unsolved.
 constexpr double kSolved = 1e-6;
 
@@ -130,7 +134,7 @@ void IslandSolver::open(IslandPoint& p) {
 }
 
 IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed,
-                                 IslandEffort effort) {
+                                 IslandEffort effort, bool settles) {
     island_ = island;
     system_ = &system;
     effort_ = effort;
@@ -138,10 +142,13 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     shifts_ = true;
     IslandReport report;
     report.residual = residual();
-    if (report.residual <= kStop * speed) return report;
+    const double stop = (settles ? kSettled : kStop) * speed;
+    if (report.residual <= stop) return report;
 
     sweep_both_ways();
     report.residual = residual();
+    if (report.residual <= stop) return report;
+    report.stirred = report.residual > kStop * speed;
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
@@ -186,7 +193,7 @@ void IslandSolver::improve(IslandReport& report, double speed) {
     const std::uint32_t enough =
         report.factorisations + (light ? kLightFactorisations : kEnoughFactorisations);
     const auto goes_on = [&](int round) {
-        if (report.residual <= kStop * speed) return false;
+        if (report.residual <= kSettled * speed) return false;
         if (!shifts_ && most_shift() > kClear * report.residual) return false;
         if (round < (light ? kLightRounds : kRounds)) return true;
         return round < kMostRounds && report.residual > kSolved * speed &&

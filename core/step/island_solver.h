@@ -28,8 +28,9 @@ namespace plumb {
 
 struct IslandReport {
     std::uint32_t factorisations = 0;
-    double residual = 0;  ///< greatest velocity by which the law of contact is missed [m/s]
-    bool solved = true;   ///< whether that is little beside the speed of the island
+    double residual = 0;   ///< greatest velocity by which the law of contact is missed [m/s]
+    bool solved = true;    ///< whether that is little beside the speed of the island
+    bool stirred = false;  ///< whether sweeps left more than what stays as it is
 };
 
 /// Reusable memory for islands of any size, one after another.
@@ -37,9 +38,9 @@ class IslandSolver {
 public:
     /// Improves impulses and velocities until the law of contact holds. `system` has the pattern of
     /// the island's pairs; `speed` [m/s], at which its contacts would approach, is the measure of
-    /// what may be missed.
+    /// what may be missed. `settles`: whether it is solved to the last (step/island_effort.h).
     IslandReport solve(const Island& island, BlockCholesky& system, double speed,
-                       IslandEffort effort = IslandEffort::full);
+                       IslandEffort effort = IslandEffort::full, bool settles = false);
 
     /// Sweeps from the impulses and velocities that there are.
     void sweep(const Island& island);

@@ -220,6 +220,7 @@ public:
         for (const auto& group : groups_) group->end_step(world);
         if (!islands_) return;
         islands_->store_impulses(world.contacts);
+        islands_->note_what_misses(world, residuals_);
         islands_->rest_ties(world);
     }
 

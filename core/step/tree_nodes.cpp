@@ -60,7 +60,6 @@ TreeNodes::TreeNodes(const World& world, const JointForest& forest,
         const Joint& joint = world.joints.joints[node.joint];
         node.sign = joint.a == node.body ? 1 : -1;
         add_axes(world, node);
-        driven_ |= !node.axes.empty();
     }
 }
 

@@ -29,9 +29,6 @@ public:
 
     void rest_left_out();
 
-    /// Whether anything drives a joint.
-    bool is_driven() const { return driven_; }
-
     // of one body of the forest; what they do is said in step/tree_solver.h
 
     double evaluate(std::uint32_t node, bool settle);  ///< returns the greatest violation
@@ -133,7 +130,6 @@ private:
     std::vector<Node> nodes_;
     std::vector<std::uint32_t> index_;  ///< [node of the forest] in nodes_
     bool carries_balls_;  ///< whether bodies that are solved side by side may hang by these
-    bool driven_ = false;
     double h_ = 0, inverse_h_ = 0;
 };
 

@@ -15,16 +15,18 @@ namespace plumb {
 
 class TreeProgress {
 public:
-    explicit TreeProgress(const JointForest& forest) {
+    /// `driven`: [joint] whether anything drives it.
+    TreeProgress(const JointForest& forest, const std::vector<std::uint8_t>& driven) {
         std::uint32_t trees = 0;
         for (const ForestNode& node : forest.nodes) {
             tree_.push_back(node.parent < 0 ? trees++ : tree_[node.parent]);
             if (node.parent < 0) hung_.push_back(node.parent == kHeld);
-            joint_.resize(trees, kNoIndex);
+            joint_.resize(trees, kNoIndex), driven_.resize(trees, 0);
+            if (node.parent != kFree && driven[node.joint]) driven_.back() = 1;
             std::uint32_t& first = joint_[tree_.back()];
             if (node.parent != kFree && first == kNoIndex) first = node.joint;
         }
-        active_.assign(trees, 1), left_out_.assign(trees, 0);
+        active_.assign(trees, 1), left_out_.assign(trees, 0), ends_.assign(trees, 0);
         violation_.assign(trees, 0), before_ = first_ = violation_;
     }
 
@@ -80,15 +82,22 @@ public:
         return left;
     }
 
-    /// Whether one more step brings all that are left well within the tolerance, if it shrinks what
-    /// they are off as the last one did; Newton steps do better than that. Trees that are far off
-    /// may not: what they come to is to be seen.
-    bool needs_one_step(double tolerance) const {
+    /// Before a step: finds the trees that it brings well within the tolerance, if it shrinks what
+    /// they are off as the last one did; Newton steps do better than that. What driven trees and
+    /// those that are far off come to is to be seen.
+    void find_last_steps(double tolerance) {
         for (std::size_t i = 0; i < active_.size(); ++i)
-            if (active_[i] && (!(violation_[i] * violation_[i] < 0.1 * tolerance * before_[i]) ||
-                               violation_[i] > kNear * tolerance))
-                return false;
-        return true;
+            ends_[i] = active_[i] && !driven_[i] && violation_[i] <= kNear * tolerance &&
+                       violation_[i] * violation_[i] < 0.1 * tolerance * before_[i];
+    }
+    /// After it: returns whether any other is left.
+    bool leave_those_that_end() {
+        bool left = false;
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            active_[i] = active_[i] && !ends_[i];
+            left |= active_[i] != 0;
+        }
+        return left;
     }
 
     /// Calls visit(joint, how far off [m], [rad]) for each tree that is still to be solved, with
@@ -115,7 +124,8 @@ private:
     std::vector<std::uint32_t> tree_;                 ///< [node]
     std::vector<std::uint32_t> joint_;                ///< [tree] its first
     std::vector<std::uint8_t> active_, hung_;         ///< [tree]
-    std::vector<std::uint8_t> left_out_;              ///< [tree]
+    std::vector<std::uint8_t> left_out_, driven_;     ///< [tree]
+    std::vector<std::uint8_t> ends_;                  ///< [tree] with the present step
     std::vector<double> violation_, before_, first_;  ///< [tree]
 };
 

@@ -6,9 +6,15 @@
 namespace plumb {
 namespace {
 
-std::vector<std::uint8_t> undriven_balls(const World& world, const JointForest& forest) {
-    std::vector<std::uint8_t> plain, driven(world.joints.size(), 0);
+std::vector<std::uint8_t> driven_joints(const World& world) {
+    std::vector<std::uint8_t> driven(world.joints.size(), 0);
     for (const JointDrive& drive : world.joints.drives) driven[drive.joint] = 1;
+    return driven;
+}
+
+std::vector<std::uint8_t> undriven_balls(const World& world, const JointForest& forest) {
+    std::vector<std::uint8_t> plain;
+    const std::vector<std::uint8_t> driven = driven_joints(world);
     for (const ForestNode& node : forest.nodes)
         plain.push_back(node.parent != kFree && !driven[node.joint] &&
                         world.joints.joints[node.joint].is_plain_ball());
@@ -21,7 +27,7 @@ template <int W>
 TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest, double tolerance)
     : tolerance_(tolerance),
       tables_(forest.nodes.size()),
-      progress_(forest),
+      progress_(forest, driven_joints(world)),
       nodes_(world, forest, undriven_balls(world, forest), progress_, tables_) {
     lay_out(world, forest, undriven_balls(world, forest));
     load_impulses(world.joints);
@@ -188,11 +194,12 @@ bool TreeSolver<W>::search() {
         fresh_ = false;
         mark_active();
         const bool balance = step < kBalancedSteps;
-        const bool last = !nodes_.is_driven() && progress_.needs_one_step(tolerance_);
+        progress_.find_last_steps(tolerance_);
         if (step == kBalancedSteps) forget();
         eliminate(balance);
         substitute(balance);
-        if (last) return true;
+        if (!progress_.leave_those_that_end()) return true;
+        mark_active();
     }
     evaluate(true);
     const bool solved = !progress_.leave_those_within(tolerance_);

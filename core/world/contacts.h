@@ -27,6 +27,8 @@ struct ContactMemory {
     bool jammed = false;        ///< friction holds its overlap: an exact solution could not push it
                                 ///< out, or left it as it is
     std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
+    std::uint8_t settling = 0;  ///< steps for which it is solved to the last (the same)
+    std::uint8_t missed = 0;    ///< whether it misses Settings::accuracy (step/large_islands.h)
     bool known = false;         ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
@@ -63,16 +65,17 @@ enum class Restitution : std::uint8_t {
     bouncing
 };
 
-/// Columns of one length: [contact], sorted by (a, b, feature). The first two stay from step to
-/// step: contacts of pairs that hardly moved are brought up to date where they stand.
-struct ContactTable : RememberedContacts {  ///< as the collider reported them; poses of the start
-    std::vector<ContactTrack> track;        ///< only with more than one substep
-    std::vector<ContactRim> rims;  ///< of radius 0 where a contact is on none; only where shapes
-                                   ///< have rims
-    std::vector<Vector3d> bend;    ///< mean velocity over the substep less that at its start [m/s];
-                                   ///< empty with the paper's push, and before the first substep
-    std::vector<double> gap;       ///< at the start of the substep [m]
-    std::vector<Vector3d> point;   ///< where it acts at the start of the substep [m]
+/// Columns of one length: [contact], sorted by (a, b, feature), and below them what a detection
+/// works with. The contacts and what they remember stay from step to step: those of pairs that
+/// hardly moved are brought to the poses of the step where they stand.
+struct ContactTable : RememberedContacts {
+    std::vector<ContactTrack> track;  ///< only with more than one substep
+    std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none; only where shapes
+                                      ///< have rims
+    std::vector<Vector3d> bend;   ///< mean velocity over the substep less that at its start [m/s];
+                                  ///< empty with the paper's push, and before the first substep
+    std::vector<double> gap;      ///< at the start of the substep [m]
+    std::vector<Vector3d> point;  ///< where it acts at the start of the substep [m]
     std::vector<Restitution> restitution;  ///< of the substep; this and the next only where some
                                            ///< pair bounces
     std::vector<double> restitution_velocity;  ///< separating speed that it asks for [m/s]
@@ -83,7 +86,7 @@ struct ContactTable : RememberedContacts {  ///< as the collider reported them; 
     RememberedContacts fresh;        ///< those that the collider reported in this step
     RememberedContacts copy;         ///< of one pair, while its contacts change
     std::vector<std::uint8_t> used;  ///< of one pair: whether a contact has taken over the memory
-    KeptContacts kept;               ///< only with reuse
+    KeptContacts kept;
 
     std::uint64_t rejected =
         0;  ///< contacts left out since the start: a number not finite, or an id unknown

@@ -38,6 +38,7 @@ struct ContactMove {
     std::uint32_t from, to, count;
 };
 
+/// Without reuse there are no pairs, poses and rides.
 struct KeptContacts {
     std::vector<KeptPair> pairs;     ///< sorted by (a, b); those without a contact as well
     std::vector<PairPose> poses;     ///< [pair]

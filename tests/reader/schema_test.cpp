@@ -114,10 +114,10 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                                   precision, threads, lanes, contacts, margin, reuse_distance,
                                   stiffness, recovery_speed, collision_depth, anchor_stiffness,
                                   gyroscopic, leapfrog_start, joints, exact_islands,
-                                  exact_deformables, tree_parts, joint_tolerance, warm_start,
+                                  accuracy, exact_deformables, tree_parts, joint_tolerance, warm_start,
                                   alternate_sweeps, shared_push, shared_cone, require, forbid] =
         settings;
-    constexpr std::size_t kMembers = 34, kPreset = 1;
+    constexpr std::size_t kMembers = 35, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "wind",
@@ -143,6 +143,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "leapfrog_start",
                              "joints",
                              "exact_islands",
+                             "accuracy",
                              "exact_deformables",
                              "tree_parts",
                              "joint_tolerance",

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+/// When an island beyond Settings::exact_islands is solved exactly all the same.
+///
+/// Sweeps carry a heap as well as anybody can see, and let a high wall fall: how large an island is
+/// does not tell them apart, what its sweeps miss does. So a large island is swept until it rests
+/// and its contacts still miss more than Settings::accuracy. From the next step on it is solved
+/// exactly, for as long as it rests; from the first on, if most of its contacts are new, for such
+/// know nothing of what they have to bear. What moves is swept: the forces in it change from step
+/// to step, and what is missed of them is not seen.
+#pragma once
+
+#include "effects/residual.h"
+
+#include <cstdint>
+
+namespace plumb {
+
+/// It rests where its contacts slide, part and approach by less than this share of what gravity
+/// and constant forces add in a substep, in the root of the mean square.
+inline constexpr double kRestsBelow = 0.7;
+
+/// What a factorisation may take, in products of two 6 × 6 blocks: about half a second. A wall of
+/// 10,000 bricks takes 1.5e7.
+inline constexpr std::uint64_t kMostProducts = 20'000'000;
+
+/// Whether the contacts of an island miss more than `accuracy`.
+inline bool misses(const IslandResidual& island, double accuracy) {
+    return island.rms_force * island.bodies > accuracy * island.weight;
+}
+
+/// ContactMemory::missed: 0 where the island of the contact needs no more than sweeps, kMissed
+/// where it is to be solved exactly, above that the steps until that is tried again.
+inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 255;
+
+/// After a step in which the island was swept.
+inline std::uint8_t missed_after_sweeps(std::uint8_t missed) {
+    return missed > kMissed + 1 ? missed - 1 : 0;
+}
+
+}  // namespace plumb
