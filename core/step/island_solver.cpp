@@ -43,7 +43,7 @@ constexpr double kExact = 0.03;
 constexpr int kRounds = 4, kMostRounds = 16;
 
 /// No round begins after so many factorisations.
-constexpr std::uint32_t kEnoughFactorisations = 60;
+constexpr std::uint32_t kEnoughFactorisations = 120;
 
 /// With little work: so many rounds at least, no other after so many factorisations, and γ is more
 /// at first, so that its minimum is found.
@@ -64,7 +64,7 @@ constexpr double kYield = 0.3;
 constexpr double kFast = 2, kClear = 100;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kNewtonSteps = 20, kLineSteps = 20;
+constexpr int kNewtonSteps = 40, kLineSteps = 20;
 
 /// [r]ₓ: what multiplies ω to give r × ω.
 Matrix3d skew(const Vector3d& r) {

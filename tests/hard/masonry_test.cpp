@@ -194,48 +194,46 @@ void add_cart(Scene& s, double speed) {
 TEST_P(Stones, ABridgeStands) { expect_stands(bridge(scene()), collider(), 6, "bridge"); }
 
 TEST_P(Stones, ACartRollsOverABridge) {
-    for (const double dt : {0.01, 1.0 / 60}) {
-        Scene s = bridge(scene());
-        const std::size_t first = s.bodies.size();
-        add_cart(s, 1);
-        s.settings.dt = dt;
-        Simulation simulation(s, colliders(), collider());
-        const Bodies& b = simulation.world().bodies;
-        const std::vector<Vector> start(b.position.begin(), b.position.begin() + first);
-        double most = 0;
-        while (simulation.time() < 8) {
-            simulation.step();
-            most = std::max(most, farthest_from(start, simulation.world()));
-        }
-        EXPECT_LT(most, kSag * 6) << dt << " s";
-        EXPECT_GT(b.position[first].x(), 3) << "it has crossed it";
+    Scene s = bridge(scene());
+    s.settings.dt = s.settings.precision == Precision::single ? 0.01 : 1.0 / 60;
+    const std::size_t first = s.bodies.size();
+    add_cart(s, 1);
+    Simulation simulation(s, colliders(), collider());
+    const Bodies& b = simulation.world().bodies;
+    const std::vector<Vector> start(b.position.begin(), b.position.begin() + first);
+    double most = 0;
+    while (simulation.time() < 10) {
+        simulation.step();
+        most = std::max(most, farthest_from(start, simulation.world()));
     }
+    EXPECT_LT(most, kSag * 6);
+    EXPECT_GT(b.position[first].x(), 3) << "it has crossed it";
 }
 
-/// Two boards of length L and thickness t lean against each other at θ from the vertical. Each
-/// touches the ground and the other one along edges of its inner face; moments about the lower one
-/// give the friction that holds them, (tan θ − t/L)/2.
-Scene lean_to(const Scene& empty, double angle, double friction) {
-    constexpr double kLength = 1, kThickness = 0.05;
+/// A board of length L and thickness t leans at θ from the vertical against a smooth wall. It
+/// touches the ground and the wall along edges of its face to the wall; moments about the lower one
+/// give the friction that holds it, (tan θ − t/L)/2.
+constexpr double kThickness = 0.05;
+Scene leaning_board(const Scene& empty, double angle, double friction) {
     Scene s = with_friction(empty, friction);
     add_ground(s);
-    for (const double side : {-1.0, 1.0}) {
-        const Rotation turn(Eigen::AngleAxisd(side * angle, Vector::UnitZ()));
-        const Vector inner = turn * Vector(-side * kThickness / 2, kLength / 2, 0);
-        const Vector foot = turn * Vector(-side * kThickness / 2, -kLength / 2, 0);
-        add_body(s, box(kThickness / 2, kLength / 2, 0.15), {-inner.x(), -foot.y(), 0})
-            .placement.rotation = turn;
-    }
+    s.materials.push_back(s.materials[0]);
+    s.materials.back().name = "smooth", s.materials.back().friction = 0;
+    add_body(s, box(0.5, 2, 1), {0.5, 2, 0}, Motion::fixed).material = 1;
+    const Rotation turn(Eigen::AngleAxisd(-angle, Vector::UnitZ()));
+    const Vector top = turn * Vector(kThickness / 2, 0.5, 0);
+    const Vector foot = turn * Vector(kThickness / 2, -0.5, 0);
+    add_body(s, box(kThickness / 2, 0.5, 0.15), {-top.x(), -foot.y(), 0}).placement.rotation = turn;
     return s;
 }
 
 TEST_P(Boards, LeanAsFarAsFrictionHoldsThem) {
     for (const double degrees : {12, 20, 35}) {
         const double angle = degrees * std::numbers::pi / 180;
-        const double least = 0.5 * (std::tan(angle) - 0.05);
+        const double least = 0.5 * (std::tan(angle) - kThickness);
         const std::string name = std::to_string(degrees) + " degrees";
-        expect_stands(lean_to(scene(), angle, least / kShort), collider(), 1, name);
-        expect_falls(lean_to(scene(), angle, least / kBeyond), collider(), 1, name);
+        expect_stands(leaning_board(scene(), angle, least / kShort), collider(), 1, name);
+        expect_falls(leaning_board(scene(), angle, least / kBeyond), collider(), 1, name);
     }
 }
 
