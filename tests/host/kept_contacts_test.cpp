@@ -99,5 +99,48 @@ TEST_P(KeptContacts, OfWhatComesSlowlyOrFastAreThereInTime) {
     }
 }
 
+/// A ball comes near another one aslant, so that the two are candidates before they are within the
+/// margin, and waits there. Then it is suddenly pushed, or a keyframe sets the other one going:
+/// without reuse their contact would be known all the time.
+TEST_P(KeptContacts, OfWhatIsSetGoingSuddenlyAreThereInTime) {
+    constexpr double kRadius = 0.1;
+    const Vector along = Vector(1, 1, 1).normalized();
+    Random random(9);
+    for (int draw = 0; draw < 20; ++draw) {
+        const bool by_force = draw % 2 == 1;
+        Scene s;
+        s.settings.gravity = Vector::Zero();
+        s.settings.dt = random.number(0.005, 0.02);
+        const double margin = s.settings.margin, start = 60 * s.settings.dt;
+        add_body(s, sphere(kRadius), {0, 0, 0}, Motion::kinematic);
+        if (!by_force) {
+            const auto at = [&](double x) { return Placement{x * along, Rotation::Identity()}; };
+            s.bodies[0].script.keyframes = {{0, at(0)}, {start, at(0)}, {2 * start, at(1)}};
+        }
+        const double gap = random.number(0.55, 0.95) * margin,
+                     speed = 0.03 * margin / s.settings.dt;
+        add_body(s, sphere(kRadius), (2 * kRadius + 1.3 * margin) * along);
+        double least[2] = {1, 1};
+        for (const bool reuse : {false, true}) {
+            s.settings.reuse_distance = reuse ? Settings{}.reuse_distance : 0;
+            Simulation simulation(s, colliders(), GetParam());
+            const Bodies& b = simulation.world().bodies;
+            const auto gap_now = [&] {
+                return (b.position[1] - b.position[0]).norm() - 2 * kRadius;
+            };
+            while (simulation.time() < 2 * start - 1e-9) {
+                const double comes = gap_now() > gap ? -speed : 0;
+                if (simulation.time() < start - 1e-9)
+                    simulation.set_velocity(b.id[1], comes * along, Vector::Zero());
+                else if (by_force)
+                    simulation.set_force(b.id[1], -400 * along, Vector::Zero());
+                simulation.step();
+                least[reuse] = std::min(least[reuse], gap_now());
+            }
+        }
+        EXPECT_GT(least[1], std::min(least[0], 0.0) - 0.02 * margin) << "draw " << draw;
+    }
+}
+
 }  // namespace
 }  // namespace plumb::test

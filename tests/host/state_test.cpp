@@ -2,6 +2,7 @@
 /// A simulation that is restored goes on as the one that was saved, bit for bit; and bytes that are
 /// no such state are refused.
 #include "host/editing.h"
+#include "math/fnv1a.h"
 #include "scene/error.h"
 #include "support/soft_scenes.h"
 
@@ -232,6 +233,38 @@ TEST(SavedState, KnowsWhatTouchesForTheEventsToCome) {
         for (std::size_t k = 0; k < one.contacts().size(); ++k)
             ASSERT_EQ(two.contacts()[k].impulse(), one.contacts()[k].impulse());
     }
+}
+
+/// A state that someone made up, with a hash that fits: whatever it says, the steps after it come
+/// to an end. Each word in turn is that of a body that does not exist.
+TEST(SavedState, ThatIsMadeUpEndsNoProgram) {
+    constexpr std::size_t kHash = 12 + 4 + 16, kHeader = kHash + 8;
+    Scene s;
+    add_ground(s);
+    for (int i = 0; i < 3; ++i) add_body(s, box(0.1, 0.1, 0.1), {0, 0.1 + 0.2 * i, 0});
+    Simulation simulation(s, colliders(), "ode");
+    for (int i = 0; i < 20; ++i) simulation.step();
+    const std::string good = simulation.save();
+    int restored = 0;
+    for (const std::uint32_t value : {7u, 0xffffffffu})
+        for (std::size_t at = kHeader; at + 4 <= good.size(); at += 4) {
+            std::string bad = good;
+            std::memcpy(bad.data() + at, &value, 4);
+            Fnv1a hash;
+            hash.add(bad.data() + kHeader, bad.size() - kHeader);
+            const std::uint64_t sum = hash.value();
+            std::memcpy(bad.data() + kHash, &sum, 8);
+            try {
+                simulation.restore(bad);
+                ++restored;
+                simulation.step(), simulation.step();
+            } catch (const std::exception& e) {
+                EXPECT_STRNE(e.what(), "");
+            }
+        }
+    EXPECT_GT(restored, 100);
+    simulation.restore(good);
+    EXPECT_EQ(simulation.save(), good) << "a good one goes before all of that";
 }
 
 TEST(SavedState, IsRefusedWithASentenceWhereItIsNoneOfThisScene) {

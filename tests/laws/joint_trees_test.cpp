@@ -145,6 +145,45 @@ TEST_P(JointTrees, KeepTheMomentumOfAFreeTree) {
     EXPECT_LT((angular_momentum(simulation.world()) - l0).norm(), rounding * l0.norm());
 }
 
+/// Chains fall on the ground. Each ends its steps for itself, so that it does not matter which
+/// others are solved beside it: the same bits on any number of threads.
+TEST_P(JointTrees, DoNotFeelEachOther) {
+    Random random(11);
+    for (int draw = 0; draw < 8; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.joints = JointMethod::tree;
+        s.settings.exact_islands = 0;
+        s.settings.dt = random.number(0.004, 0.02);
+        s.settings.substeps = 1 + random.below(4);
+        add_ground(s);
+        const int trees = 2 + static_cast<int>(random.below(5));
+        const double speed = std::pow(10, random.number(-1, 1));
+        for (int tree = 0; tree < trees; ++tree) {
+            const int links = 2 + static_cast<int>(random.below(4));
+            for (int i = 0; i < links; ++i) {
+                const auto body = static_cast<std::uint32_t>(s.bodies.size());
+                const Vector at(2.0 * tree, 2 - 0.3 * i, 0);
+                BodySpec& b = add_body(s, box(0.03, 0.14, 0.02), at - Vector(0, 0.15, 0));
+                b.velocity = speed * Vector(random.number(-1, 1), 0, random.number(-1, 1));
+                if (i == links - 1) b.mass = std::pow(10, random.number(0, 3));
+                if (i > 0)
+                    add_joint(s, random.below(2) ? JointKind::hinge : JointKind::ball, body,
+                              body - 1, at);
+            }
+        }
+        std::uint64_t alone = 0;
+        for (const std::uint32_t threads : {1u, 2u, 3u, 4u}) {
+            s.settings.threads = threads;
+            Simulation simulation(s, colliders(), "reference");
+            run_for(simulation, 300 * s.settings.dt);
+            const std::uint64_t hash = state_hash(simulation.world());
+            if (threads == 1) alone = hash;
+            EXPECT_EQ(hash, alone) << "draw " << draw << ", " << threads << " threads";
+        }
+    }
+}
+
 /// A square of four bars on hinges, one to the world on either side: three joints hang on a tree,
 /// the last closes the loop.
 TEST_P(JointTrees, ALoopIsClosedByIterationsAroundThem) {
