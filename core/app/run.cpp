@@ -145,9 +145,9 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const Statist
                                        simulation.steps(), statistics.first_failure));
     if (statistics.costly_islands > 0)
         warnings.push_back(
-            "resting islands beyond exact_islands miss \"accuracy\" and would take too much to be "
-            "solved exactly: they are left to the iterations, and the residual tells what those "
-            "miss");
+            "islands that rest miss \"accuracy\" and are too large for an exact solution: they are "
+            "left to the iterations; more of these, or more substeps, may help, and the residual "
+            "tells");
     if (statistics.unsolved_trees > 0)
         warnings.push_back(fmt::format(
             "trees of joints were left open in {} solves, by {:.3g} m or rad at the most, that of "

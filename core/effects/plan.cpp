@@ -116,9 +116,12 @@ Wish exact_islands(const World& w) {
         return {false, "the passes' pushes are apart, as in the paper (shared_push)"};
     if (std::count(w.settings.require.begin(), w.settings.require.end(), "shock_propagation") > 0)
         return {false, "shock propagation carries all that touches"};
+    const char* beyond =
+        w.settings.accuracy > 0 ? "; more, where they rest and miss \"accuracy\"" : "";
     return {true, "up to " + std::to_string(most) +
                       " bodies that touch, are linked or coupled are solved as one system, with "
-                      "their joints (exact_islands)"};
+                      "their joints (exact_islands)" +
+                      beyond};
 }
 Wish gyroscopic(const World& w) {
     return counted(count_bodies(w, [&](std::size_t i) { return !w.bodies.isotropic[i]; }),

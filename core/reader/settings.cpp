@@ -114,10 +114,12 @@ const Table<Settings>& settings_table() {
         field<S>("exact_islands", W{{0, 100000}}, &S::exact_islands,
                  "islands of at most so many bodies that touch are solved exactly, whatever the "
                  "iterations; 0: all are iterated"),
-        field<S>("accuracy", Number{{0, 1}}, &S::accuracy,
-                 "what the contacts of a larger island that rests may miss after the iterations, "
-                 "as a share of the mean weight of its bodies, in the root of the mean square; one "
-                 "that misses more is solved exactly, too; 0: it is iterated all the same"),
+        field<S>(
+            "accuracy", Number{{0, 1}}, &S::accuracy,
+            "what the contacts of a larger island that rests may miss after the iterations, "
+            "as a share of the mean weight of its bodies, in the root of the mean square; one "
+            "that misses more, and that nothing holds or drives, is solved exactly, too; 0: it "
+            "is iterated all the same"),
         field<S>(
             "exact_deformables", W{{0, 10000000}}, &S::exact_deformables,
             "a scene of at most so many particles solves what holds them together as one system, "

@@ -455,16 +455,12 @@ bool IslandChoice::rests_and_misses(const World& world, const ContactIsland& isl
                                     const std::vector<BodyPair>& pairs) const {
     if (!(world.settings.accuracy > 0) || !is_loose_heap(island)) return false;
     std::uint8_t missed = 0;
-    std::uint32_t known = 0, contacts = 0;
+    std::uint32_t known = 0;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
-        const BodyPair& pair = pairs[found_.pairs()[i]];
-        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
-            const ContactMemory& memory = world.contacts.memory[k];
-            missed = std::max(missed, memory.missed), known += memory.matched;
-        }
-        contacts += pair.count;
+        const ContactMemory& memory = world.contacts.memory[pairs[found_.pairs()[i]].first];
+        missed = std::max(missed, memory.missed), known += memory.matched;
     }
-    const bool is_new = 2 * known < contacts;
+    const bool is_new = 2 * known < island.last_pair - island.first_pair;
     if (missed > kMissed || (missed == 0 && !is_new)) return false;
     const Bodies& b = world.bodies;
     const Stir stir = stir_of(world, island, pairs, [&](std::uint32_t k) {

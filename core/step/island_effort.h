@@ -27,10 +27,10 @@ inline constexpr std::uint8_t kSweptSteps = 64, kLightSteps = 64;
 /// this share of what they were so many steps before.
 inline constexpr double kShallow = 0.005, kGivesWay = 0.9;
 
-/// Once its laws no longer hold, an island is solved to the last for so many steps, and then left
-/// as it is: impulses that change velocities, as those do that take back an overlap, would go on
-/// doing so in what is left alone.
-inline constexpr std::uint8_t kSettlingSteps = 6;
+/// An island whose laws hold is left as it is, with the impulses of the step before. Such as change
+/// velocities, as those do that take back an overlap, would go on doing so. So once it is solved
+/// anew, it is solved to a finer tolerance for so many steps, until little of that is left.
+inline constexpr std::uint8_t kSettlingSteps = 32;
 
 /// `disputed`: the steps that are left of the dispute.
 inline IslandEffort effort_of(std::uint8_t disputed) {

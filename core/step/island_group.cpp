@@ -51,8 +51,6 @@ constexpr double kDrift = 0.3;
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
 
-constexpr std::uint64_t kAnyProducts = std::numeric_limits<std::uint64_t>::max();
-
 bool is_large(const World& world, std::uint32_t bodies) {
     return bodies > world.settings.exact_islands;
 }
@@ -145,7 +143,8 @@ bool IslandGroup::find_system(const World& world, Member& member, const ContactI
     const std::uint32_t n = island.last_body - island.first_body;
     if (member.system.rows() == n && member.pattern == pattern_) return true;
     member.pattern = pattern_;
-    return member.system.analyse(n, pattern_, is_large(world, n) ? kMostProducts : kAnyProducts);
+    return member.system.analyse(n, pattern_,
+                                 is_large(world, n) ? kMostProducts / kFewest : kAnyProducts);
 }
 
 /// Returns whether its solution does not take too much; else nothing is taken.
@@ -505,7 +504,8 @@ void IslandGroup::note_open(StepReport& report, const Member& member) const {
 /// Returns whether it is solved.
 bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort effort) {
     const IslandReport report =
-        solver.solve(island_of(m), m.system, m.speed, effort, m.settling > 0 || m.stirred);
+        solver.solve(island_of(m), m.system, m.speed, effort, m.settling > 0 || m.stirred,
+                     m.is_large ? kMostProducts : kAnyProducts);
     m.stirred |= report.stirred;
     return report.solved;
 }
@@ -655,6 +655,10 @@ void IslandGroup::note_what_misses(World& world, const IslandResiduals& residual
     const auto needs_more = [&](const IslandResidual& island) {
         return is_large(world, island.bodies) && misses(island, s.accuracy);
     };
+    const auto note = [&](ContactMemory& memory, const IslandResidual& island) {
+        const bool fails = memory.exact && misses(island, kFails * s.accuracy);
+        memory.missed = fails ? kTriesAgain : std::max(memory.missed, kMissed);
+    };
     const std::vector<IslandResidual>& all = residuals.islands();
     if (!(s.accuracy > 0) || std::none_of(all.begin(), all.end(), needs_more)) return;
     ContactTable& c = world.contacts;
@@ -663,8 +667,7 @@ void IslandGroup::note_what_misses(World& world, const IslandResiduals& residual
         const std::int32_t a = world.bodies.row[contact.a], b = world.bodies.row[contact.b];
         const IslandResidual* island = residuals.of(std::min(a, b));
         if (!island || !needs_more(*island)) return;
-        for (std::size_t k = first; k < end; ++k)
-            c.memory[k].missed = std::max(c.memory[k].missed, kMissed);
+        for (std::size_t k = first; k < end; ++k) note(c.memory[k], *island);
     });
 }
 

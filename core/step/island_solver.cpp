@@ -13,9 +13,8 @@ namespace {
 /// Where the law holds to this, nothing is done: what rests so stays as it is.
 constexpr double kStop = 1e-8;
 
-/// To this it is solved once it does not, and in the steps after that: impulses that have just
-/// changed velocities would go on doing so.
-constexpr double kSettled = 1e-10;
+/// To this it is solved once it does not, and in the steps after that (kSettlingSteps).
+constexpr double kSettled = 1e-12;
 
 /// What an island may miss without counting as unsolved.
 constexpr double kSolved = 1e-6;
@@ -134,7 +133,7 @@ void IslandSolver::open(IslandPoint& p) {
 }
 
 IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed,
-                                 IslandEffort effort, bool settles) {
+                                 IslandEffort effort, bool settles, std::uint64_t most_products) {
     island_ = island;
     system_ = &system;
     effort_ = effort;
@@ -149,6 +148,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     report.residual = residual();
     if (report.residual <= stop) return report;
     report.stirred = report.residual > kStop * speed;
+    most_factorisations_ = most_products / std::max<std::uint64_t>(1, system.block_products());
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
@@ -197,7 +197,7 @@ void IslandSolver::improve(IslandReport& report, double speed) {
         if (!shifts_ && most_shift() > kClear * report.residual) return false;
         if (round < (light ? kLightRounds : kRounds)) return true;
         return round < kMostRounds && report.residual > kSolved * speed &&
-               report.factorisations < enough;
+               report.factorisations < std::min<std::uint64_t>(enough, most_factorisations_);
     };
     for (int round = 0; goes_on(round); ++round) {
         const double before = report.residual;
@@ -341,7 +341,7 @@ void IslandSolver::begin_round(double softness, double error) {
 
 /// Newton's method, until no body's momentum is off by more than `enough` of velocity [m/s].
 bool IslandSolver::minimise(double enough, std::uint32_t& factorisations) {
-    for (int i = 0; i < kNewtonSteps; ++i) {
+    for (int i = 0; i < kNewtonSteps && factorisations < most_factorisations_; ++i) {
         const double off = find_downhill();
         if (off <= enough) return true;
         assemble();

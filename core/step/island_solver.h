@@ -22,9 +22,12 @@
 #include "step/island.h"
 #include "step/island_effort.h"
 
+#include <limits>
 #include <vector>
 
 namespace plumb {
+
+inline constexpr std::uint64_t kAnyProducts = std::numeric_limits<std::uint64_t>::max();
 
 struct IslandReport {
     std::uint32_t factorisations = 0;
@@ -38,9 +41,11 @@ class IslandSolver {
 public:
     /// Improves impulses and velocities until the law of contact holds. `system` has the pattern of
     /// the island's pairs; `speed` [m/s], at which its contacts would approach, is the measure of
-    /// what may be missed. `settles`: whether it is solved to the last (step/island_effort.h).
+    /// what may be missed. `settles`: whether to a finer tolerance (step/island_effort.h).
+    /// `most_products`: of blocks, what all factorisations may take.
     IslandReport solve(const Island& island, BlockCholesky& system, double speed,
-                       IslandEffort effort = IslandEffort::full, bool settles = false);
+                       IslandEffort effort = IslandEffort::full, bool settles = false,
+                       std::uint64_t most_products = kAnyProducts);
 
     /// Sweeps from the impulses and velocities that there are.
     void sweep(const Island& island);
@@ -104,6 +109,7 @@ private:
     BlockCholesky* system_ = nullptr;
     double creep_ = 0;  ///< slip that is not shifted away [m/s]
     IslandEffort effort_ = IslandEffort::full;
+    std::uint64_t most_factorisations_ = 0;
     bool shifts_ = true;              ///< whether what slides is shifted (de Saxcé)
     std::vector<PointWork> work_;     // [point]
     std::vector<IslandPoint> apart_;  // [point] of open_apart

@@ -19,14 +19,17 @@ namespace plumb {
 /// and constant forces add in a substep, in the root of the mean square.
 inline constexpr double kRestsBelow = 0.7;
 
-/// What a factorisation may take, in products of two 6 × 6 blocks: about half a second. A wall of
-/// 10,000 bricks takes 1.5e7.
-inline constexpr std::uint64_t kMostProducts = 20'000'000;
+/// What its factorisations in a substep may take, in products of two 6 × 6 blocks: up to four
+/// seconds. One that could not have so many of them is left to sweeps; a wall of 3600 bricks can.
+inline constexpr std::uint64_t kMostProducts = 100'000'000, kFewest = 30;
 
 /// Whether the contacts of an island miss more than `accuracy`.
 inline bool misses(const IslandResidual& island, double accuracy) {
     return island.rms_force * island.bodies > accuracy * island.weight;
 }
+
+/// What was to be exact and misses so many times the accuracy is left to sweeps for a while.
+inline constexpr double kFails = 10;
 
 /// ContactMemory::missed: 0 where the island of the contact needs no more than sweeps, kMissed
 /// where it is to be solved exactly, above that the steps until that is tried again.

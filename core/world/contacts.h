@@ -27,8 +27,9 @@ struct ContactMemory {
     bool jammed = false;        ///< friction holds its overlap: an exact solution could not push it
                                 ///< out, or left it as it is
     std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
-    std::uint8_t settling = 0;  ///< steps for which it is solved to the last (the same)
-    std::uint8_t missed = 0;    ///< whether it misses Settings::accuracy (step/large_islands.h)
+    std::uint8_t settling = 0;  ///< steps for which it is solved to a finer tolerance (the same)
+    std::uint8_t missed = 0;    ///< 1: it misses Settings::accuracy; more: the steps until it is
+                                ///< tried again (step/large_islands.h)
     bool known = false;         ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
