@@ -301,9 +301,12 @@ bool IslandChoice::is_meshed(const ContactIsland& island) const {
     return island.first_tie < island.last_tie && found_.ties()[island.last_tie - 1] >= first_seed_;
 }
 
+bool IslandChoice::is_loose(const ContactIsland& island) const {
+    return island.first_tie == island.last_tie && !is_driven(island);
+}
+
 bool IslandChoice::is_loose_heap(const ContactIsland& island) const {
-    return island.last_body - island.first_body > kVerySmall &&
-           island.first_tie == island.last_tie && !is_driven(island);
+    return island.last_body - island.first_body > kVerySmall && is_loose(island);
 }
 
 IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
@@ -317,26 +320,24 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     const bool meshed = is_meshed(island);
     if ((obstacles & kBeyond) || (meshed ? can_do_work(world, island) : obstacles != 0))
         return IslandWay::left;
-    if ((obstacles & (kRests | kHard)) && n <= world.settings.exact_islands)
-        return IslandWay::swept;
     upset_.clear();
-    if (n <= std::min(kVerySmall, world.settings.exact_islands) && flies(world, island, pairs))
-        return IslandWay::exact;
-    if (n <= world.settings.exact_islands) {
-        const std::size_t jammed_before = jammed_.size();
-        find_upset(world, island, pairs);
-        const bool is_loose = is_loose_heap(island);
-        if ((upset_.empty() || is_loose) && (n <= kVerySmall || is_calm(world, island, pairs))) {
-            if (upset_.empty()) return IslandWay::exact;
-            jammed_.resize(jammed_before);
-            return IslandWay::swept;
-        }
-    } else if (rests_and_misses(world, island, pairs)) {
-        find_upset(world, island, pairs);
-        if (upset_.empty()) return IslandWay::exact;
+    if (is_large(world.settings, n)) {
+        if (rests_and_misses(world, island, pairs)) return IslandWay::exact;
+        leave(world, island, pairs);
+        return IslandWay::left;
     }
-    if (meshed && n <= world.settings.exact_islands && !is_driven(island)) return IslandWay::swept;
-    mark_what_goes_on(world, island, pairs);
+    if (obstacles & (kRests | kHard)) return IslandWay::swept;
+    if (n <= kVerySmall && flies(world, island, pairs)) return IslandWay::exact;
+    const std::size_t jammed_before = jammed_.size();
+    find_upset(world, island, pairs);
+    const bool is_loose = is_loose_heap(island);
+    if ((upset_.empty() || is_loose) && (n <= kVerySmall || is_calm(world, island, pairs))) {
+        if (upset_.empty()) return IslandWay::exact;
+        jammed_.resize(jammed_before);
+        return IslandWay::swept;
+    }
+    if (meshed && !is_driven(island)) return IslandWay::swept;
+    leave(world, island, pairs);
     return IslandWay::left;
 }
 
@@ -381,8 +382,8 @@ void IslandChoice::find_upset(const World& world, const ContactIsland& island,
     }
 }
 
-void IslandChoice::mark_what_goes_on(const World& world, const ContactIsland& island,
-                                     const std::vector<BodyPair>& pairs) {
+void IslandChoice::leave(const World& world, const ContactIsland& island,
+                         const std::vector<BodyPair>& pairs) {
     // what others squeeze is jammed as a whole
     if (!upset_.empty() && is_driven(island)) return;
     const std::vector<ContactMemory>& memory = world.contacts.memory;
@@ -450,10 +451,10 @@ bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
     return stir.speed <= calm_speed(world, stir.radius, stir.pull);
 }
 
-/// Of a large island that nothing holds or drives: see step/large_islands.h.
+/// Of a large island: see step/large_islands.h.
 bool IslandChoice::rests_and_misses(const World& world, const ContactIsland& island,
                                     const std::vector<BodyPair>& pairs) const {
-    if (!(world.settings.accuracy > 0) || !is_loose_heap(island)) return false;
+    if (!(world.settings.accuracy > 0) || !is_loose(island)) return false;
     std::uint8_t missed = 0;
     std::uint32_t known = 0;
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
@@ -461,13 +462,16 @@ bool IslandChoice::rests_and_misses(const World& world, const ContactIsland& isl
         missed = std::max(missed, memory.missed), known += memory.matched;
     }
     const bool is_new = 2 * known < island.last_pair - island.first_pair;
-    if (missed > kMissed || (missed == 0 && !is_new)) return false;
+    if (waits(missed) || (missed == 0 && !is_new)) return false;
     const Bodies& b = world.bodies;
+    bool is_deep = false;
     const Stir stir = stir_of(world, island, pairs, [&](std::uint32_t k) {
-        return relative_velocity(b, b.velocity_now, b.angular_velocity_now, world.contacts.found[k],
+        const Contact& contact = world.contacts.found[k];
+        is_deep |= -contact.gap > kDeep * smaller_radius(b, contact);
+        return relative_velocity(b, b.velocity_now, b.angular_velocity_now, contact,
                                  world.contacts.point[k]);
     });
-    return stir.speed <= kRestsBelow * stir.pull * substep_of(world.settings);
+    return !is_deep && stir.speed <= kRestsBelow * stir.pull * substep_of(world.settings);
 }
 
 bool IslandChoice::goes_on(const World& world, std::uint32_t contact) const {

@@ -53,11 +53,8 @@ public:
     /// that nothing drives and no joint holds.
     bool is_loose_heap(const ContactIsland& island) const;
 
-    /// Leaves an island to others after all, that would have been solved exactly.
-    void leave(const World& world, const ContactIsland& island,
-               const std::vector<BodyPair>& pairs) {
-        mark_what_goes_on(world, island, pairs);
-    }
+    /// Leaves an island to others, and marks what of it goes on from its impulses there.
+    void leave(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
 
     /// Whether links, couplings or joints that close a loop tie it: others only iterate those.
     bool is_meshed(const ContactIsland& island) const;
@@ -101,6 +98,7 @@ private:
     std::uint8_t obstacles_of(const ContactIsland& island) const;
 
     bool can_do_work(const World& world, const ContactIsland& island) const;
+    bool is_loose(const ContactIsland& island) const;  // nothing ties or drives it
     bool is_slow(const World& world, const Contact& contact) const;
 
     /// How fast an island's contacts slide, part and approach.
@@ -117,8 +115,6 @@ private:
                           const std::vector<BodyPair>& pairs) const;
     void find_upset(const World& world, const ContactIsland& island,
                     const std::vector<BodyPair>& pairs);
-    void mark_what_goes_on(const World& world, const ContactIsland& island,
-                           const std::vector<BodyPair>& pairs);
     void mark(const World& world, const BodyPair& pair, double bears);
     double weight_of(const World& world, const ContactIsland& island,
                      const std::vector<BodyPair>& pairs);

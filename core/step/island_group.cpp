@@ -51,10 +51,6 @@ constexpr double kDrift = 0.3;
 /// A contact sticks whose friction is below its bound by this share.
 constexpr double kSticks = 1e-5;
 
-bool is_large(const World& world, std::uint32_t bodies) {
-    return bodies > world.settings.exact_islands;
-}
-
 Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
 }
@@ -143,8 +139,8 @@ bool IslandGroup::find_system(const World& world, Member& member, const ContactI
     const std::uint32_t n = island.last_body - island.first_body;
     if (member.system.rows() == n && member.pattern == pattern_) return true;
     member.pattern = pattern_;
-    return member.system.analyse(n, pattern_,
-                                 is_large(world, n) ? kMostProducts / kFewest : kAnyProducts);
+    return member.system.analyse(
+        n, pattern_, is_large(world.settings, n) ? kMostProducts / kFewest : kAnyProducts);
 }
 
 /// Returns whether its solution does not take too much; else nothing is taken.
@@ -155,7 +151,7 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     if (!find_system(world, member, island, found, pairs)) return false;
     ++count_;
     const std::uint32_t n = island.last_body - island.first_body;
-    member.is_large = is_large(world, n);
+    member.is_large = is_large(world.settings, n);
     member.first_body = static_cast<std::uint32_t>(bodies_.size());
     member.first_point = static_cast<std::uint32_t>(points_.size());
     ties_.begin_island(member.ties);
@@ -653,7 +649,7 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
 void IslandGroup::note_what_misses(World& world, const IslandResiduals& residuals) const {
     const Settings& s = world.settings;
     const auto needs_more = [&](const IslandResidual& island) {
-        return is_large(world, island.bodies) && misses(island, s.accuracy);
+        return is_large(s, island.bodies) && misses(island, s.accuracy);
     };
     const auto note = [&](ContactMemory& memory, const IslandResidual& island) {
         const bool fails = memory.exact && misses(island, kFails * s.accuracy);

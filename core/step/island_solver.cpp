@@ -13,8 +13,9 @@ namespace {
 /// Where the law holds to this, nothing is done: what rests so stays as it is.
 constexpr double kStop = 1e-8;
 
-/// To this it is solved once it does not, and in the steps after that (kSettlingSteps).
-constexpr double kSettled = 1e-12;
+/// To this it is solved once it does not, and in the steps after that (kSettlingSteps); but for
+/// what is missed by more than kMoves, which will not stay as it is anyway.
+constexpr double kSettled = 1e-12, kMoves = 1e-6;
 
 /// What an island may miss without counting as unsolved.
 constexpr double kSolved = 1e-6;
@@ -41,8 +42,11 @@ constexpr double kExact = 0.03;
 /// Rounds that every island may take, and that one may take which is not yet solved.
 constexpr int kRounds = 4, kMostRounds = 16;
 
-/// No round begins after so many factorisations.
-constexpr std::uint32_t kEnoughFactorisations = 120;
+/// Newton's steps in a round, and factorisations after which none begins. What may stand gets twice
+/// as much: arches that friction hardly holds find their forces only once.
+/// What is refined converges at once, or is at what rounding leaves.
+constexpr int kNewtonSteps = 20, kRefiningSteps = 8, kStandsMore = 2;
+constexpr std::uint32_t kEnoughFactorisations = 60;
 
 /// With little work: so many rounds at least, no other after so many factorisations, and γ is more
 /// at first, so that its minimum is found.
@@ -63,7 +67,7 @@ constexpr double kYield = 0.3;
 constexpr double kFast = 2, kClear = 100;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kNewtonSteps = 40, kLineSteps = 20;
+constexpr int kLineSteps = 20;
 
 /// [r]ₓ: what multiplies ω to give r × ω.
 Matrix3d skew(const Vector3d& r) {
@@ -148,6 +152,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     report.residual = residual();
     if (report.residual <= stop) return report;
     report.stirred = report.residual > kStop * speed;
+    enough_ = (report.residual > kMoves * speed ? kStop : kSettled) * speed;
     most_factorisations_ = most_products / std::max<std::uint64_t>(1, system.block_products());
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;
@@ -190,10 +195,11 @@ bool IslandSolver::stands(IslandReport& report, double speed) {
 void IslandSolver::improve(IslandReport& report, double speed) {
     const bool light = effort_ == IslandEffort::light;
     double share = light ? kLightShare : kSoftnessShare, hard = kHard;
-    const std::uint32_t enough =
-        report.factorisations + (light ? kLightFactorisations : kEnoughFactorisations);
+    const std::uint32_t most =
+        shifts_ ? kEnoughFactorisations : kStandsMore * kEnoughFactorisations;
+    const std::uint32_t enough = report.factorisations + (light ? kLightFactorisations : most);
     const auto goes_on = [&](int round) {
-        if (report.residual <= kSettled * speed) return false;
+        if (report.residual <= enough_) return false;
         if (!shifts_ && most_shift() > kClear * report.residual) return false;
         if (round < (light ? kLightRounds : kRounds)) return true;
         return round < kMostRounds && report.residual > kSolved * speed &&
@@ -202,12 +208,16 @@ void IslandSolver::improve(IslandReport& report, double speed) {
     for (int round = 0; goes_on(round); ++round) {
         const double before = report.residual;
         begin_round(softness(share * before, hard), before);
-        const bool found = minimise(kExact * before, report.factorisations);
+        const int steps = before <= kMoves * speed ? kRefiningSteps
+                          : shifts_                ? kNewtonSteps
+                                                   : kStandsMore * kNewtonSteps;
+        const bool found = minimise(kExact * before, steps, report.factorisations);
         if (found)
             take_impulses();
         else
             sweep_both_ways();
         report.residual = residual();
+        if (!found && before <= kMoves * speed) return;
         if (!found)
             share *= kSofter;
         else if (report.residual > kSlow * before && report.residual > kFar * speed)
@@ -340,8 +350,8 @@ void IslandSolver::begin_round(double softness, double error) {
 }
 
 /// Newton's method, until no body's momentum is off by more than `enough` of velocity [m/s].
-bool IslandSolver::minimise(double enough, std::uint32_t& factorisations) {
-    for (int i = 0; i < kNewtonSteps && factorisations < most_factorisations_; ++i) {
+bool IslandSolver::minimise(double enough, int steps, std::uint32_t& factorisations) {
+    for (int i = 0; i < steps && factorisations < most_factorisations_; ++i) {
         const double off = find_downhill();
         if (off <= enough) return true;
         assemble();

@@ -98,7 +98,7 @@ private:
     void sweep(IslandPoint& p);
     void open(IslandPoint& p);
     void begin_round(double softness, double error);
-    bool minimise(double enough, std::uint32_t& factorisations);
+    bool minimise(double enough, int steps, std::uint32_t& factorisations);
     double find_downhill();
     void assemble();
     double slope(double step) const;
@@ -109,6 +109,7 @@ private:
     BlockCholesky* system_ = nullptr;
     double creep_ = 0;  ///< slip that is not shifted away [m/s]
     IslandEffort effort_ = IslandEffort::full;
+    double enough_ = 0;  ///< up to which rounds go on [m/s]
     std::uint64_t most_factorisations_ = 0;
     bool shifts_ = true;              ///< whether what slides is shifted (de Saxcé)
     std::vector<PointWork> work_;     // [point]

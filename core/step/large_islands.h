@@ -4,16 +4,21 @@
 /// Sweeps carry a heap as well as anybody can see, and let a high wall fall: how large an island is
 /// does not tell them apart, what its sweeps miss does. So a large island is swept until it rests
 /// and its contacts still miss more than Settings::accuracy. From the next step on it is solved
-/// exactly, for as long as it rests; from the first on, if most of its contacts are new, for such
-/// know nothing of what they have to bear. What moves is swept: the forces in it change from step
+/// exactly, for as long as it rests; from the first step on where most of its contacts are new, and
+/// have no impulses to start from. What moves is swept: the forces in it change from step
 /// to step, and what is missed of them is not seen.
 #pragma once
 
 #include "effects/residual.h"
+#include "scene/settings.h"
 
 #include <cstdint>
 
 namespace plumb {
+
+inline bool is_large(const Settings& settings, std::uint32_t bodies) {
+    return bodies > settings.exact_islands;
+}
 
 /// It rests where its contacts slide, part and approach by less than this share of what gravity
 /// and constant forces add in a substep, in the root of the mean square.
@@ -31,13 +36,15 @@ inline bool misses(const IslandResidual& island, double accuracy) {
 /// What was to be exact and misses so many times the accuracy is left to sweeps for a while.
 inline constexpr double kFails = 10;
 
-/// ContactMemory::missed: 0 where the island of the contact needs no more than sweeps, kMissed
-/// where it is to be solved exactly, above that the steps until that is tried again.
+/// ContactMemory::missed: 0 where sweeps will do for the island of the contact, kMissed where it is
+/// to be solved exactly; above that, the steps for which it waits until that is tried again.
 inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 255;
+inline bool waits(std::uint8_t missed) { return missed > kMissed; }
 
 /// After a step in which the island was swept.
 inline std::uint8_t missed_after_sweeps(std::uint8_t missed) {
-    return missed > kMissed + 1 ? missed - 1 : 0;
+    const std::uint8_t left = missed - (missed > 0);
+    return waits(left) ? left : 0;
 }
 
 }  // namespace plumb
