@@ -2,7 +2,6 @@
 #include "host/world_state.h"
 
 #include "contacts/contact_pairs.h"
-
 #include "world/tears.h"
 
 namespace plumb {

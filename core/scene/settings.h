@@ -62,10 +62,10 @@ struct Settings {
     JointMethod joints = JointMethod::auto_;
     std::uint32_t exact_islands = 400;  ///< islands of at most so many bodies that touch are solved
                                         ///< exactly, whatever the iterations; 0 = all are iterated
-    double accuracy =
-        0.01;  ///< what contacts of a larger island that rests may miss, as a share of
-               ///< the mean weight of its bodies, in the root of the mean square; one
-               ///< that misses more is solved exactly; 0 = it is iterated all the same
+    double accuracy = 0.03;  ///< what contacts of a larger island that rests may miss, as
+                             ///< a share of the mean weight of its bodies (root mean
+                             ///< square); one that misses more is solved exactly; 0 = it
+                             ///< is iterated all the same
     std::uint32_t exact_deformables = 0;  ///< deformables of at most so many particles together are
                                           ///< solved as one system; 0 = all are iterated
     std::uint32_t tree_parts = 64;        ///< into how many parts a tree of joints that touches
