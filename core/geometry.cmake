@@ -1,6 +1,6 @@
 # plumb::geometry: plain geometry, for whoever has shapes (Eigen only).
 add_library(plumb_geometry STATIC
-  geometry/corner_points.cpp geometry/hills.cpp geometry/mass_properties.cpp geometry/overlap.cpp geometry/solid.cpp)
+  geometry/corner_points.cpp geometry/hills.cpp geometry/mass_properties.cpp geometry/overlap.cpp geometry/shape_support.cpp geometry/solid.cpp)
 add_library(plumb::geometry ALIAS plumb_geometry)
 set_target_properties(plumb_geometry PROPERTIES EXPORT_NAME geometry)
 target_link_libraries(plumb_geometry PUBLIC plumb::scene PRIVATE $<BUILD_INTERFACE:plumb_options>)

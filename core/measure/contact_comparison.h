@@ -15,7 +15,7 @@
 
 #include "measure/contact_patch.h"
 #include "measure/contact_tolerances.h"
-#include "measure/shape_support.h"
+#include "geometry/shape_support.h"
 #include "measure/spread.h"
 
 #include <plumb/contact_set.h>

@@ -4,6 +4,7 @@
 
 #include "contacts/contact_stages.h"
 #include "contacts/contact_sums.h"
+#include "contacts/ghost_contacts.h"
 #include "contacts/still_ground.h"
 #include "contacts/surface_detector.h"
 #include "effects/ledger.h"
@@ -70,6 +71,7 @@ struct Stepper {
     FastJoints fast_joints;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
+    GhostContacts ghosts;
     GroundTouch ground;
     StillGround still_ground;
     std::optional<ContactSums> sums;  ///< of the last step, where someone wants them

@@ -29,6 +29,10 @@ bool is_convex(ShapeKind kind);
 /// Whether a shape, or a part of it, is a mesh or a height field.
 bool has_triangles(const Shape& shape);
 
+/// How far a shape reaches along the unit vector d, from the world's origin [m]; infinite for a
+/// plane along all but its normal, and for height fields and compounds.
+double support(const PlacedShape& shape, const Vector3d& d);
+
 /// Signed gap of two convex shapes along the unit vector n, which points out of b towards a [m]:
 /// the true gap where n is the best axis, and less than it elsewhere. −∞ along any axis of a plane
 /// but its own.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "measure/shape_support.h"
+#include "geometry/shape_support.h"
 
 #include <algorithm>
 #include <cmath>
@@ -42,10 +42,6 @@ double local_support(const Shape& s, const Vector3d& d) {
             break;
     }
     return kInfinite;
-}
-
-double support(const PlacedShape& s, const Vector3d& d) {
-    return s.origin.dot(d) + local_support(*s.shape, s.rotation.conjugate() * d);
 }
 
 double height_field_extent(const Shape& s) {
@@ -95,6 +91,10 @@ bool has_triangles(const Shape& shape) {
         return shape.kind == ShapeKind::mesh || shape.kind == ShapeKind::height_field;
     return std::any_of(shape.parts, shape.parts + shape.part_count,
                        [](const ShapePart& part) { return has_triangles(part.shape); });
+}
+
+double support(const PlacedShape& s, const Vector3d& d) {
+    return s.origin.dot(d) + local_support(*s.shape, s.rotation.conjugate() * d);
 }
 
 double axis_gap(const PlacedShape& a, const PlacedShape& b, const Vector3d& n) {

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+#include "contacts/ghost_contacts.h"
+
+#include "contacts/contact_measures.h"
+#include "geometry/shape_support.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <span>
+
+namespace plumb {
+namespace {
+
+/// By how much of the body's radius a slab may stand out above the plane and still be below it:
+/// those that lie loose differ by their overlaps. A wheel loses as much of its speed at such a
+/// step, twice over.
+constexpr double kFlush = 1e-4;
+
+/// Normals that differ by no more than this make one plane [rad]; a contact that differs from it by
+/// less brakes what rolls by the square of that.
+constexpr double kSamePlane = 1e-3, kAcross = 5e-4;
+
+/// Share of the body's radius by which its point may lie outside of those that are held.
+constexpr double kOutside = 1e-3;
+
+/// The same for a point on the edge of a flat round end, which colliders hold at a few points.
+constexpr double kOutsideRound = 0.35;
+
+/// A mesh of more vertices is not searched for its highest.
+constexpr std::uint32_t kFewVertices = 500;
+
+/// A contact as one of its bodies sees it.
+struct Side {
+    std::uint32_t other;             ///< body
+    std::uint32_t part, other_part;  ///< of it, and of the other
+    Vector3d anchor;                 ///< of the body [m]
+    Vector3d surface;                ///< point of the other's surface [m]
+    Vector3d normal;                 ///< out of the other
+    double radius;                   ///< from the anchor to the body's surface [m]
+
+    Side(const Contact& c, std::uint32_t body) {
+        const bool is_a = c.a == body;
+        const Vector3d n = to_eigen(c.normal);
+        other = is_a ? c.b : c.a;
+        part = is_a ? c.part_a : c.part_b, other_part = is_a ? c.part_b : c.part_a;
+        anchor = to_eigen(is_a ? c.point_a : c.point_b), radius = is_a ? c.radius_a : c.radius_b;
+        surface = is_a ? Vector3d(to_eigen(c.point_b) + c.radius_b * n)
+                       : Vector3d(to_eigen(c.point_a) - c.radius_a * n);
+        normal = is_a ? n : Vector3d(-n);
+    }
+};
+
+PlacedShape placed_shape(const World& world, std::uint32_t body, std::uint32_t part) {
+    const Bodies& b = world.bodies;
+    const Placement& local = b.geometry_in_body[body];
+    return placed_part(world.shapes[b.geometry[body]],
+                       {to_plain(local.position), to_plain(local.rotation)},
+                       {to_plain(b.position[body]), to_plain(b.orientation[body])}, part);
+}
+
+/// The point of a body that a contact holds, were its normal n: what is round is held below its
+/// centre, what is on the side of a cylinder below its axis.
+struct HeldPoint {
+    Vector3d place;
+    bool on_round_end = false;
+};
+HeldPoint held_point(const World& world, std::uint32_t body, const Side& at, const Vector3d& n) {
+    if (at.radius > 0) return {at.anchor - at.radius * n};
+    const PlacedShape shape = placed_shape(world, body, at.part);
+    if (shape.shape->kind != ShapeKind::cylinder && shape.shape->kind != ShapeKind::cone)
+        return {at.anchor};
+    const Vector3d axis = shape.rotation * Vector3d::UnitY(), from = at.anchor - shape.origin;
+    const double along = from.dot(axis), radius = shape.shape->radius;
+    const Vector3d out = from - along * axis, down = -n + n.dot(axis) * axis;
+    if (out.norm() < (1 - kOutside) * radius) return {at.anchor};
+    if (down.norm() < kSamePlane) return {at.anchor, true};
+    return {shape.origin + along * axis + radius * down.normalized()};
+}
+
+/// How fast the surface of a body rises along n at a point [m/s].
+double rise_at(const Bodies& b, std::uint32_t body, const Vector3d& point, const Vector3d& n) {
+    return n.dot(b.velocity[body] + b.angular_velocity[body].cross(point - b.position[body]));
+}
+
+/// How far a point of a plane is from the convex hull of others [m].
+class Hull {
+public:
+    void add(const Eigen::Vector2d& from_point) {
+        if (count_ == kMost) return;
+        away_[count_++] = from_point;
+    }
+    double distance() const {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < count_; ++i)
+            for (std::size_t k = 0; k <= i; ++k)
+                least = std::min(least, to_edge(away_[i], away_[k]));
+        return least > 0 && is_inside() ? 0 : least;
+    }
+
+private:
+    static constexpr std::size_t kMost = 32;
+
+    static double to_edge(const Eigen::Vector2d& p, const Eigen::Vector2d& q) {
+        const Eigen::Vector2d edge = q - p;
+        const double length = edge.squaredNorm();
+        const double at = length > 0 ? std::clamp(-p.dot(edge) / length, 0.0, 1.0) : 0;
+        return (p + at * edge).norm();
+    }
+    /// Whether no half of the plane is free of them: each has one to its left within half a turn,
+    /// and one to its right.
+    bool is_inside() const {
+        for (std::size_t i = 0; i < count_; ++i) {
+            bool left = false, right = false;
+            for (std::size_t k = 0; k < count_; ++k) {
+                const double turn = away_[i].x() * away_[k].y() - away_[i].y() * away_[k].x();
+                left |= turn > 0, right |= turn < 0;
+            }
+            if (!left || !right) return false;
+        }
+        return count_ > 2;
+    }
+
+    Eigen::Vector2d away_[kMost];
+    std::size_t count_ = 0;
+};
+
+/// Whether all of what a contact is with is below a plane, and does not rise above it within the
+/// step.
+bool lies_below(const World& world, const Side& at, const Side& plane, double flush) {
+    const PlacedShape other = placed_shape(world, at.other, at.other_part);
+    if (other.shape->kind == ShapeKind::mesh && other.shape->vertex_count > kFewVertices)
+        return false;
+    const Vector3d& n = plane.normal;
+    const double rise = rise_at(world.bodies, at.other, at.surface, n) -
+                        rise_at(world.bodies, plane.other, plane.surface, n);
+    return support(other, n) - n.dot(plane.surface) + std::max(0.0, rise) * world.settings.dt <=
+           flush;
+}
+
+}  // namespace
+
+/// The contacts of each body that has one that came with this step.
+void GhostContacts::list_contacts(const World& world) {
+    const std::vector<Contact>& found = world.contacts.found;
+    const std::vector<Motion>& motion = world.bodies.motion;
+    came_.assign(motion.size(), 0);
+    for (const ContactMove& m : world.contacts.kept.comes)
+        for (std::uint32_t i = m.to; i < m.to + m.count; ++i)
+            came_[found[i].a] = came_[found[i].b] = 1;
+    for (std::size_t body = 0; body < motion.size(); ++body)
+        came_[body] &= motion[body] == Motion::dynamic;
+
+    first_.assign(motion.size() + 1, 0);
+    for (const Contact& c : found) first_[c.a] += came_[c.a], first_[c.b] += came_[c.b];
+    std::partial_sum(first_.begin(), first_.end(), first_.begin());
+    contacts_.resize(first_.back());
+    for (std::size_t i = found.size(); i-- > 0;)
+        for (const std::uint32_t body : {found[i].a, found[i].b})
+            if (came_[body]) contacts_[--first_[body]] = static_cast<std::uint32_t>(i);
+}
+
+/// Whether the others of one plane keep the body from all that a contact keeps it from. They are
+/// left in `beneath_`.
+bool GhostContacts::is_ghost(const World& world, std::uint32_t contact, std::uint32_t body) {
+    const ContactTable& c = world.contacts;
+    const Bodies& b = world.bodies;
+    const Side at(c.found[contact], body);
+    const double flush = kFlush * b.bounding_radius[body];
+    const std::span<const std::uint32_t> others(contacts_.data() + first_[body],
+                                                contacts_.data() + first_[body + 1]);
+    for (const std::uint32_t j : others) {
+        if (j == contact || c.memory[j].ghost) continue;
+        const Side plane(c.found[j], body);
+        if (plane.other == at.other && plane.other_part == at.other_part) continue;
+        const Vector3d& n = plane.normal;
+        const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
+        if (at.normal.cross(n).squaredNorm() < kAcross * kAcross || height(at.surface) > flush ||
+            !lies_below(world, at, plane, flush))
+            continue;
+        const HeldPoint held = held_point(world, body, at, n);
+        const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
+            return Eigen::Vector2d(u.dot(p - held.place), n.cross(u).dot(p - held.place));
+        };
+        Hull hull;
+        beneath_.clear();
+        for (const std::uint32_t k : others) {
+            if (k == contact || c.memory[k].ghost) continue;
+            const Side side(c.found[k], body);
+            if (side.normal.cross(n).norm() > kSamePlane || side.normal.dot(n) < 0 ||
+                std::abs(height(side.surface)) > flush)
+                continue;
+            hull.add(in_plane(held_point(world, body, side, n).place));
+            beneath_.push_back(k);
+        }
+        const double beside = held.on_round_end ? kOutsideRound : kOutside;
+        if (hull.distance() <= beside * b.bounding_radius[body]) return true;
+    }
+    return false;
+}
+
+void GhostContacts::judge_those_that_came(World& world) {
+    ContactTable& c = world.contacts;
+    list_contacts(world);
+    needed_.assign(c.found.size(), 0);
+    const auto find_one = [&](std::uint32_t i) {
+        for (const std::uint32_t body : {c.found[i].a, c.found[i].b}) {
+            if (!came_[body] || needed_[i] || !is_ghost(world, i, body)) continue;
+            for (const std::uint32_t k : beneath_) needed_[k] = 1;
+            c.memory[i].ghost = true;
+            return;
+        }
+    };
+    for (const ContactMove& m : c.kept.comes)
+        for (std::uint32_t i = m.to; i < m.to + m.count; ++i) c.memory[i].ghost = false;
+    for (const ContactMove& m : c.kept.comes)
+        for (std::uint32_t i = m.to; i < m.to + m.count; ++i) find_one(i);
+}
+
+void GhostContacts::find(World& world) {
+    ContactTable& c = world.contacts;
+    ghosts_.clear();
+    if (!c.kept.comes.empty()) judge_those_that_came(world);
+    for (std::uint32_t i = 0; i < c.found.size(); ++i)
+        if (c.memory[i].ghost) ghosts_.push_back(i);
+}
+
+void GhostContacts::keep_open(ContactTable& contacts) const {
+    for (const std::uint32_t i : ghosts_) contacts.gap[i] = kOutOfReach;
+}
+
+}  // namespace plumb
