@@ -3,6 +3,7 @@
 
 #include "contacts/contact_measures.h"
 #include "geometry/shape_support.h"
+#include "world/round_shapes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,11 +23,9 @@ constexpr double kFlush = 1e-4;
 /// less brakes what rolls by the square of that.
 constexpr double kSamePlane = 1e-3, kAcross = 5e-4;
 
-/// Share of the body's radius by which its point may lie outside of those that are held.
+/// Share of the body's radius by which its point may lie outside of those that are held, and by
+/// which one that is not may come below the plane in a step.
 constexpr double kOutside = 1e-3;
-
-/// The same for a point on the edge of a flat round end, which colliders hold at a few points.
-constexpr double kOutsideRound = 0.35;
 
 /// A mesh of more vertices is not searched for its highest.
 constexpr std::uint32_t kFewVertices = 500;
@@ -61,22 +60,16 @@ PlacedShape placed_shape(const World& world, std::uint32_t body, std::uint32_t p
 }
 
 /// The point of a body that a contact holds, were its normal n: what is round is held below its
-/// centre, what is on the side of a cylinder below its axis.
-struct HeldPoint {
-    Vector3d place;
-    bool on_round_end = false;
-};
-HeldPoint held_point(const World& world, std::uint32_t body, const Side& at, const Vector3d& n) {
-    if (at.radius > 0) return {at.anchor - at.radius * n};
+/// centre, what is on the side of a cylinder below its axis [m].
+Vector3d held_point(const World& world, std::uint32_t body, const Side& at, const Vector3d& n) {
     const PlacedShape shape = placed_shape(world, body, at.part);
-    if (shape.shape->kind != ShapeKind::cylinder && shape.shape->kind != ShapeKind::cone)
-        return {at.anchor};
-    const Vector3d axis = shape.rotation * Vector3d::UnitY(), from = at.anchor - shape.origin;
+    if (!has_rim(shape.shape->kind)) return at.anchor - at.radius * n;
+    const Vector3d touching = at.anchor - at.radius * at.normal;
+    const Vector3d axis = shape.rotation * Vector3d::UnitY(), from = touching - shape.origin;
     const double along = from.dot(axis), radius = shape.shape->radius;
-    const Vector3d out = from - along * axis, down = -n + n.dot(axis) * axis;
-    if (out.norm() < (1 - kOutside) * radius) return {at.anchor};
-    if (down.norm() < kSamePlane) return {at.anchor, true};
-    return {shape.origin + along * axis + radius * down.normalized()};
+    const Vector3d out = from - along * axis, down = n.dot(axis) * axis - n;
+    if (out.norm() < (1 - kOutside) * radius || down.norm() < kSamePlane) return touching;
+    return shape.origin + along * axis + radius * down.normalized();
 }
 
 /// How fast the surface of a body rises along n at a point [m/s].
@@ -141,7 +134,8 @@ bool lies_below(const World& world, const Side& at, const Side& plane, double fl
 
 }  // namespace
 
-/// The contacts of each body that has one that came with this step.
+/// The contacts of each body that has one that came with this step; first those that touch most,
+/// which carry it.
 void GhostContacts::list_contacts(const World& world) {
     const std::vector<Contact>& found = world.contacts.found;
     const std::vector<Motion>& motion = world.bodies.motion;
@@ -159,6 +153,11 @@ void GhostContacts::list_contacts(const World& world) {
     for (std::size_t i = found.size(); i-- > 0;)
         for (const std::uint32_t body : {found[i].a, found[i].b})
             if (came_[body]) contacts_[--first_[body]] = static_cast<std::uint32_t>(i);
+    for (std::size_t body = 0; body < motion.size(); ++body)
+        std::sort(contacts_.begin() + first_[body], contacts_.begin() + first_[body + 1],
+                  [&](std::uint32_t i, std::uint32_t k) {
+                      return std::pair(found[i].gap, i) < std::pair(found[k].gap, k);
+                  });
 }
 
 /// Whether the others of one plane keep the body from all that a contact keeps it from. They are
@@ -179,9 +178,12 @@ bool GhostContacts::is_ghost(const World& world, std::uint32_t contact, std::uin
         if (at.normal.cross(n).squaredNorm() < kAcross * kAcross || height(at.surface) > flush ||
             !lies_below(world, at, plane, flush))
             continue;
-        const HeldPoint held = held_point(world, body, at, n);
+        const Vector3d held = held_point(world, body, at, n);
+        const double most = kOutside * b.bounding_radius[body];
+        const double fall = rise_at(b, plane.other, plane.surface, n) - rise_at(b, body, held, n);
+        const bool sinks = height(held) - std::max(0.0, fall) * world.settings.dt < -most;
         const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
-            return Eigen::Vector2d(u.dot(p - held.place), n.cross(u).dot(p - held.place));
+            return Eigen::Vector2d(u.dot(p - held), n.cross(u).dot(p - held));
         };
         Hull hull;
         beneath_.clear();
@@ -191,11 +193,10 @@ bool GhostContacts::is_ghost(const World& world, std::uint32_t contact, std::uin
             if (side.normal.cross(n).norm() > kSamePlane || side.normal.dot(n) < 0 ||
                 std::abs(height(side.surface)) > flush)
                 continue;
-            hull.add(in_plane(held_point(world, body, side, n).place));
+            hull.add(in_plane(held_point(world, body, side, n)));
             beneath_.push_back(k);
         }
-        const double beside = held.on_round_end ? kOutsideRound : kOutside;
-        if (hull.distance() <= beside * b.bounding_radius[body]) return true;
+        if (!sinks || hull.distance() <= most) return true;
     }
     return false;
 }

@@ -172,23 +172,13 @@ bool closest(Witness& witness, const Part& a, const Part& b, const Change& chang
 /// How far a is drawn away before its normal is looked for, as a share of both sizes.
 constexpr double kDrawn = 1e-3;
 constexpr int kMostDrawings = 8;
+/// Overlap that says that a normal is the right one, as a share of both sizes.
+constexpr double kSlight = 1e-5;
 /// Turned by less, a normal is as straight as rounding lets closest points tell [rad].
 constexpr double kStraight = 1e-6;
 
-}  // namespace
-
-bool closest_when_apart(Witness& witness, const Part& a, const Part& b, Vec3 way) {
-    return closest(witness, a, b, {1, {}, way});
-}
-
-bool closest_when_touching(Witness& witness, const Part& a, const Part& b) {
-    if (!closest(witness, a, b, {0.98, {}, {}})) return false;
-    witness.gap = support_gap(a, b, witness.normal);
-    return true;
-}
-
-bool straighten(Vec3& normal, const Part& a, const Part& b) {
-    const double drawn = kDrawn * (size_of(a) + size_of(b));
+/// plumb::straighten, with a drawn away until it is `drawn` [m] apart.
+bool straighten(Vec3& normal, const Part& a, const Part& b, double drawn) {
     Vec3 n = normal;
     for (int i = 0; i < kMostDrawings; ++i) {
         const double apart = std::max(0.0, drawn - support_gap(a, b, n));
@@ -201,6 +191,28 @@ bool straighten(Vec3& normal, const Part& a, const Part& b) {
         return true;
     }
     return false;
+}
+
+}  // namespace
+
+bool closest_when_apart(Witness& witness, const Part& a, const Part& b, Vec3 way) {
+    return closest(witness, a, b, {1, {}, way});
+}
+
+bool straighten(Vec3& normal, const Part& a, const Part& b) {
+    return straighten(normal, a, b, kDrawn * (size_of(a) + size_of(b)));
+}
+
+bool closest_when_touching(Witness& witness, const Part& a, const Part& b) {
+    if (!closest(witness, a, b, {0.98, {}, {}})) return false;
+    witness.gap = support_gap(a, b, witness.normal);
+    if (witness.gap > -kSlight * (size_of(a) + size_of(b))) return true;
+    // what is long loses more at its ends than a small part overlaps it there
+    Vec3 n = witness.normal;
+    if (!straighten(n, a, b, -witness.gap)) return true;
+    const double gap = support_gap(a, b, n);
+    if (gap > witness.gap) witness.normal = n, witness.gap = gap;
+    return true;
 }
 
 bool touching_point(Vec3& point, const Part& a, const Part& b, Vec3 n, double gap) {
