@@ -2,6 +2,7 @@
 #include "contacts/ghost_contacts.h"
 
 #include "contacts/contact_measures.h"
+#include "contacts/pair_poses.h"
 #include "geometry/shape_support.h"
 #include "world/round_shapes.h"
 
@@ -23,8 +24,7 @@ constexpr double kFlush = 1e-4;
 /// less brakes what rolls by the square of that.
 constexpr double kSamePlane = 1e-3, kAcross = 5e-4;
 
-/// Share of the body's radius by which its point may lie outside of those that are held, and by
-/// which one that is not may come below the plane in a step.
+/// Share of the body's radius by which its point may lie outside of those that are held.
 constexpr double kOutside = 1e-3;
 
 /// A mesh of more vertices is not searched for its highest.
@@ -160,13 +160,14 @@ void GhostContacts::list_contacts(const World& world) {
                   });
 }
 
-/// Whether the others of one plane keep the body from all that a contact keeps it from. They are
-/// left in `beneath_`.
-bool GhostContacts::is_ghost(const World& world, std::uint32_t contact, std::uint32_t body) {
-    const ContactTable& c = world.contacts;
-    const Bodies& b = world.bodies;
+/// Looks for a plane that others hold the body above and all that the contact is with lies below.
+/// Where they hold the point of the contact, it is a ghost, and they are left in `beneath_`;
+/// another point is held above the plane, too.
+GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
+                                            std::uint32_t body) {
+    ContactTable& c = world.contacts;
     const Side at(c.found[contact], body);
-    const double flush = kFlush * b.bounding_radius[body];
+    const double radius = world.bodies.bounding_radius[body], flush = kFlush * radius;
     const std::span<const std::uint32_t> others(contacts_.data() + first_[body],
                                                 contacts_.data() + first_[body + 1]);
     for (const std::uint32_t j : others) {
@@ -179,9 +180,6 @@ bool GhostContacts::is_ghost(const World& world, std::uint32_t contact, std::uin
             !lies_below(world, at, plane, flush))
             continue;
         const Vector3d held = held_point(world, body, at, n);
-        const double most = kOutside * b.bounding_radius[body];
-        const double fall = rise_at(b, plane.other, plane.surface, n) - rise_at(b, body, held, n);
-        const bool sinks = height(held) - std::max(0.0, fall) * world.settings.dt < -most;
         const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
             return Eigen::Vector2d(u.dot(p - held), n.cross(u).dot(p - held));
         };
@@ -196,9 +194,28 @@ bool GhostContacts::is_ghost(const World& world, std::uint32_t contact, std::uin
             hull.add(in_plane(held_point(world, body, side, n)));
             beneath_.push_back(k);
         }
-        if (!sinks || hull.distance() <= most) return true;
+        if (hull.distance() <= kOutside * radius) return Verdict::ghost;
+        turn(world, contact, body, n, held, height(held));
+        return Verdict::turned;
     }
-    return false;
+    return Verdict::real;
+}
+
+/// Lets a contact hold a point of the body above a plane with the normal n, from which it is so far
+/// away.
+void GhostContacts::turn(World& world, std::uint32_t contact, std::uint32_t body, const Vector3d& n,
+                         const Vector3d& held, double gap) {
+    Contact& c = world.contacts.found[contact];
+    const bool is_a = c.a == body;
+    const Vector3d surface = held - gap * n;
+    const double radius = is_a ? c.radius_a : c.radius_b, other = is_a ? c.radius_b : c.radius_a;
+    (is_a ? c.point_a : c.point_b) = to_plain(Vector3d(held + radius * n));
+    (is_a ? c.point_b : c.point_a) = to_plain(Vector3d(surface - other * n));
+    c.normal = to_plain(Vector3d(is_a ? n : -n));
+    c.gap = gap;
+    KeptContacts& kept = world.contacts.kept;
+    if (kept.rides.empty()) return;
+    kept.rides[contact] = PairPoses(world.bodies, c.a, c.b).put_into_bodies(c);
 }
 
 void GhostContacts::judge_those_that_came(World& world) {
@@ -207,9 +224,12 @@ void GhostContacts::judge_those_that_came(World& world) {
     needed_.assign(c.found.size(), 0);
     const auto find_one = [&](std::uint32_t i) {
         for (const std::uint32_t body : {c.found[i].a, c.found[i].b}) {
-            if (!came_[body] || needed_[i] || !is_ghost(world, i, body)) continue;
-            for (const std::uint32_t k : beneath_) needed_[k] = 1;
-            c.memory[i].ghost = true;
+            if (!came_[body] || needed_[i]) continue;
+            const Verdict verdict = judge(world, i, body);
+            if (verdict == Verdict::real) continue;
+            c.memory[i].ghost = verdict == Verdict::ghost;
+            if (c.memory[i].ghost)
+                for (const std::uint32_t k : beneath_) needed_[k] = 1;
             return;
         }
     };

@@ -3,11 +3,11 @@
 ///
 /// What slides or rolls over slabs that lie flush comes near the edge of the next one before it is
 /// over it. The closest points are then on that edge, and a contact along the line between them
-/// would brake a wheel and stop a box. But contacts with the slab beneath hold the same point of
-/// the body above a plane, and the next slab is wholly below that plane: what those ensure, nothing
-/// can collide with. A contact of which this is true stays in the table, and never closes.
-///
-/// It may not rest on another ghost, and the plane is one for a step: as the others' normals are.
+/// would brake a wheel and stop a box. But a contact with the slab beneath has a plane that the
+/// body may not pass within the step, and the next slab is wholly below that plane. Where such
+/// contacts hold the same point of the body, nothing is left to do for the one at the edge: it is a
+/// ghost, which stays in the table and never closes. Where they hold other points, it is turned: it
+/// holds its point above the same plane.
 #pragma once
 
 #include "world/world.h"
@@ -19,17 +19,21 @@ namespace plumb {
 
 class GhostContacts {
 public:
-    /// Once a step, into ContactMemory::ghost: which of the contacts that came with it are ghosts.
-    /// Those of pairs that were kept stay what they were.
+    /// Once a step, before contacts are followed: judges the contacts that came with it, into
+    /// ContactMemory::ghost, and turns some. Those of pairs that were kept stay what they were.
     void find(World& world);
 
     /// In each substep, after the gaps are measured: nothing closes a ghost's.
     void keep_open(ContactTable& contacts) const;
 
 private:
+    enum class Verdict { real, ghost, turned };
+
     void judge_those_that_came(World& world);
     void list_contacts(const World& world);
-    bool is_ghost(const World& world, std::uint32_t contact, std::uint32_t body);
+    Verdict judge(World& world, std::uint32_t contact, std::uint32_t body);
+    static void turn(World& world, std::uint32_t contact, std::uint32_t body, const Vector3d& n,
+                     const Vector3d& held, double gap);
 
     std::vector<std::uint32_t> first_;     ///< [body] in contacts_; one more at the end
     std::vector<std::uint32_t> contacts_;  ///< of the bodies that have a contact that came

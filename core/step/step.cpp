@@ -60,8 +60,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         else if (world.kinematic_count > 0)
             timed(Stage::kinematics, [&] { hold_scripted(world.bodies); });
-        timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
         if (first) timed(Stage::match, [&] { stepper.ghosts.find(world); });
+        timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
         stepper.ghosts.keep_open(world.contacts);
         if (divides) timed(Stage::divided_trees, [&] { stepper.divided.choose(world, h); });
         timed(Stage::begin, [&] { remember_velocities(world.bodies); });
