@@ -20,9 +20,9 @@ namespace {
 /// step, twice over.
 constexpr double kFlush = 1e-4;
 
-/// Normals that differ by no more than this make one plane [rad]; a contact that differs from it by
-/// less brakes what rolls by the square of that.
-constexpr double kSamePlane = 1e-3, kAcross = 5e-4;
+/// Normals that differ by no more than this make one plane [rad]: what rolls loses the square of
+/// that, as a share of its speed.
+constexpr double kSamePlane = 1e-3;
 
 /// Share of the body's radius by which its point may lie outside of those that are held.
 constexpr double kOutside = 1e-3;
@@ -70,6 +70,10 @@ Vector3d held_point(const World& world, std::uint32_t body, const Side& at, cons
     const Vector3d out = from - along * axis, down = n.dot(axis) * axis - n;
     if (out.norm() < (1 - kOutside) * radius || down.norm() < kSamePlane) return touching;
     return shape.origin + along * axis + radius * down.normalized();
+}
+
+bool is_along(const Vector3d& m, const Vector3d& n) {
+    return m.dot(n) > 0 && m.cross(n).squaredNorm() < kSamePlane * kSamePlane;
 }
 
 /// How fast the surface of a body rises along n at a point [m/s].
@@ -176,7 +180,7 @@ GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
         if (plane.other == at.other && plane.other_part == at.other_part) continue;
         const Vector3d& n = plane.normal;
         const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
-        if (at.normal.cross(n).squaredNorm() < kAcross * kAcross || height(at.surface) > flush ||
+        if (is_along(at.normal, n) || height(at.surface) > flush ||
             !lies_below(world, at, plane, flush))
             continue;
         const Vector3d held = held_point(world, body, at, n);
@@ -188,9 +192,7 @@ GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
         for (const std::uint32_t k : others) {
             if (k == contact || c.memory[k].ghost) continue;
             const Side side(c.found[k], body);
-            if (side.normal.cross(n).norm() > kSamePlane || side.normal.dot(n) < 0 ||
-                std::abs(height(side.surface)) > flush)
-                continue;
+            if (!is_along(side.normal, n) || std::abs(height(side.surface)) > flush) continue;
             hull.add(in_plane(held_point(world, body, side, n)));
             beneath_.push_back(k);
         }

@@ -66,6 +66,7 @@ struct IslandRow {
     double moving = 0;                ///< rate of what is immovable and moves by itself
     double wanted = 0, softness = 0;  ///< of a row that is taken away: rate − wanted + softness λ
                                       ///< is 0 [m/s], [1/kg], or of turning
+    bool is_rigid = false;  ///< what gives by its softness is an error
     double most = 0;  ///< more than such a row bears unless others contradict it [N s], [N m s]
     double lowest = -std::numeric_limits<double>::infinity();  ///< of λ: 0 where it only pushes
     double highest = std::numeric_limits<double>::infinity();  ///< 0 where it only pulls

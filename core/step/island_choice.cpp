@@ -301,6 +301,22 @@ bool IslandChoice::is_meshed(const ContactIsland& island) const {
     return island.first_tie < island.last_tie && found_.ties()[island.last_tie - 1] >= first_seed_;
 }
 
+/// Whether a joint is farther open than it may close in a substep.
+bool IslandChoice::is_torn(const World& world, const ContactIsland& island) const {
+    const double most = substep_of(world.settings) * world.settings.recovery_speed;
+    const auto is_open = [&](std::uint32_t i) {
+        if (ties_[i].kind != TieKind::joint) return false;
+        const Joint& joint = world.joints.joints[ties_[i].index];
+        if (!joint.locked[kAlongX] || !joint.locked[kAlongY] || !joint.locked[kAlongZ] ||
+            joint.length > 0 || joint.compliance > 0)
+            return false;
+        const JointPose pose = joint_pose(world.bodies, joint);
+        return (pose.point_a - pose.point_b).squaredNorm() > most * most;
+    };
+    const auto first = found_.ties().begin();
+    return std::any_of(first + island.first_tie, first + island.last_tie, is_open);
+}
+
 bool IslandChoice::is_loose(const ContactIsland& island) const {
     return island.first_tie == island.last_tie && !is_driven(island);
 }
@@ -326,7 +342,9 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         leave(world, island, pairs);
         return IslandWay::left;
     }
-    if (obstacles & (kRests | kHard)) return IslandWay::swept;
+    if ((obstacles & kHard) || ((obstacles & kRests) && !is_driven(island)) ||
+        (meshed && is_torn(world, island)))
+        return IslandWay::swept;
     if (n <= kVerySmall && flies(world, island, pairs)) return IslandWay::exact;
     const std::size_t jammed_before = jammed_.size();
     find_upset(world, island, pairs);

@@ -58,6 +58,7 @@ public:
 
     /// Whether links, couplings or joints that close a loop tie it: others only iterate those.
     bool is_meshed(const ContactIsland& island) const;
+    bool is_torn(const World& world, const ContactIsland& island) const;
 
     /// Whether it touches and hangs by nothing that is immovable.
     bool flies(const World& world, const ContactIsland& island,

@@ -157,8 +157,9 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     ties_.begin_island(member.ties);
     member.given_up = false;
     member.may_be_disputed = choice_.is_loose_heap(island);
-    member.gains_nothing = !choice_.is_driven(island);
-    member.is_meshed = choice_.is_meshed(island) && !choice_.is_driven(island);
+    member.is_driven = choice_.is_driven(island);
+    member.gains_nothing = !member.is_driven;
+    member.is_meshed = choice_.is_meshed(island) && !member.is_driven;
     member.flies = choice_.flies(world, island, pairs);
     bodies_.resize(bodies_.size() + n);
 
@@ -322,13 +323,18 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
     for (std::size_t i = 0; i < count_; ++i) {
         Member& member = members_[i];
         member.was_open = open_at_start(member) > kAjar * world.settings.joint_tolerance;
+        const bool is_pulled = member.is_driven && member.effort == IslandEffort::swept;
+        member.was_torn = ties_.open_at_start(member.ties) >
+                          (is_pulled ? kAjar * world.settings.joint_tolerance
+                                     : h * world.settings.recovery_speed);
         ties_.ask(member.ties, velocities_of(member));
         member.speed = speed_of(world, member, h, push_out);
         const double most = strongest(world, member, h);
         const double thrust = thrust_of(world, member, h);
         for (IslandRow& row : ties_.rows(member.ties)) {
             row.most = kLever * most * row.length;
-            if (row.softness == 0 && thrust > 0)
+            row.is_rigid = row.softness == 0;
+            if (row.is_rigid && thrust > 0)
                 row.softness =
                     world.settings.joint_tolerance / (h * thrust * row.length * row.length);
         }
@@ -497,6 +503,47 @@ void IslandGroup::note_open(StepReport& report, const Member& member) const {
     if (tie.kind == TieKind::joint) report.open_trees.push_back({tie.index, member.open});
 }
 
+/// Whether kinematic bodies pull its ties apart: these are left open, or give what their softness
+/// makes of an impulse without bounds. As the start of the next substep it would throw the bodies
+/// about.
+bool IslandGroup::is_torn(const World& world, const Member& m) {
+    if (!m.is_driven) return false;
+    const double ajar = kAjar * world.settings.joint_tolerance;
+    if (!(m.open <= ajar)) return true;
+    const std::span<const IslandRow> rows = ties_.rows(m.ties);
+    return std::any_of(rows.begin(), rows.end(), [&](const IslandRow& row) {
+        return row.is_rigid && h_ * row.softness * std::abs(row.impulse) > ajar;
+    });
+}
+
+/// Sweeps that begin with nothing pull no harder than what moves asks for.
+void IslandGroup::give_way(IslandSolver& solver, Member& m) {
+    const Island island = island_of(m);
+    const std::span<const Vector6d> start = starts_of(m);
+    std::copy(start.begin(), start.end(), island.velocity.begin());
+    const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
+    solver.sweep_anew(island, ask);
+    ask();
+}
+
+/// What is torn moves as if its ties had been made as they are, between bodies that stand still,
+/// and is drawn together by shifts: neither old errors nor what pulls get impulses or velocities,
+/// and what contradicts itself shares them out.
+void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
+    const Island island = island_of(m);
+    const std::span<const Vector6d> start = starts_of(m);
+    std::copy(start.begin(), start.end(), island.velocity.begin());
+    const auto ask = [&] { ties_.ask(m.ties, island.velocity, OldErrors::kept); };
+    solver.forget(island), ask();
+    m.solved = solve_system(solver, m, m.effort);
+    if (!m.solved)
+        std::copy(start.begin(), start.end(), island.velocity.begin()),
+            solver.sweep_anew(island, ask);
+    const std::span<Vector6d> shift(shift_.data() + m.first_body, start.size());
+    solver.close_apart(island, shift, [&] { m.open = ties_.ask(m.ties, shift); });
+    for (std::size_t i = 0; i < shift.size(); ++i) shift[i] -= island.velocity[i];
+}
+
 /// Returns whether it is solved.
 bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort effort) {
     const IslandReport report =
@@ -527,6 +574,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         bound_speed(world, m);
         return;
     }
+    if (m.was_torn) return draw_together(solver, m);
     if (m.effort == IslandEffort::swept) {
         solver.sweep(island);
         ask();
@@ -550,17 +598,14 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     }
     if (m.parts) bound_energy(solver, m), ask();
     if (m.ties.empty()) return;
+    if (is_torn(world, m)) return draw_together(solver, m);
     if (m.is_meshed && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
     if (m.solved && !(m.open > tolerance)) return;
     const bool ajar = m.open <= kAjar * tolerance;
     m.given_up |= !ajar;
     if ((m.is_meshed && m.solved && ajar) || !gains()) return;
     m.given_up = true;
-    if (m.is_meshed) return close_gently(solver, m);
-    const std::span<const Vector6d> start = starts_of(m);
-    std::copy(start.begin(), start.end(), island.velocity.begin());
-    solver.sweep_anew(island, ask);
-    ask();
+    m.is_meshed ? close_gently(solver, m) : give_way(solver, m);
 }
 
 void IslandGroup::take_changes(Bodies& bodies) const {
@@ -605,9 +650,13 @@ void IslandGroup::rest_ties(World& world) {
     for (Link& link : world.links) go_on(link.island_rest);
     for (std::size_t i = 0; i < count_; ++i)
         ties_.each(members_[i].ties, [&](const Tie& tie) {
-            // nothing is learnt by sweeps, and of a coupling the joints rest
-            if (tie.kind == TieKind::coupling || members_[i].effort == IslandEffort::swept) return;
+            if (tie.kind == TieKind::coupling) return;  // its joints rest
             IslandRest& rest = rest_of(world, tie);
+            if (members_[i].is_driven) {  // soon it is another one
+                rest = {};
+                return;
+            }
+            if (members_[i].effort == IslandEffort::swept) return;  // nothing is learnt by sweeps
             rest.misses = members_[i].given_up ? std::min(rest.misses + 1, kMostMisses) : 0;
             some_rest_ |= rest.misses > 0;
             if (rest.misses > 0)

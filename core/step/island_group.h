@@ -74,6 +74,7 @@ private:
         bool is_large;  // beyond Settings::exact_islands
         bool may_be_disputed;
         bool is_meshed;         // by ties that others only iterate, and nothing drives it
+        bool is_driven;         // kinematic bodies move it
         bool gains_nothing;     // no lid, motor or spring does work on it
         bool flies;             // it touches and hangs by nothing that is immovable
         std::uint8_t settling;  // steps that are left, see island_effort.h
@@ -88,6 +89,7 @@ private:
         bool bounces;   // in this substep
         bool parts;     // in this substep, and must gain nothing by it
         bool was_open;  // at the start of this substep
+        bool was_torn;  // the same, farther than it could close in it
         double open;    // the worst tie [m], [rad]
         bool given_up;  // in this step, its ties could not be closed
     };
@@ -107,6 +109,9 @@ private:
     void solve(const World& world, IslandSolver& solver, Member& member);
     bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;
+    bool is_torn(const World& world, const Member& member);
+    void give_way(IslandSolver& solver, Member& member);
+    void draw_together(IslandSolver& solver, Member& member);
     void close_gently(IslandSolver& solver, Member& member);
     void bound_energy(IslandSolver& solver, Member& member);
     void bound_speed(const World& world, const Member& member);

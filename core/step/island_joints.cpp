@@ -60,7 +60,7 @@ void IslandJoints::begin(const World& world, const SubstepTime& time, std::uint3
     m.scripted_a = scripted_velocity(world.bodies, joint.a);
     m.scripted_b = scripted_velocity(world.bodies, joint.b);
     m.geometry = geometry_of(world, joint, time);
-    defer_errors(m.deferred, m.geometry, time.h * world.settings.recovery_speed);
+    defer_errors(m.deferred, m.old, m.geometry, time.h * world.settings.recovery_speed);
     const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
     const JointRows<double> now = joint_rows<double>(m.geometry, rest, rest, time.h);
     m.first_row = static_cast<std::uint32_t>(rows.size());
@@ -97,17 +97,26 @@ IslandRow IslandJoints::axis_row(const World& world, const SubstepTime& time, co
     return row;
 }
 
+double IslandJoints::open_at_start(std::uint32_t i) const {
+    double worst = 0;
+    for (const double error : joints_[i].old) worst = std::max(worst, std::abs(error));
+    return worst;
+}
+
 double IslandJoints::ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
-                         std::vector<IslandRow>& rows) const {
+                         OldErrors old, std::vector<IslandRow>& rows) const {
     const Member& m = joints_[i];
-    const JointPreview<double> preview(m.geometry, velocity_of(m.a, m.scripted_a, velocity),
-                                       velocity_of(m.b, m.scripted_b, velocity), h);
+    const bool keeps = old == OldErrors::kept;
+    const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
+    const JointPreview<double> preview(m.geometry,
+                                       velocity_of(m.a, keeps ? rest : m.scripted_a, velocity),
+                                       velocity_of(m.b, keeps ? rest : m.scripted_b, velocity), h);
     double c[6], worst = 0;
     joint_errors<double>(c, m.geometry, preview);
     for (std::uint32_t k = 0, at = m.first_row; at < m.first_axis_row; ++k) {
         if (!(m.geometry.lock[k] > 0)) continue;
         IslandRow& row = rows[at++];
-        const double open = c[k] - m.deferred[k];
+        const double open = c[k] - (keeps ? m.old : m.deferred)[k];
         row.wanted = rate_of(row, velocity) - open / h;
         worst = std::max(worst, std::abs(open + h * row.softness * row.impulse));
     }

@@ -16,6 +16,12 @@
 
 namespace plumb {
 
+/// What becomes of the errors with which a substep begins.
+enum class OldErrors : std::uint8_t {
+    closed,  ///< as fast as recovery_speed allows
+    kept     ///< and what is immovable does not move
+};
+
 class IslandJoints {
 public:
     void clear();
@@ -31,9 +37,12 @@ public:
     void begin(const World& world, const SubstepTime& time, std::uint32_t i,
                std::vector<IslandRow>& rows);
 
-    /// Asks its rows to close what is open at the preview of the velocities. Returns how far it is
-    /// open [m], [rad].
-    double ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
+    /// How far it was open then, where it does not give [m], [rad].
+    double open_at_start(std::uint32_t i) const;
+
+    /// Asks its rows to close what is open at the preview of the velocities, but for what is left
+    /// of old errors: some for later, or all. Returns how far it is open [m], [rad].
+    double ask(std::uint32_t i, std::span<const Vector6d> velocity, double h, OldErrors old,
                std::vector<IslandRow>& rows) const;
 
     /// Impulses of the substep, into the world's table.
@@ -52,7 +61,8 @@ private:
         std::uint32_t first_row = 0, first_axis_row = 0;  ///< those it takes away, then its axes
         Velocity<double> scripted_a, scripted_b;          ///< of what is immovable
         JointGeometry<double> geometry;
-        double deferred[6];  ///< old error that is left for later [m], [rad]
+        double old[6];       ///< errors at the start, where it does not give [m], [rad]
+        double deferred[6];  ///< what is left of them for later [m], [rad]
     };
 
     IslandRow axis_row(const World& world, const SubstepTime& time, const Member& member,

@@ -165,14 +165,18 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     return report;
 }
 
+void IslandSolver::keep_row_impulses(const Island& island) {
+    kept_row_impulse_.clear();
+    for (const IslandRow& row : island.rows) kept_row_impulse_.push_back(row.impulse);
+}
+
 /// Whether the island stands. Then it solves a convex problem, without de Saxcé's shift: rounds
 /// that are not done yet slip, and would be shifted away from it. Otherwise all is as it was.
 bool IslandSolver::stands(IslandReport& report, double speed) {
     kept_velocity_.assign(island_.velocity.begin(), island_.velocity.end());
     kept_impulse_.clear();
     for (const IslandPoint& p : island_.points) kept_impulse_.push_back(p.impulse);
-    kept_row_impulse_.clear();
-    for (const IslandRow& row : island_.rows) kept_row_impulse_.push_back(row.impulse);
+    keep_row_impulses(island_);
     const double residual_before = report.residual;
 
     shifts_ = false;

@@ -22,6 +22,7 @@
 #include "step/island.h"
 #include "step/island_effort.h"
 
+#include <algorithm>
 #include <limits>
 #include <vector>
 
@@ -71,6 +72,18 @@ public:
         for (int i = 0; i < kSweepsAnew; ++i) ask(), sweep_both_ways();
     }
 
+    /// How the bodies are shifted over the substep to close ties, as velocities: sweeps from
+    /// nothing, of which no impulse is left. `ask()` is about `moved`, the velocities with the
+    /// shift.
+    template <class Ask>
+    void close_apart(const Island& island, std::span<Vector6d> moved, Ask ask) {
+        keep_row_impulses(island);
+        std::copy(island.velocity.begin(), island.velocity.end(), moved.begin());
+        sweep_anew({island.bodies, moved, {}, island.rows}, ask);
+        for (std::size_t k = 0; k < kept_row_impulse_.size(); ++k)
+            island.rows[k].impulse = kept_row_impulse_[k];
+    }
+
 private:
     static constexpr int kSweepsAnew = 5;  ///< there and back
 
@@ -85,6 +98,7 @@ private:
         double direction;  ///< of the rate
     };
 
+    void keep_row_impulses(const Island& island);
     bool stands(IslandReport& report, double speed);
     void improve(IslandReport& report, double speed);
     double most_shift() const;

@@ -50,17 +50,26 @@ void IslandTies::begin(const World& world, const SubstepTime& time, IslandTieRan
     range.last_row = static_cast<std::uint32_t>(rows_.size());
 }
 
-double IslandTies::ask_to_close(const IslandTieRange& range, std::span<const Vector6d> velocity) {
+double IslandTies::open_at_start(const IslandTieRange& range) const {
     double worst = 0;
     for (std::uint32_t i = range.joints.first; i < range.joints.last; ++i)
-        worst = std::max(worst, joints_.ask(i, velocity, h_, rows_));
+        worst = std::max(worst, joints_.open_at_start(i));
+    return worst;
+}
+
+double IslandTies::ask_to_close(const IslandTieRange& range, std::span<const Vector6d> velocity,
+                                OldErrors old) {
+    double worst = 0;
+    for (std::uint32_t i = range.joints.first; i < range.joints.last; ++i)
+        worst = std::max(worst, joints_.ask(i, velocity, h_, old, rows_));
     for (std::uint32_t i = range.links.first; i < range.links.last; ++i)
         worst = std::max(worst, links_.ask(i, velocity, h_, rows_));
     return worst;
 }
 
-double IslandTies::ask(const IslandTieRange& range, std::span<const Vector6d> velocity) {
-    double worst = ask_to_close(range, velocity);
+double IslandTies::ask(const IslandTieRange& range, std::span<const Vector6d> velocity,
+                       OldErrors old) {
+    double worst = ask_to_close(range, velocity, old);
     for (std::uint32_t i = range.couplings.first; i < range.couplings.last; ++i)
         worst = std::max(worst, couplings_.ask(i, velocity, h_, rows_));
     return worst;

@@ -60,6 +60,9 @@ public:
     /// Rows at the start of the substep, with the impulses of the one before.
     void begin(const World& world, const SubstepTime& time, IslandTieRange& range);
 
+    /// How far its worst joint was open then [m], [rad].
+    double open_at_start(const IslandTieRange& range) const;
+
     std::span<IslandRow> rows(const IslandTieRange& range) {
         return std::span(rows_).subspan(range.first_row, range.last_row - range.first_row);
     }
@@ -67,10 +70,12 @@ public:
 
     /// Ties are not linear: asks the rows to close what is open at the preview of the velocities.
     /// Returns how far the worst is open [m], [rad].
-    double ask(const IslandTieRange& range, std::span<const Vector6d> velocity);
+    double ask(const IslandTieRange& range, std::span<const Vector6d> velocity,
+               OldErrors old = OldErrors::closed);
 
     /// The same without couplings, which come to a far offset by their own.
-    double ask_to_close(const IslandTieRange& range, std::span<const Vector6d> velocity);
+    double ask_to_close(const IslandTieRange& range, std::span<const Vector6d> velocity,
+                        OldErrors old = OldErrors::closed);
 
     /// Impulses of the substep, into the world's tables.
     void store_impulses(const IslandTieRange& range, std::span<const Vector6d> velocity,

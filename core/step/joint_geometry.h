@@ -89,16 +89,19 @@ inline JointGeometry<double> joint_geometry(const World& world, const Joint& joi
 }
 
 /// What of a joint's old errors is left for later [m], [rad]: what is closed of them in a substep
-/// is bounded by `most`, as old overlap is. What a compliant row has stretched is no error.
-inline void defer_errors(double (&deferred)[6], const JointGeometry<double>& g, double most) {
+/// is bounded by `most`, as old overlap is. What a compliant row has stretched is no error. `old`:
+/// those errors, whole.
+inline void defer_errors(double (&deferred)[6], double (&old)[6], const JointGeometry<double>& g,
+                         double most) {
     double c[6];
     joint_errors<double>(c, g, JointPreview<double>(g));
     double squared[2] = {0, 0};
-    const auto is_stiff = [&](int k) { return g.lock[k] > 0 && !(g.softness[k] > 0); };
+    for (int k = 0; k < 6; ++k) {
+        old[k] = g.lock[k] > 0 && !(g.softness[k] > 0) ? c[k] : 0;
+        squared[k / 3] += old[k] * old[k];
+    }
     for (int k = 0; k < 6; ++k)
-        if (is_stiff(k)) squared[k / 3] += c[k] * c[k];
-    for (int k = 0; k < 6; ++k)
-        deferred[k] = is_stiff(k) ? c[k] * deferred_fraction<double>(squared[k / 3], most) : 0;
+        deferred[k] = old[k] * deferred_fraction<double>(squared[k / 3], most);
 }
 
 /// With levers that turn as the joint's load asks for.

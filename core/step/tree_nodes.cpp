@@ -104,7 +104,8 @@ void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& t
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, time);
-    defer_errors(node.deferred, node.geometry, h_ * world.settings.recovery_speed);
+    double old[6];
+    defer_errors(node.deferred, old, node.geometry, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, time);
 }
 
