@@ -123,8 +123,8 @@ private:
     std::size_t count_ = 0;
 };
 
-/// Whether all of what a contact is with is below a plane, and does not rise above it within the
-/// step.
+/// Whether all of what a contact is with is below a plane, or rises no more than planes that count
+/// as one, and does not move above it within the step.
 bool lies_below(const World& world, const Side& at, const Side& plane, double flush) {
     const PlacedShape other = placed_shape(world, at.other, at.other_part);
     if (other.shape->kind == ShapeKind::mesh && other.shape->vertex_count > kFewVertices)
@@ -132,7 +132,11 @@ bool lies_below(const World& world, const Side& at, const Side& plane, double fl
     const Vector3d& n = plane.normal;
     const double rise = rise_at(world.bodies, at.other, at.surface, n) -
                         rise_at(world.bodies, plane.other, plane.surface, n);
-    return support(other, n) - n.dot(plane.surface) + std::max(0.0, rise) * world.settings.dt <=
+    // seen along a slope up from the contact, or the far end of a slab that tilts stood out
+    const Vector3d inward = (n.dot(at.normal) * n - at.normal).normalized();
+    const Vector3d up = (n - kSamePlane * inward).normalized();
+    return n.dot(at.surface - plane.surface) + support(other, up) - up.dot(at.surface) +
+               std::max(0.0, rise) * world.settings.dt <=
            flush;
 }
 
