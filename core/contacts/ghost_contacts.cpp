@@ -76,6 +76,13 @@ bool is_along(const Vector3d& m, const Vector3d& n) {
     return m.dot(n) > 0 && m.cross(n).squaredNorm() < kSamePlane * kSamePlane;
 }
 
+/// Whether two contacts are with the same convex solid, or with the same mesh.
+bool are_of_one_solid(const World& world, const Side& p, const Side& q) {
+    if (p.other != q.other) return false;
+    const Shape& shape = world.shapes[world.bodies.geometry[p.other]];
+    return shape.kind != ShapeKind::compound || p.other_part == q.other_part;
+}
+
 /// How fast the surface of a body rises along n at a point [m/s].
 double rise_at(const Bodies& b, std::uint32_t body, const Vector3d& point, const Vector3d& n) {
     return n.dot(b.velocity[body] + b.angular_velocity[body].cross(point - b.position[body]));
@@ -132,17 +139,17 @@ bool lies_below(const World& world, const Side& at, const Side& plane, double fl
     const Vector3d& n = plane.normal;
     const double rise = rise_at(world.bodies, at.other, at.surface, n) -
                         rise_at(world.bodies, plane.other, plane.surface, n);
-    // seen along a slope up from the contact, or the far end of a slab that tilts stood out
+    const double most = flush - std::max(0.0, rise) * world.settings.dt;
+    if (support(other, n) - n.dot(plane.surface) <= most) return true;
+    // seen along a slope up from the contact: the far end of a slab that tilts stands out
     const Vector3d inward = (n.dot(at.normal) * n - at.normal).normalized();
     const Vector3d up = (n - kSamePlane * inward).normalized();
-    return n.dot(at.surface - plane.surface) + support(other, up) - up.dot(at.surface) +
-               std::max(0.0, rise) * world.settings.dt <=
-           flush;
+    return n.dot(at.surface - plane.surface) + support(other, up) - up.dot(at.surface) <= most;
 }
 
 }  // namespace
 
-/// The contacts of each body that has one that came with this step; first those that touch most,
+/// The contacts of each body that has one that came with this step; first those that just touch,
 /// which carry it.
 void GhostContacts::list_contacts(const World& world) {
     const std::vector<Contact>& found = world.contacts.found;
@@ -164,11 +171,13 @@ void GhostContacts::list_contacts(const World& world) {
     for (std::size_t body = 0; body < motion.size(); ++body)
         std::sort(contacts_.begin() + first_[body], contacts_.begin() + first_[body + 1],
                   [&](std::uint32_t i, std::uint32_t k) {
-                      return std::pair(found[i].gap, i) < std::pair(found[k].gap, k);
+                      return std::pair(std::abs(found[i].gap), i) <
+                             std::pair(std::abs(found[k].gap), k);
                   });
 }
 
-/// Looks for a plane that others hold the body above and all that the contact is with lies below.
+/// Looks for a plane that the body is above, as another contact keeps it, and all that the contact
+/// is with lies below.
 /// Where they hold the point of the contact, it is a ghost, and they are left in `beneath_`;
 /// another point is held above the plane, too.
 GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
@@ -181,13 +190,14 @@ GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
     for (const std::uint32_t j : others) {
         if (j == contact || c.memory[j].ghost) continue;
         const Side plane(c.found[j], body);
-        if (plane.other == at.other && plane.other_part == at.other_part) continue;
+        if (are_of_one_solid(world, at, plane)) continue;
         const Vector3d& n = plane.normal;
         const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
         if (is_along(at.normal, n) || height(at.surface) > flush ||
             !lies_below(world, at, plane, flush))
             continue;
         const Vector3d held = held_point(world, body, at, n);
+        if (height(held) < std::min(0.0, c.found[j].gap) - kOutside * radius) continue;
         const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
             return Eigen::Vector2d(u.dot(p - held), n.cross(u).dot(p - held));
         };
