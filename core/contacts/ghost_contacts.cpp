@@ -16,16 +16,24 @@ namespace plumb {
 namespace {
 
 /// By how much of the body's radius a slab may stand out above the plane and still be below it:
-/// those that lie loose differ by their overlaps. A wheel loses as much of its speed at such a
-/// step, twice over.
+/// those that lie loose differ by their overlaps. A wheel of radius r loses 2 s/r of its speed at
+/// a step of s.
 constexpr double kFlush = 1e-4;
 
 /// Normals that differ by no more than this make one plane [rad]: what rolls loses the square of
 /// that, as a share of its speed.
 constexpr double kSamePlane = 1e-3;
 
-/// Share of the body's radius by which its point may lie outside of those that are held.
+/// Share of the body's radius by which its point may lie outside of the hull of those that are
+/// held.
 constexpr double kOutside = 1e-3;
+
+/// Of a body that touches more, those that just touch are looked at.
+constexpr std::uint32_t kMostOthers = 48;
+
+/// What moves in a step by less than this share of its radius is judged once in so many.
+constexpr double kMoves = 1e-3;
+constexpr std::uint64_t kSeldom = 16;
 
 /// A mesh of more vertices is not searched for its highest.
 constexpr std::uint32_t kFewVertices = 500;
@@ -147,27 +155,47 @@ bool lies_below(const World& world, const Side& at, const Side& plane, double fl
     return n.dot(at.surface - plane.surface) + support(other, up) - up.dot(at.surface) <= most;
 }
 
+/// Whether a body moves far in the step.
+bool is_fast(const World& world, std::uint32_t body) {
+    const Bodies& b = world.bodies;
+    const double radius = b.bounding_radius[body];
+    if (b.motion[body] == Motion::fixed || !std::isfinite(radius)) return false;
+    const double way = b.velocity[body].norm() + b.angular_velocity[body].norm() * radius;
+    return way * world.settings.dt > kMoves * radius;
+}
+
 }  // namespace
 
-/// The contacts of each body that has one that came with this step; first those that just touch,
-/// which carry it.
+/// Those that came with this step and may not be what they were.
+void GhostContacts::choose(World& world) {
+    ContactTable& c = world.contacts;
+    judged_.clear();
+    listed_.assign(world.bodies.size(), 0);
+    for (const ContactMove& m : c.kept.comes)
+        for (std::uint32_t i = m.to; i < m.to + m.count; ++i) {
+            ContactMemory& memory = c.memory[i];
+            const Contact& contact = c.found[i];
+            const bool stays = memory.known && !memory.flush && (world.steps + i) % kSeldom != 0 &&
+                               !is_fast(world, contact.a) && !is_fast(world, contact.b);
+            memory.ghost = memory.flush = false;
+            if (stays) continue;
+            judged_.push_back(i);
+            for (const std::uint32_t body : {contact.a, contact.b})
+                listed_[body] = world.bodies.motion[body] == Motion::dynamic;
+        }
+}
+
+/// The contacts of each body of which one is judged; first those that just touch, which carry it.
 void GhostContacts::list_contacts(const World& world) {
     const std::vector<Contact>& found = world.contacts.found;
     const std::vector<Motion>& motion = world.bodies.motion;
-    came_.assign(motion.size(), 0);
-    for (const ContactMove& m : world.contacts.kept.comes)
-        for (std::uint32_t i = m.to; i < m.to + m.count; ++i)
-            came_[found[i].a] = came_[found[i].b] = 1;
-    for (std::size_t body = 0; body < motion.size(); ++body)
-        came_[body] &= motion[body] == Motion::dynamic;
-
     first_.assign(motion.size() + 1, 0);
-    for (const Contact& c : found) first_[c.a] += came_[c.a], first_[c.b] += came_[c.b];
+    for (const Contact& c : found) first_[c.a] += listed_[c.a], first_[c.b] += listed_[c.b];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
     for (std::size_t i = found.size(); i-- > 0;)
         for (const std::uint32_t body : {found[i].a, found[i].b})
-            if (came_[body]) contacts_[--first_[body]] = static_cast<std::uint32_t>(i);
+            if (listed_[body]) contacts_[--first_[body]] = static_cast<std::uint32_t>(i);
     for (std::size_t body = 0; body < motion.size(); ++body)
         std::sort(contacts_.begin() + first_[body], contacts_.begin() + first_[body + 1],
                   [&](std::uint32_t i, std::uint32_t k) {
@@ -176,21 +204,22 @@ void GhostContacts::list_contacts(const World& world) {
                   });
 }
 
-/// Looks for a plane that the body is above, as another contact keeps it, and all that the contact
-/// is with lies below.
-/// Where they hold the point of the contact, it is a ghost, and they are left in `beneath_`;
-/// another point is held above the plane, too.
+/// Looks for a plane that the same part of the body is above, as another contact keeps it, and all
+/// that the contact is with lies below. Where such contacts hold its point, it is a ghost, and they
+/// are left in `beneath_`; where they do not, it is turned to hold its own point above the plane.
 GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
                                             std::uint32_t body) {
     ContactTable& c = world.contacts;
     const Side at(c.found[contact], body);
+    if (!is_convex(placed_shape(world, body, at.part).shape->kind)) return Verdict::real;
     const double radius = world.bodies.bounding_radius[body], flush = kFlush * radius;
-    const std::span<const std::uint32_t> others(contacts_.data() + first_[body],
-                                                contacts_.data() + first_[body + 1]);
+    const std::uint32_t first = first_[body],
+                        last = std::min(first_[body + 1], first + kMostOthers);
+    const std::span<const std::uint32_t> others(contacts_.data() + first, contacts_.data() + last);
     for (const std::uint32_t j : others) {
         if (j == contact || c.memory[j].ghost) continue;
         const Side plane(c.found[j], body);
-        if (are_of_one_solid(world, at, plane)) continue;
+        if (plane.part != at.part || are_of_one_solid(world, at, plane)) continue;
         const Vector3d& n = plane.normal;
         const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
         if (is_along(at.normal, n) || height(at.surface) > flush ||
@@ -206,7 +235,9 @@ GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
         for (const std::uint32_t k : others) {
             if (k == contact || c.memory[k].ghost) continue;
             const Side side(c.found[k], body);
-            if (!is_along(side.normal, n) || std::abs(height(side.surface)) > flush) continue;
+            if (side.part != at.part || !is_along(side.normal, n) ||
+                std::abs(height(side.surface)) > flush)
+                continue;
             hull.add(in_plane(held_point(world, body, side, n)));
             beneath_.push_back(k);
         }
@@ -234,31 +265,29 @@ void GhostContacts::turn(World& world, std::uint32_t contact, std::uint32_t body
     kept.rides[contact] = PairPoses(world.bodies, c.a, c.b).put_into_bodies(c);
 }
 
-void GhostContacts::judge_those_that_came(World& world) {
+void GhostContacts::judge_one(World& world, std::uint32_t contact) {
     ContactTable& c = world.contacts;
-    list_contacts(world);
-    needed_.assign(c.found.size(), 0);
-    const auto find_one = [&](std::uint32_t i) {
-        for (const std::uint32_t body : {c.found[i].a, c.found[i].b}) {
-            if (!came_[body] || needed_[i]) continue;
-            const Verdict verdict = judge(world, i, body);
-            if (verdict == Verdict::real) continue;
-            c.memory[i].ghost = verdict == Verdict::ghost;
-            if (c.memory[i].ghost)
-                for (const std::uint32_t k : beneath_) needed_[k] = 1;
-            return;
-        }
-    };
-    for (const ContactMove& m : c.kept.comes)
-        for (std::uint32_t i = m.to; i < m.to + m.count; ++i) c.memory[i].ghost = false;
-    for (const ContactMove& m : c.kept.comes)
-        for (std::uint32_t i = m.to; i < m.to + m.count; ++i) find_one(i);
+    for (const std::uint32_t body : {c.found[contact].a, c.found[contact].b}) {
+        if (!listed_[body] || needed_[contact]) continue;
+        const Verdict verdict = judge(world, contact, body);
+        if (verdict == Verdict::real) continue;
+        c.memory[contact].flush = true;
+        c.memory[contact].ghost = verdict == Verdict::ghost;
+        if (verdict == Verdict::ghost)
+            for (const std::uint32_t k : beneath_) needed_[k] = 1;
+        return;
+    }
 }
 
 void GhostContacts::find(World& world) {
     ContactTable& c = world.contacts;
+    choose(world);
+    if (!judged_.empty()) {
+        list_contacts(world);
+        needed_.assign(c.found.size(), 0);
+        for (const std::uint32_t i : judged_) judge_one(world, i);
+    }
     ghosts_.clear();
-    if (!c.kept.comes.empty()) judge_those_that_came(world);
     for (std::uint32_t i = 0; i < c.found.size(); ++i)
         if (c.memory[i].ghost) ghosts_.push_back(i);
 }

@@ -4,10 +4,11 @@
 /// What slides or rolls over slabs that lie flush comes near the edge of the next one before it is
 /// over it. The closest points are then on that edge, and a contact along the line between them
 /// would brake a wheel and stop a box. But a contact with the slab beneath has a plane that the
-/// body may not pass within the step, and the next slab is wholly below that plane. Where such
-/// contacts hold the same point of the body, nothing is left to do for the one at the edge: it is a
-/// ghost, which stays in the table and never closes. Where they hold other points, it is turned: it
-/// holds its point above the same plane.
+/// body, if it is convex, may not pass within the step, and the next slab is wholly below that
+/// plane. Where such contacts hold the same point of the body, nothing is left to do for the one at
+/// the edge: it is a ghost, which stays in the table and never closes. Where they hold other
+/// points, it is turned: it holds its point above the same plane. Of what is concave, each convex
+/// part is judged by its own contacts. A ghost may not rest on another one.
 #pragma once
 
 #include "world/world.h"
@@ -19,7 +20,7 @@ namespace plumb {
 
 class GhostContacts {
 public:
-    /// Once a step, before contacts are followed: judges the contacts that came with it, into
+    /// Once a step, before contacts are followed: judges those that were detected anew, into
     /// ContactMemory::ghost, and turns some. Those of pairs that were kept stay what they were.
     void find(World& world);
 
@@ -29,15 +30,17 @@ public:
 private:
     enum class Verdict { real, ghost, turned };
 
-    void judge_those_that_came(World& world);
+    void choose(World& world);
     void list_contacts(const World& world);
+    void judge_one(World& world, std::uint32_t contact);
     Verdict judge(World& world, std::uint32_t contact, std::uint32_t body);
     static void turn(World& world, std::uint32_t contact, std::uint32_t body, const Vector3d& n,
                      const Vector3d& held, double gap);
 
     std::vector<std::uint32_t> first_;     ///< [body] in contacts_; one more at the end
-    std::vector<std::uint32_t> contacts_;  ///< of the bodies that have a contact that came
-    std::vector<std::uint8_t> came_;       ///< [body] whether it has one
+    std::vector<std::uint32_t> contacts_;  ///< of the bodies that are listed
+    std::vector<std::uint8_t> listed_;     ///< [body] whether its contacts are
+    std::vector<std::uint32_t> judged_;    ///< contacts
     std::vector<std::uint8_t> needed_;     ///< [contact] whether a ghost rests on it
     std::vector<std::uint32_t> beneath_;   ///< of the body in question, in one plane
     std::vector<std::uint32_t> ghosts_;    ///< contacts

@@ -343,7 +343,7 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         return IslandWay::left;
     }
     if ((obstacles & kHard) || ((obstacles & kRests) && !is_driven(island)) ||
-        (meshed && is_torn(world, island)))
+        (meshed && is_driven(island) && is_torn(world, island)))
         return IslandWay::swept;
     if (n <= kVerySmall && flies(world, island, pairs)) return IslandWay::exact;
     const std::size_t jammed_before = jammed_.size();

@@ -324,9 +324,9 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
         Member& member = members_[i];
         member.was_open = open_at_start(member) > kAjar * world.settings.joint_tolerance;
         const bool is_pulled = member.is_driven && member.effort == IslandEffort::swept;
-        member.was_torn = ties_.open_at_start(member.ties) >
-                          (is_pulled ? kAjar * world.settings.joint_tolerance
-                                     : h * world.settings.recovery_speed);
+        member.was_torn =
+            ties_.open_at_start(member.ties) > (is_pulled ? kAjar * world.settings.joint_tolerance
+                                                          : h * world.settings.recovery_speed);
         ties_.ask(member.ties, velocities_of(member));
         member.speed = speed_of(world, member, h, push_out);
         const double most = strongest(world, member, h);
@@ -487,8 +487,12 @@ std::span<const Vector6d> IslandGroup::velocities_of(const Member& m) const {
 
 void IslandGroup::solve(const World& world, StepReport& report) {
     workers_.run([&](std::uint32_t worker) {
-        for (std::size_t i = worker; i < count_; i += workers_.count())
-            solve(world, solvers_[worker], members_[i]);
+        for (std::size_t i = worker; i < count_; i += workers_.count()) {
+            Member& m = members_[i];
+            solve(world, solvers_[worker], m);
+            const bool fails = m.given_up || m.effort == IslandEffort::swept;
+            if (m.is_meshed && m.was_torn && fails) draw_together(solvers_[worker], m);
+        }
     });
     report.costly_islands = costly_;
     for (std::size_t i = 0; i < count_; ++i) {
@@ -506,7 +510,7 @@ void IslandGroup::note_open(StepReport& report, const Member& member) const {
 /// Whether kinematic bodies pull its ties apart: these are left open, or give what their softness
 /// makes of an impulse without bounds. As the start of the next substep it would throw the bodies
 /// about.
-bool IslandGroup::is_torn(const World& world, const Member& m) {
+bool IslandGroup::is_pulled_apart(const World& world, const Member& m) {
     if (!m.is_driven) return false;
     const double ajar = kAjar * world.settings.joint_tolerance;
     if (!(m.open <= ajar)) return true;
@@ -526,22 +530,35 @@ void IslandGroup::give_way(IslandSolver& solver, Member& m) {
     ask();
 }
 
-/// What is torn moves as if its ties had been made as they are, between bodies that stand still,
-/// and is drawn together by shifts: neither old errors nor what pulls get impulses or velocities,
-/// and what contradicts itself shares them out.
-void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
+/// What is pulled apart moves as if its ties had been made as they are, between bodies that stand
+/// still: neither old errors nor what pulls get impulses or velocities.
+void IslandGroup::hold_torn(IslandSolver& solver, Member& m) {
     const Island island = island_of(m);
     const std::span<const Vector6d> start = starts_of(m);
-    std::copy(start.begin(), start.end(), island.velocity.begin());
+    const auto begin = [&] { std::copy(start.begin(), start.end(), island.velocity.begin()); };
     const auto ask = [&] { ties_.ask(m.ties, island.velocity, OldErrors::kept); };
-    solver.forget(island), ask();
+    begin();
+    solver.forget(island);  // of contacts, too, which held against what pulled
+    ask();
     m.solved = solve_system(solver, m, m.effort);
-    if (!m.solved)
-        std::copy(start.begin(), start.end(), island.velocity.begin()),
-            solver.sweep_anew(island, ask);
-    const std::span<Vector6d> shift(shift_.data() + m.first_body, start.size());
-    solver.close_apart(island, shift, [&] { m.open = ties_.ask(m.ties, shift); });
-    for (std::size_t i = 0; i < shift.size(); ++i) shift[i] -= island.velocity[i];
+    if (!m.solved) {
+        begin();
+        solver.sweep_anew(island, ask);
+    }
+    draw_together(solver, m);
+}
+
+/// Shifts the bodies so that what is open shares itself out and closes, unless that makes it worse:
+/// rows that contradict each other in turning can lead anywhere.
+void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
+    const Island island = island_of(m);
+    const std::span<Vector6d> shift(shift_.data() + m.first_body, island.bodies.size());
+    const double most = ties_.open_at_start(m.ties) + h_ * ties_.scripted_speed(m.ties);
+    solver.close_apart(island, shift, [&] { ties_.ask(m.ties, shift); });
+    m.open = ties_.open_at_end(m.ties, shift);
+    const bool is_worse = !(m.open <= most);
+    for (std::size_t i = 0; i < shift.size(); ++i)
+        shift[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift[i] - island.velocity[i]);
 }
 
 /// Returns whether it is solved.
@@ -574,7 +591,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         bound_speed(world, m);
         return;
     }
-    if (m.was_torn) return draw_together(solver, m);
+    if (m.was_torn && m.is_driven) return hold_torn(solver, m);
     if (m.effort == IslandEffort::swept) {
         solver.sweep(island);
         ask();
@@ -598,7 +615,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     }
     if (m.parts) bound_energy(solver, m), ask();
     if (m.ties.empty()) return;
-    if (is_torn(world, m)) return draw_together(solver, m);
+    if (is_pulled_apart(world, m)) return hold_torn(solver, m);
     if (m.is_meshed && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
     if (m.solved && !(m.open > tolerance)) return;
     const bool ajar = m.open <= kAjar * tolerance;

@@ -89,7 +89,7 @@ private:
         bool bounces;   // in this substep
         bool parts;     // in this substep, and must gain nothing by it
         bool was_open;  // at the start of this substep
-        bool was_torn;  // the same, farther than it could close in it
+        bool was_torn;  // the same, farther than it may close in it, or at all if it is pulled
         double open;    // the worst tie [m], [rad]
         bool given_up;  // in this step, its ties could not be closed
     };
@@ -109,8 +109,9 @@ private:
     void solve(const World& world, IslandSolver& solver, Member& member);
     bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;
-    bool is_torn(const World& world, const Member& member);
+    bool is_pulled_apart(const World& world, const Member& member);
     void give_way(IslandSolver& solver, Member& member);
+    void hold_torn(IslandSolver& solver, Member& member);
     void draw_together(IslandSolver& solver, Member& member);
     void close_gently(IslandSolver& solver, Member& member);
     void bound_energy(IslandSolver& solver, Member& member);

@@ -123,6 +123,28 @@ double IslandJoints::ask(std::uint32_t i, std::span<const Vector6d> velocity, do
     return worst;
 }
 
+double IslandJoints::open_at_end(std::uint32_t i, std::span<const Vector6d> velocity,
+                                 double h) const {
+    const Member& m = joints_[i];
+    double c[6], worst = 0;
+    joint_errors<double>(c, m.geometry,
+                         JointPreview<double>(m.geometry, velocity_of(m.a, m.scripted_a, velocity),
+                                              velocity_of(m.b, m.scripted_b, velocity), h));
+    for (int k = 0; k < 6; ++k)
+        if (m.geometry.lock[k] > 0 && !(m.geometry.softness[k] > 0))
+            worst = std::max(worst, std::abs(c[k]));
+    return worst;
+}
+
+double IslandJoints::scripted_speed(std::uint32_t i) const {
+    const Member& m = joints_[i];
+    const auto speed = [](std::uint32_t body, const Velocity<double>& v, const Vector3d& arm) {
+        return body == kImmovable ? (v.v + v.w.cross(arm)).norm() : 0;
+    };
+    return std::max(speed(m.a, m.scripted_a, m.geometry.r_a),
+                    speed(m.b, m.scripted_b, m.geometry.r_b));
+}
+
 void IslandJoints::store_impulses(std::uint32_t i, std::span<const Vector6d> velocity,
                                   const std::vector<IslandRow>& rows, JointTable& table) const {
     const Member& m = joints_[i];

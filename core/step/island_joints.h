@@ -45,6 +45,11 @@ public:
     double ask(std::uint32_t i, std::span<const Vector6d> velocity, double h, OldErrors old,
                std::vector<IslandRow>& rows) const;
 
+    /// How far it is open at the preview of the velocities, old errors included, where it does not
+    /// give [m], [rad]; and how fast what is immovable moves its point [m/s].
+    double open_at_end(std::uint32_t i, std::span<const Vector6d> velocity, double h) const;
+    double scripted_speed(std::uint32_t i) const;
+
     /// Impulses of the substep, into the world's table.
     void store_impulses(std::uint32_t i, std::span<const Vector6d> velocity,
                         const std::vector<IslandRow>& rows, JointTable& table) const;

@@ -4,6 +4,16 @@
 #include <algorithm>
 
 namespace plumb {
+namespace {
+
+template <class Of>
+double worst_of(const IslandTieRange::Part& part, Of of) {
+    double worst = 0;
+    for (std::uint32_t i = part.first; i < part.last; ++i) worst = std::max(worst, of(i));
+    return worst;
+}
+
+}  // namespace
 
 void IslandTies::clear() { joints_.clear(), links_.clear(), couplings_.clear(), rows_.clear(); }
 
@@ -51,10 +61,17 @@ void IslandTies::begin(const World& world, const SubstepTime& time, IslandTieRan
 }
 
 double IslandTies::open_at_start(const IslandTieRange& range) const {
-    double worst = 0;
-    for (std::uint32_t i = range.joints.first; i < range.joints.last; ++i)
-        worst = std::max(worst, joints_.open_at_start(i));
-    return worst;
+    return worst_of(range.joints, [&](std::uint32_t i) { return joints_.open_at_start(i); });
+}
+
+double IslandTies::open_at_end(const IslandTieRange& range,
+                               std::span<const Vector6d> velocity) const {
+    return worst_of(range.joints,
+                    [&](std::uint32_t i) { return joints_.open_at_end(i, velocity, h_); });
+}
+
+double IslandTies::scripted_speed(const IslandTieRange& range) const {
+    return worst_of(range.joints, [&](std::uint32_t i) { return joints_.scripted_speed(i); });
 }
 
 double IslandTies::ask_to_close(const IslandTieRange& range, std::span<const Vector6d> velocity,

@@ -63,6 +63,11 @@ public:
     /// How far its worst joint was open then [m], [rad].
     double open_at_start(const IslandTieRange& range) const;
 
+    /// How far it will be open, old errors included, and how fast what is immovable moves the
+    /// points of joints [m/s].
+    double open_at_end(const IslandTieRange& range, std::span<const Vector6d> velocity) const;
+    double scripted_speed(const IslandTieRange& range) const;
+
     std::span<IslandRow> rows(const IslandTieRange& range) {
         return std::span(rows_).subspan(range.first_row, range.last_row - range.first_row);
     }

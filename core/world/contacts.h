@@ -30,7 +30,8 @@ struct ContactMemory {
     std::uint8_t settling = 0;  ///< steps for which it is solved to a finer tolerance (the same)
     std::uint8_t missed = 0;    ///< 1: it misses Settings::accuracy; more: the steps until it is
                                 ///< tried again (step/large_islands.h)
-    bool ghost = false;         ///< others ensure what it would (contacts/ghost_contacts.h)
+    bool flush = false;         ///< it is with what lies below the plane of another
+    bool ghost = false;         ///< and others ensure what it would (contacts/ghost_contacts.h)
     bool known = false;         ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
 };
