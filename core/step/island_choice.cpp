@@ -18,9 +18,6 @@
 namespace plumb {
 namespace {
 
-/// Islands of so many bodies are solved exactly however they move.
-constexpr std::uint32_t kVerySmall = 8;
-
 /// An island is calm where its contacts slide, part and approach by less than this times √(g r), r
 /// the radius of its largest body, in the root of the mean square: about the speed of what fell by
 /// r/32. One body that drops on a heap does not take all others out of their rest.
@@ -301,17 +298,20 @@ bool IslandChoice::is_meshed(const ContactIsland& island) const {
     return island.first_tie < island.last_tie && found_.ties()[island.last_tie - 1] >= first_seed_;
 }
 
-/// Whether a joint is farther open than it may close in a substep.
+/// Whether a joint is farther open than the radius of what it holds.
 bool IslandChoice::is_torn(const World& world, const ContactIsland& island) const {
-    const double most = substep_of(world.settings) * world.settings.recovery_speed;
+    const Bodies& b = world.bodies;
+    const auto radius = [&](std::uint32_t body) {
+        return body != kNoIndex && b.motion[body] == Motion::dynamic ? b.bounding_radius[body] : 0;
+    };
     const auto is_open = [&](std::uint32_t i) {
         if (ties_[i].kind != TieKind::joint) return false;
         const Joint& joint = world.joints.joints[ties_[i].index];
         if (!joint.locked[kAlongX] || !joint.locked[kAlongY] || !joint.locked[kAlongZ] ||
             joint.length > 0 || joint.compliance > 0)
             return false;
-        const JointPose pose = joint_pose(world.bodies, joint);
-        return (pose.point_a - pose.point_b).squaredNorm() > most * most;
+        const JointPose pose = joint_pose(b, joint);
+        return (pose.point_a - pose.point_b).norm() > std::max(radius(joint.a), radius(joint.b));
     };
     const auto first = found_.ties().begin();
     return std::any_of(first + island.first_tie, first + island.last_tie, is_open);

@@ -35,6 +35,9 @@ Vector3d relative_velocity(const World& world, std::uint32_t contact);
 /// What becomes of an island: solved or swept here, or left to others.
 enum class IslandWay : std::uint8_t { exact, swept, left };
 
+/// Islands of so many bodies are solved exactly however they move.
+inline constexpr std::uint32_t kVerySmall = 8;
+
 class IslandChoice {
 public:
     /// Once a step, before the others: finds the islands that pairs and ties make.

@@ -45,6 +45,9 @@ constexpr std::uint32_t kMostMisses = 8;
 /// bodies about. They are known by the energy that they add, as a share of what there is.
 constexpr double kOtherRoot = 0.25;
 
+/// More energy than so many times what there is did not come from what drives an island.
+constexpr double kFlung = 4;
+
 /// Bodies that fly about and overlap part at least at this share of their radius [1/s].
 constexpr double kDrift = 0.3;
 
@@ -323,10 +326,7 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
     for (std::size_t i = 0; i < count_; ++i) {
         Member& member = members_[i];
         member.was_open = open_at_start(member) > kAjar * world.settings.joint_tolerance;
-        const bool is_pulled = member.is_driven && member.effort == IslandEffort::swept;
-        member.was_torn =
-            ties_.open_at_start(member.ties) > (is_pulled ? kAjar * world.settings.joint_tolerance
-                                                          : h * world.settings.recovery_speed);
+        member.was_torn = ties_.open_at_start(member.ties) > torn_from(world, member, h);
         ties_.ask(member.ties, velocities_of(member));
         member.speed = speed_of(world, member, h, push_out);
         const double most = strongest(world, member, h);
@@ -442,6 +442,18 @@ bool IslandGroup::ask(const World& world, const Member& member, std::size_t k, d
     return is_clamped(c.gap[contact], gap, push_out.most);
 }
 
+/// From how far open on a joint is torn: farther than it may close in a substep. A driven island
+/// that was iterated, as large ones are while they move fast, may be open by up to its smallest
+/// body's radius [m].
+double IslandGroup::torn_from(const World& world, const Member& m, double h) const {
+    if (!m.is_driven || m.last_body - m.first_body <= kVerySmall)
+        return h * world.settings.recovery_speed;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::uint32_t i = m.first_body; i < m.last_body; ++i)
+        least = std::min(least, world.bodies.bounding_radius[bodies_[i].body]);
+    return least;
+}
+
 /// By how much the worst tie is open that is to be closed [m], [rad].
 double IslandGroup::open_at_start(const Member& member) {
     if (!member.is_meshed) return 0;
@@ -507,13 +519,12 @@ void IslandGroup::note_open(StepReport& report, const Member& member) const {
     if (tie.kind == TieKind::joint) report.open_trees.push_back({tie.index, member.open});
 }
 
-/// Whether kinematic bodies pull its ties apart: these are left open, or give what their softness
-/// makes of an impulse without bounds. As the start of the next substep it would throw the bodies
-/// about.
+/// Whether kinematic bodies pull its ties apart: what these give is what their softness makes of an
+/// impulse without bounds. As the start of the next substep it would throw the bodies about.
 bool IslandGroup::is_pulled_apart(const World& world, const Member& m) {
     if (!m.is_driven) return false;
     const double ajar = kAjar * world.settings.joint_tolerance;
-    if (!(m.open <= ajar)) return true;
+    if (!std::isfinite(m.open)) return true;
     const std::span<const IslandRow> rows = ties_.rows(m.ties);
     return std::any_of(rows.begin(), rows.end(), [&](const IslandRow& row) {
         return row.is_rigid && h_ * row.softness * std::abs(row.impulse) > ajar;
@@ -528,6 +539,19 @@ void IslandGroup::give_way(IslandSolver& solver, Member& m) {
     const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
     solver.sweep_anew(island, ask);
     ask();
+}
+
+/// Whether sweeps gave what kinematic bodies drive much more energy than it had, or has at their
+/// speed.
+bool IslandGroup::is_flung(const Member& m) {
+    if (!m.is_driven || m.ties.empty()) return false;
+    const Island island = island_of(m);
+    double mass = 0;
+    for (const IslandBody& b : island.bodies) mass += b.mass;
+    const double speed = ties_.scripted_speed(m.ties);
+    const double most =
+        kFlung * (kinetic_energy(island.bodies, starts_of(m)) + 0.5 * mass * speed * speed);
+    return !(kinetic_energy(island.bodies, island.velocity) <= most);
 }
 
 /// What is pulled apart moves as if its ties had been made as they are, between bodies that stand
@@ -596,6 +620,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         solver.sweep(island);
         ask();
         m.solved = true;
+        if (is_flung(m)) return hold_torn(solver, m);
         if (m.is_meshed && gains()) close_gently(solver, m);
         if (m.may_be_disputed) bound_speed(world, m);
         return;

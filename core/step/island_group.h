@@ -89,7 +89,7 @@ private:
         bool bounces;   // in this substep
         bool parts;     // in this substep, and must gain nothing by it
         bool was_open;  // at the start of this substep
-        bool was_torn;  // the same, farther than it may close in it, or at all if it is pulled
+        bool was_torn;  // the same, so far that it is torn
         double open;    // the worst tie [m], [rad]
         bool given_up;  // in this step, its ties could not be closed
     };
@@ -111,6 +111,7 @@ private:
     void note_open(StepReport& report, const Member& member) const;
     bool is_pulled_apart(const World& world, const Member& member);
     void give_way(IslandSolver& solver, Member& member);
+    bool is_flung(const Member& member);
     void hold_torn(IslandSolver& solver, Member& member);
     void draw_together(IslandSolver& solver, Member& member);
     void close_gently(IslandSolver& solver, Member& member);
@@ -121,6 +122,7 @@ private:
     double thrust_of(const World& world, const Member& member, double h) const;
     bool ask(const World& world, const Member& member, std::size_t point, double h,
              const PushOut& push_out);
+    double torn_from(const World& world, const Member& member, double h) const;
     double open_at_start(const Member& member);
     void forget_impulses();
     void apply_impulses();
