@@ -196,6 +196,29 @@ TEST_P(Seams, ThatStandOutStopWhatSlidesAgainstThem) {
     }
 }
 
+/// A plate with a stem beneath, which hangs between two rails that it lies on.
+TEST_P(Seams, AreNoneToWhatHangsBelowThem) {
+    Geometry tee;
+    tee.kind = ShapeKind::compound;
+    tee.parts.resize(2);
+    tee.parts[0].geometry = box(0.6, 0.05, 0.3);
+    tee.parts[1].geometry = box(0.2, 0.2, 0.3);
+    tee.parts[1].local.position = {0, -0.25, 0};
+    for (unsigned draw = 0; draw < 3; ++draw) {
+        Random random(draw);
+        Scene s = scene();
+        draw_settings(s.settings, random, static_cast<int>(draw));
+        for (const int side : {-1, 1})
+            add_body(s, box(0.2, 0.5, 5), {0.45 * side, -0.5, 0}, Motion::fixed);
+        add_body(s, tee, {0, 0.05, 0}).velocity = {1, 0, 0};
+        s.materials[0].friction = 0;
+        const double before = s.bodies[2].placement.position.x();
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 1);
+        EXPECT_LT(simulation.world().bodies.position[2].x() - before, 0.06) << draw;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Everywhere, Seams, every_collider(), where_name);
 
 }  // namespace
