@@ -60,9 +60,10 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         else if (world.kinematic_count > 0)
             timed(Stage::kinematics, [&] { hold_scripted(world.bodies); });
-        if (first) timed(Stage::match, [&] { stepper.ghosts.find(world); });
+        const bool touches = plan.runs(Effect::contacts);
+        if (touches && first) timed(Stage::match, [&] { stepper.ghosts.find(world); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
-        stepper.ghosts.keep_open(world.contacts);
+        if (touches) stepper.ghosts.keep_open(world.contacts);
         if (divides) timed(Stage::divided_trees, [&] { stepper.divided.choose(world, h); });
         timed(Stage::begin, [&] { remember_velocities(world.bodies); });
         if (sums) timed(Stage::remember, [&] { sums->begin_substep(world); });
@@ -71,7 +72,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::joints, [&] { count_turns(world, stepper.revolute); });
         if (plan.runs(Effect::restitution))
             timed(Stage::restitution, [&] { choose_restitution(world, first); });
-        if (plan.runs(Effect::contacts)) timed(Stage::begin, [&] { stepper.ground.find(world); });
+        if (touches) timed(Stage::begin, [&] { stepper.ground.find(world); });
         if (watches)
             timed(Stage::still_ground,
                   [&] { stepper.still_ground.note(world, stepper.ground, h); });
@@ -83,8 +84,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::air_drag))
             timed(Stage::air_drag,
                   [&] { stepper.air.blow(world, stepper.workers, substep_time(world, h).push()); });
-        if (plan.runs(Effect::contacts))
-            timed(Stage::begin, [&] { foresee_bend(world, stepper.ground, plan, h); });
+        if (touches) timed(Stage::begin, [&] { foresee_bend(world, stepper.ground, plan, h); });
         if (first) timed(Stage::schedule, [&] { solver.load(world); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.solve_impacts(world, h, sums); });
