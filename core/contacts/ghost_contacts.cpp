@@ -175,7 +175,8 @@ void GhostContacts::choose(World& world) {
         for (std::uint32_t i = m.to; i < m.to + m.count; ++i) {
             ContactMemory& memory = c.memory[i];
             const Contact& contact = c.found[i];
-            const bool stays = memory.known && !memory.flush && (world.steps + i) % kSeldom != 0 &&
+            const bool stays = memory.known && !memory.flush &&
+                               (world.steps + contact.feature) % kSeldom != 0 &&
                                !is_fast(world, contact.a) && !is_fast(world, contact.b);
             memory.ghost = memory.flush = false;
             if (stays) continue;
