@@ -13,7 +13,7 @@ constexpr double kLink = 0.4;                        // [m]
 constexpr double kPulled = 1, kLeft = 2, kBack = 3;  // [s]
 constexpr double kHangs = 8;                         // [s]
 constexpr double kFast = 30;                         // [m/s]
-constexpr double kOpen = 0.02;                       // [m]
+constexpr double kOpen = kLink / 10;                 // [m]
 
 /// Beyond this a rod may come to lie the other way round between its neighbours, and stays so.
 constexpr double kFarPull = 1.25;
