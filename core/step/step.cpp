@@ -40,8 +40,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     const double dt = world.settings.dt, h = dt / world.settings.substeps;
     const bool divides = plan.runs(Effect::divided_trees);
     const bool watches = plan.runs(Effect::still_ground);
+    const bool touches = plan.runs(Effect::contacts);
     ContactSums* sums = stepper.sums ? &*stepper.sums : nullptr;
-    if (plan.runs(Effect::contacts)) {
+    if (touches) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
     }
@@ -60,7 +61,6 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         else if (world.kinematic_count > 0)
             timed(Stage::kinematics, [&] { hold_scripted(world.bodies); });
-        const bool touches = plan.runs(Effect::contacts);
         if (touches && first) timed(Stage::match, [&] { stepper.ghosts.find(world); });
         timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
         if (touches) stepper.ghosts.keep_open(world.contacts);

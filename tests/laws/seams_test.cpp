@@ -5,8 +5,6 @@
 #include "support/random.h"
 #include "support/scenes.h"
 
-#include <functional>
-
 namespace plumb::test {
 namespace {
 
@@ -17,7 +15,7 @@ struct Pavement {
     Slabs slabs = Slabs::rows;
     double length = 1, far = 10, wide = 2;
     bool of_hulls = false;
-    bool loose = false;  ///< on a bed, and as heavy as stone
+    bool loose = false;  ///< they lie on a bed and can move
     double uneven = 0;   ///< greatest step between two [m]
 };
 
