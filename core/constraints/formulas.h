@@ -19,6 +19,19 @@ struct FormulaList {};
 
 using Formulas = FormulaList<Stretch, RopeBend, Membrane, IsometricBend, DihedralBend, Tetrahedron>;
 
+/// Formulas whose elements can bear a stress in common (solve/patch_solver.h): `share` is what an
+/// element has of it.
+template <class F>
+concept HasPatches = requires(const double (&numbers)[F::kNumbers]) {
+    F::share(numbers);
+};
+/// Those whose rows are along axes of the element's own: `turn` takes them, or their gradients,
+/// into axes at an angle θ to those, of which it gets the cosine and sine of 2 θ.
+template <class F>
+concept HasAxes = requires(double (&rows)[F::kRows]) {
+    F::turn(rows, 1.0, 0.0);
+};
+
 /// Sizes of a formula's blocks.
 template <class F>
 struct FormulaSize {

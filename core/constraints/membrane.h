@@ -35,6 +35,19 @@ struct Membrane {
         return r;
     }
 
+    /// Impulses of the rows under one stress are as the areas.
+    template <class T>
+    static T share(const T (&inverse)[kNumbers]) {
+        return T(0.5) / (inverse[0] * inverse[2]);
+    }
+    /// The rows along axes turned in the plane by θ.
+    template <class Row, class T>
+    static void turn(Row (&rows)[kRows], const T& cos_2, const T& sin_2) {
+        const Row second = rows[1];
+        rows[1] = cos_2 * second + sin_2 * rows[2];
+        rows[2] = cos_2 * rows[2] - sin_2 * second;
+    }
+
     /// The stress as far as it pulls: what is pressed buckles, and is not made stiffer by it.
     static Matrix3d tension(const Vector3d (&)[3], const double (&inverse)[kNumbers],
                             const double (&force)[kRows]) {

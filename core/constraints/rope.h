@@ -26,6 +26,12 @@ struct Stretch {
         return r;
     }
 
+    /// A pull runs on from segment to segment.
+    template <class T>
+    static T share(const T (&)[1]) {
+        return T(1);
+    }
+
     /// A pull stiffens the segment across it.
     static Eigen::Matrix2d tension(const Vector3d (&p)[2], const double (&)[kNumbers],
                                    const double (&force)[1]) {

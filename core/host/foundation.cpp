@@ -63,8 +63,9 @@ void add_settings(Hash& hash, const Settings& s) {
          << s.velocity_iterations << s.position_iterations << s.method << s.precision << s.contacts
          << s.margin << s.reuse_distance << s.stiffness << s.recovery_speed << s.collision_depth
          << s.anchor_stiffness << s.gyroscopic << s.leapfrog_start << s.joints << s.exact_islands
-         << s.accuracy << s.exact_deformables << s.tree_parts << s.joint_tolerance << s.warm_start
-         << s.alternate_sweeps << s.shared_push << s.shared_cone << s.require << s.forbid;
+         << s.accuracy << s.exact_deformables << s.multilevel << s.tree_parts << s.joint_tolerance
+         << s.warm_start << s.alternate_sweeps << s.shared_push << s.shared_cone << s.require
+         << s.forbid;
 }
 
 void add_bodies(Hash& hash, const World& world) {

@@ -6,6 +6,8 @@
 #include "kernels/gather.h"
 #include "kernels/point_kernels.h"
 
+#include <limits>
+
 namespace plumb::kernels {
 
 /// The points of W constraints, against the first of each [m].
@@ -112,8 +114,43 @@ void solve_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, 
 }
 
 template <class F, class Real, int W>
+void look_at_elements(FormulaPatchBlock<F, Real, W>* blocks, Real* slopes,
+                      const BodyRows<Real>& rows, Real h, std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    constexpr int n = F::kPoints, m = F::kRows;
+    const T inverse_h = T(1) / T(h);
+    for (std::uint32_t b = first; b < last; ++b) {
+        FormulaPatchBlock<F, Real, W>& block = blocks[b];
+        const auto points = gather_points<n, Real, W>(rows, block.row, T(h), true);
+        T numbers[F::kNumbers], c[m];
+        load_all<Real, F::kNumbers, W>(numbers, block.numbers);
+        const T share = load(block.share), cosine = load(block.cosine), sine = load(block.sine);
+        const PointRows<T, n, m> here = F::rows(points.place, numbers);
+        const auto turned = [&](auto& of_rows) {
+            if constexpr (HasAxes<F>) F::turn(of_rows, cosine, sine);
+        };
+        for (int r = 0; r < m; ++r) c[r] = here.c[r] * (share * inverse_h);
+        turned(c);
+        for (int r = 0; r < m; ++r) store(block.c[r], c[r]);
+        const Vector3<T> none(T(0), T(0), T(0));
+        for (int k = 0; k < n; ++k) {
+            Vector3<T> slope[m];
+            for (int r = 0; r < m; ++r) slope[r] = here.gradient[r][k] * share;
+            turned(slope);
+            for (int r = 0; r < m; r += 2)
+                write_velocities<Real, W>(slopes + r / 2 * kBodyRowSize, block.slope[k],
+                                          std::numeric_limits<std::int32_t>::max(),
+                                          {slope[r], r + 1 < m ? slope[r + 1] : none});
+        }
+    }
+}
+
+template <class F, class Real, int W>
 constexpr FormulaKernels<F, Real, W> kernels_of_formula() {
-    return {begin_points<F, Real, W>, solve_points<F, Real, W>};
+    if constexpr (HasPatches<F>)
+        return {begin_points<F, Real, W>, solve_points<F, Real, W>, look_at_elements<F, Real, W>};
+    else
+        return {begin_points<F, Real, W>, solve_points<F, Real, W>, nullptr};
 }
 
 template <class Real, int W, class... F>

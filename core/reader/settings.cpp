@@ -125,6 +125,9 @@ const Table<Settings>& settings_table() {
             "a scene of at most so many particles solves what holds them together as one system, "
             "as stiff as their materials whatever the iterations, for ten to a hundred times "
             "the time; where there are more, or 0: all are iterated"),
+        field<S>("multilevel", Flag{}, &S::multilevel,
+                 "Iterations over what deforms begin with stresses of whole patches of it, so that "
+                 "what is large and stiff does not give way at few of them."),
         field<S>(
             "tree_parts", W{{1, 4096}}, &S::tree_parts,
             "into how many parts a tree of joints that touches nothing may divide a substep in "

@@ -19,4 +19,15 @@ struct alignas(64) PointBlock {
     Real impulse[Size::kRows][W];          // summed over the substep
 };
 
+/// Elements of patches, side by side: what a cycle takes of them, and C/h, in the axes of the patch
+/// and times `share`.
+template <class Size, int Points, class Real, int W>
+struct alignas(64) PatchBlock {
+    std::int32_t row[Points][W];      // in the velocity table; the row of zeros in empty lanes
+    Real numbers[Size::kNumbers][W];  // of the element at rest
+    Real share[W], cosine[W], sine[W];
+    Real c[Size::kRows][W];
+    std::int32_t slope[Points][W];  // where its gradients go, in rows of eight numbers
+};
+
 }  // namespace plumb

@@ -6,9 +6,12 @@
 #include "schedule/colouring.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/patch_solver.h"
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <type_traits>
 #include <vector>
 
 namespace plumb {
@@ -25,6 +28,8 @@ public:
             });
         colouring_.colour(links_, world.moving_count());
         lay_out(world);
+        if constexpr (HasPatches<F>)
+            if (world.settings.multilevel) make_patches(world);
     }
 
     Stage stage() const override { return Stage::particles; }
@@ -37,6 +42,8 @@ public:
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
+        if constexpr (HasPatches<F>)
+            if (patches_) patches_->iterate(rows, pass.h, worker);
         iterate(kernels_.solve, rows, pass, worker);
     }
 
@@ -87,6 +94,7 @@ private:
 
     void add_block(std::int32_t zero_row, std::uint32_t first, std::uint32_t last) {
         Block& block = blocks_.emplace_back();
+        item_of_.emplace_back().fill(kNoIndex);
         for (auto& rows : block.row) std::fill(std::begin(rows), std::end(rows), zero_row);
         // a lane without an item has a system that can be solved
         for (auto& softness : block.softness)
@@ -94,6 +102,7 @@ private:
         for (std::uint32_t i = first; i < last; ++i) {
             const std::uint32_t at = colouring_.order()[i], lane = i - first;
             const Item& item = items_[at];
+            item_of_.back()[lane] = at;
             const auto put = [&](auto& columns, const auto& numbers) {
                 for (std::size_t k = 0; k < numbers.size(); ++k)
                     columns[k][lane] = static_cast<Real>(numbers[k]);
@@ -104,6 +113,36 @@ private:
             put(block.softness, item.softness);
             block.damped[lane] = static_cast<Real>(item.damped);
         }
+    }
+
+    /// Over the constraints as they were told, in their places in the blocks.
+    void make_patches(const World& world) {
+        using Patches = PatchSolver<F, Real, W>;
+        std::vector<typename Patches::Element> elements(items_.size());
+        for (std::size_t b = 0; b < blocks_.size(); ++b)
+            for (int lane = 0; lane < W; ++lane) {
+                if (item_of_[b][lane] == kNoIndex) continue;
+                Block& block = blocks_[b];
+                auto& element = elements[item_of_[b][lane]];
+                for (int k = 0; k < F::kPoints; ++k) element.row[k] = block.row[k][lane];
+                for (int k = 0; k < Size::kNumbers; ++k)
+                    element.numbers[k] = block.numbers[k][lane];
+                for (int k = 0; k < Size::kRows; ++k) element.softness[k] = block.softness[k][lane];
+                element.impulse = &block.impulse[0][lane], element.lag = &block.lag[0][lane];
+                element.stride = W;
+            }
+        std::vector<std::array<Vector3d, F::kPoints>> corners;
+        std::vector<std::uint32_t> ends;
+        for (const Deformable& d : world.deformables) {
+            F::each(d, [&](const auto& points, const auto&, const auto&) {
+                auto& at = corners.emplace_back();
+                for (int k = 0; k < F::kPoints; ++k) at[k] = d.spec.points[points[k]];
+            });
+            ends.push_back(static_cast<std::uint32_t>(corners.size()));
+        }
+        if (!elements.empty())
+            patches_.emplace(elements, corners, ends, world.particles.inverse_mass,
+                             world.particle_row(0), world.zero_row(), workers_);
     }
 
     /// Every worker takes its share of blocks that are independent, and waits for the others.
@@ -126,7 +165,10 @@ private:
     std::vector<Item> items_;
     Colouring colouring_;
     std::vector<Block> blocks_;
+    std::vector<std::array<std::uint32_t, W>> item_of_;  ///< [block][lane]
     std::vector<BlockRange> ranges_;
+    struct None {};
+    std::conditional_t<HasPatches<F>, std::optional<PatchSolver<F, Real, W>>, None> patches_;
 };
 
 }  // namespace plumb

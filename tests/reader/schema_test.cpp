@@ -114,10 +114,11 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                                   precision, threads, lanes, contacts, margin, reuse_distance,
                                   stiffness, recovery_speed, collision_depth, anchor_stiffness,
                                   gyroscopic, leapfrog_start, joints, exact_islands,
-                                  accuracy, exact_deformables, tree_parts, joint_tolerance, warm_start,
+                                  accuracy, exact_deformables, multilevel, tree_parts,
+                                  joint_tolerance, warm_start,
                                   alternate_sweeps, shared_push, shared_cone, require, forbid] =
         settings;
-    constexpr std::size_t kMembers = 35, kPreset = 1;
+    constexpr std::size_t kMembers = 36, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "wind",
@@ -145,6 +146,7 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "exact_islands",
                              "accuracy",
                              "exact_deformables",
+                             "multilevel",
                              "tree_parts",
                              "joint_tolerance",
                              "warm_start",
