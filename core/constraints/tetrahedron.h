@@ -61,15 +61,6 @@ struct Tetrahedron {
         return r;
     }
 
-    /// Impulses of the rows under one stress are as the volumes; all have the axes at rest.
-    template <class T>
-    static T share(const T (&inverse)[kNumbers]) {
-        const T determinant = inverse[0] * (inverse[4] * inverse[8] - inverse[5] * inverse[7]) -
-                              inverse[1] * (inverse[3] * inverse[8] - inverse[5] * inverse[6]) +
-                              inverse[2] * (inverse[3] * inverse[7] - inverse[4] * inverse[6]);
-        return T(1) / (T(6) * determinant);
-    }
-
     /// The stress of the rows of strain as far as it pulls.
     static Eigen::Matrix4d tension(const Vector3d (&)[4], const double (&inverse)[kNumbers],
                                    const double (&force)[kRows]) {

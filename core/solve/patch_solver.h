@@ -53,8 +53,10 @@ public:
           workers_(workers),
           look_(static_cast<const FormulaKernels<F, Real, W>&>(point_kernels<Real, W>()).look) {
         for (const std::uint32_t i : tree_.order()) elements_.push_back({elements[i], {}});
-        for (const PatchPoint& point : tree_.points())
+        for (const PatchPoint& point : tree_.points()) {
+            particle_.push_back(point.particle);
             inverse_mass_.push_back(static_cast<Real>(inverse_mass[point.particle]));
+        }
         patches_.resize(tree_.patches().size());
         slopes_.resize(tree_.points().size());
         change_.assign(inverse_mass.size(), Vector::Zero());
@@ -75,14 +77,21 @@ public:
 
     /// One cycle, called by every worker; ends with all of them at a barrier.
     void iterate(const BodyRows<Real>& rows, Real h, std::uint32_t worker) {
+        if (patches_.empty()) return;
         const Range share = workers_.share(static_cast<std::uint32_t>(blocks_.size()), worker);
         look_(blocks_.data(), corner_slopes_[0].row[0].data(), rows, h, share.first, share.last);
         for (std::uint32_t i = share.first; i < share.last; ++i) add_impulses(h, i);
         workers_.barrier();
         if (worker == 0) {
             gather();
-            solve();
-            hand_down(rows);
+            std::fill(change_.begin(), change_.end(), Vector::Zero());
+            for (int i = 0; i < kSweeps; ++i) {
+                if (i > 0)
+                    each_from_smallest([&](auto& patch, State& state) { sum_up(patch, state); });
+                solve();
+                hand_to_elements();
+            }
+            add_changes(rows);
         }
         workers_.barrier();
     }
@@ -90,11 +99,19 @@ public:
 private:
     /// Elements of the smallest patches: where there are fewer, a sweep does as well.
     static constexpr std::uint32_t kLeast = 4;
+    /// Sweeps over all patches to one look at the elements: three lead nearly as far as three
+    /// cycles.
+    static constexpr int kSweeps = 3;
 
     /// Of four, so that it fills a register; the last is 0.
     using Vector = Eigen::Matrix<Real, 4, 1>;
+    /// ∂C/∂p of an element's rows as the kernels write them: where kRows is odd, one more that is
+    /// 0.
+    struct CornerSlope {
+        Vector row[2 * kSlopeRows<F>];
+    };
     struct Slope {
-        Vector row[2 * kSlopeRows<F>];  ///< ∂C/∂p; where kRows is odd, the last is 0
+        Vector row[kRows];  ///< ∂Ĉ/∂p
     };
     /// Axes against those of what an element or patch is part of: cos 2θ and sin 2θ.
     struct Turn {
@@ -109,8 +126,8 @@ private:
     struct State {
         Turn turn;
         Real softness[kRows] = {}, c[kRows] = {};
-        Real system[kRows][kRows] = {};  ///< Ĝ w Ĝᵀ + ŝ
-        Real impulse[kRows] = {};        ///< of this cycle, with those of all that it is part of
+        Real factors[kRows][kRows] = {};  ///< of Ĝ w Ĝᵀ + ŝ
+        Real impulse[kRows] = {};         ///< of this cycle, with those of all that it is part of
     };
 
     static std::vector<PatchTree::Element> parts(
@@ -166,12 +183,7 @@ private:
         if constexpr (HasAxes<F>) F::turn(rows, turn.cosine, turn.sine);
     }
     static void turn_rows(Slope& slope, const Turn& turn) {
-        if constexpr (HasAxes<F>) {
-            Vector rows[kRows];
-            std::copy_n(slope.row, kRows, rows);
-            F::turn(rows, turn.cosine, turn.sine);
-            std::copy_n(rows, kRows, slope.row);
-        }
+        if constexpr (HasAxes<F>) F::turn(slope.row, turn.cosine, turn.sine);
     }
 
     void fill_blocks(std::int32_t zero_row) {
@@ -210,18 +222,7 @@ private:
     /// From the smallest patches to the whole: Ĉ, its gradient, and the system of each.
     void gather() {
         each_from_smallest([&](const Patch& patch, State& state) {
-            std::fill(std::begin(state.c), std::end(state.c), Real(0));
-            if (patch.is_smallest()) {
-                for (std::uint32_t i = patch.first; i < patch.last; ++i)
-                    for (int r = 0; r < kRows; ++r) state.c[r] += elements_[i].c[r];
-            } else {
-                for (int k = 0; k < 2; ++k) {
-                    Real c[kRows];
-                    std::copy_n(half(patch, k).c, kRows, c);
-                    turn_rows(c, half(patch, k).turn);
-                    for (int r = 0; r < kRows; ++r) state.c[r] += c[r];
-                }
-            }
+            sum_up(patch, state);
             Vector squares[kRows][kRows];
             for (auto& row : squares)
                 for (Vector& square : row) square.setZero();
@@ -234,10 +235,27 @@ private:
                 }
             }
             for (int r = 0; r < kRows; ++r) {
-                for (int s = 0; s <= r; ++s) state.system[r][s] = squares[r][s].sum();
-                state.system[r][r] += state.softness[r];
+                for (int s = 0; s <= r; ++s) state.factors[r][s] = squares[r][s].sum();
+                state.factors[r][r] += state.softness[r];
             }
+            factor_ldlt<Real, kRows>(state.factors, kRows);
         });
+    }
+
+    /// Ĉ of a patch, from those of its halves or elements.
+    void sum_up(const Patch& patch, State& state) {
+        std::fill(std::begin(state.c), std::end(state.c), Real(0));
+        if (patch.is_smallest()) {
+            for (std::uint32_t i = patch.first; i < patch.last; ++i)
+                for (int r = 0; r < kRows; ++r) state.c[r] += elements_[i].c[r];
+        } else {
+            for (int k = 0; k < 2; ++k) {
+                Real c[kRows];
+                std::copy_n(half(patch, k).c, kRows, c);
+                turn_rows(c, half(patch, k).turn);
+                for (int r = 0; r < kRows; ++r) state.c[r] += c[r];
+            }
+        }
     }
 
     Slope slope_at(const Patch& patch, const PatchPoint& point) const {
@@ -260,7 +278,6 @@ private:
 
     /// From the whole to the smallest patches, each with what those before it have changed.
     void solve() {
-        std::fill(change_.begin(), change_.end(), Vector::Zero());
         for (std::size_t p = 0; p < patches_.size(); ++p) {
             const Patch& patch = tree_.patches()[p];
             State& state = patches_[p];
@@ -273,22 +290,23 @@ private:
             for (Vector& row : moved) row.setZero();
             for (std::uint32_t i = patch.point; i < patch.point_end; ++i)
                 for (int r = 0; r < kRows; ++r)
-                    moved[r] += slopes_[i].row[r].cwiseProduct(change_[tree_.points()[i].particle]);
+                    moved[r] += slopes_[i].row[r].cwiseProduct(change_[particle_[i]]);
             Real push[kRows];
             for (int r = 0; r < kRows; ++r)
                 push[r] = -(state.c[r] + state.softness[r] * state.impulse[r] + moved[r].sum());
-            solve_ldlt<Real, kRows>(state.system, push);
+            solve_lower<Real, kRows>(state.factors, kRows, push);
+            solve_upper<Real, kRows>(state.factors, kRows, push);
             for (std::uint32_t i = patch.point; i < patch.point_end; ++i) {
                 Vector sum = push[0] * slopes_[i].row[0];
                 for (int r = 1; r < kRows; ++r) sum += push[r] * slopes_[i].row[r];
-                change_[tree_.points()[i].particle] += inverse_mass_[i] * sum;
+                change_[particle_[i]] += inverse_mass_[i] * sum;
             }
             for (int r = 0; r < kRows; ++r) state.impulse[r] += push[r];
         }
     }
 
-    /// Impulses to the elements, and changes to the velocities.
-    void hand_down(const BodyRows<Real>& rows) {
+    /// Impulses to the elements.
+    void hand_to_elements() {
         for (std::size_t p = 0; p < patches_.size(); ++p) {
             const Patch& patch = tree_.patches()[p];
             if (!patch.is_smallest()) continue;
@@ -296,11 +314,16 @@ private:
                 Bearer& e = elements_[i];
                 Real impulse[kRows];
                 std::copy_n(patches_[p].impulse, kRows, impulse);
+                for (int r = 0; r < kRows; ++r)
+                    e.c[r] += e.share * e.share * e.element.softness[r] * impulse[r];
                 turn_rows(impulse, e.turn.back());
                 for (int r = 0; r < kRows; ++r)
                     e.element.impulse[r * e.element.stride] += e.share * impulse[r];
             }
         }
+    }
+
+    void add_changes(const BodyRows<Real>& rows) {
         for (std::size_t i = 0; i < change_.size(); ++i) {
             Real* x = rows.change + (first_row_ + static_cast<std::ptrdiff_t>(i)) * kBodyRowSize;
             for (int k = 0; k < 3; ++k) x[k] += change_[i][k];
@@ -318,13 +341,14 @@ private:
     Workers& workers_;
     using Block = FormulaPatchBlock<F, Real, W>;
     void (*look_)(Block*, Real*, const BodyRows<Real>&, Real, std::uint32_t, std::uint32_t);
-    std::vector<Block> blocks_;         ///< of the elements, in the tree's order
-    std::vector<Bearer> elements_;      ///< in the tree's order
-    std::vector<State> patches_;        ///< as in the tree
-    std::vector<Slope> slopes_;         ///< [point of the tree]
-    std::vector<Slope> corner_slopes_;  ///< [element][corner]
-    std::vector<Real> inverse_mass_;    ///< [point of the tree] [1/kg]
-    std::vector<Vector> change_;        ///< [particle] in this cycle [m/s]
+    std::vector<Block> blocks_;               ///< of the elements, in the tree's order
+    std::vector<Bearer> elements_;            ///< in the tree's order
+    std::vector<State> patches_;              ///< as in the tree
+    std::vector<Slope> slopes_;               ///< [point of the tree]
+    std::vector<CornerSlope> corner_slopes_;  ///< [element][corner]
+    std::vector<std::uint32_t> particle_;     ///< [point of the tree]
+    std::vector<Real> inverse_mass_;          ///< [point of the tree] [1/kg]
+    std::vector<Vector> change_;              ///< [particle] in this cycle [m/s]
 };
 
 }  // namespace plumb

@@ -236,11 +236,12 @@ double relative_elongation(const Settings& settings, bool is_cloth, std::uint32_
     return ((p[high] - p[low]).norm() - 1) / law;
 }
 
-void expect_hookes_law(const Settings& settings, bool is_cloth, std::uint32_t n) {
+void expect_hookes_law(const Settings& settings, bool is_cloth, std::uint32_t n,
+                       double within = 0.01) {
     const double is = relative_elongation(settings, is_cloth, n);
     std::cout << (is_cloth ? "cloth " : "rope ") << n << ", " << settings.dt << " s, "
               << settings.substeps << " x " << settings.position_iterations << ": " << is << "\n";
-    EXPECT_NEAR(is, 1, 0.01) << (is_cloth ? "cloth " : "rope ") << n;
+    EXPECT_NEAR(is, 1, within) << (is_cloth ? "cloth " : "rope ") << n;
 }
 
 TEST_P(Deformables, HangingRopesAndStripsStretchAsHookeSays) {
@@ -266,9 +267,33 @@ TEST_P(Deformables, HangingOnesStretchAsHookeSaysWhenSwept) {
         for (const auto& [n, fine] : cases) {
             Settings settings;
             settings.precision = GetParam();
+            settings.multilevel = false;
             settings.substeps = fine.substeps, settings.position_iterations = fine.iterations;
             expect_hookes_law(settings, is_cloth, n);
         }
+}
+
+/// Patch by patch a pull reaches the lowest row in a few iterations, however many rows there are.
+TEST_P(Deformables, HangingOnesStretchAsHookeSaysAtFewIterations) {
+    const std::pair<std::uint32_t, std::uint32_t> cases[] = {{5, 20}, {20, 20}, {40, 20}, {80, 30}};
+    Random random(29);
+    for (const bool is_cloth : {false, true})
+        for (const auto& [n, iterations] : cases) {
+            Settings settings;
+            settings.precision = GetParam();
+            settings.position_iterations = iterations;
+            expect_hookes_law(settings, is_cloth, n, 0.02);
+            settings.dt = random.number(0.003, 0.02);
+            settings.substeps = 1 + random.below(3);
+            expect_hookes_law(settings, is_cloth, n, 0.02);
+        }
+}
+
+/// At default settings one of 20 rows is too long by less than a third of what it stretches.
+TEST_P(Deformables, HangingOnesOf20RowsStretchLittleTooFarAtDefaultSettings) {
+    Settings settings;
+    settings.precision = GetParam();
+    for (const bool is_cloth : {false, true}) expect_hookes_law(settings, is_cloth, 20, 0.33);
 }
 
 double volume(const World& world, std::uint32_t deformable) {

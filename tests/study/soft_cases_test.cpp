@@ -19,7 +19,7 @@ double error_of(const study::Subject& subject, const std::string& metric) {
 
 TEST(Drape, IsTheSameOnFinerMeshes) {
     for (const std::uint32_t cells : {80u, 160u})
-        EXPECT_LT(error_of(study::drape_of(cells, 120), "depth"), 0.02) << cells;
+        EXPECT_LT(error_of(study::drape_of(cells, 40), "depth"), 0.02) << cells;
 }
 
 TEST(Cantilever, SwingsAtItsFrequency) {
@@ -32,17 +32,18 @@ TEST(PressedBalloon, GrowsAsMuchInLargerSubstepsOfMoreSweeps) {
     EXPECT_LT(error_of(subject, "growth"), subject.tolerance);
 }
 
-/// Twice as many sweeps take the strip to a tenth of a percent.
-TEST(HangingStrip, ComesToTheFormulaByMoreSweeps) {
+TEST(HangingStrip, ComesToTheFormulaInAnySubsteps) {
     study::Subject subject = study::hanging_strip();
-    subject.scene.settings.substeps = 120;
-    EXPECT_LT(error_of(subject, "elongation"), 1.5e-3);
+    for (const std::uint32_t substeps : {2u, 5u, 20u}) {
+        subject.scene.settings.substeps = substeps;
+        EXPECT_LT(error_of(subject, "elongation"), 2e-3) << substeps;
+    }
 }
 
 /// Errors of a hanging rope fall with its substeps.
 TEST(RopeCatenary, ComesToItsPlaceBySubsteps) {
     study::Subject subject = study::rope_catenary();
-    subject.scene.settings.substeps = 240;
+    subject.scene.settings.substeps = 20;
     EXPECT_LT(error_of(subject, "shape"), 1e-4);
 }
 

@@ -24,9 +24,6 @@ struct RopeParts {
     double weight() const { return mass * kGravity / segments; }
 };
 
-/// So many that a wave crosses less than a segment in one: then a sweep or two solve it.
-constexpr std::uint32_t kSubsteps = 60;
-
 /// Adds a rope whose first point is at the origin.
 template <class Along>
 void add_rope(Scene& scene, const RopeParts& r, Along along) {
@@ -69,7 +66,7 @@ private:
 Subject rope_catenary() {
     Subject s = begin_subject("rope_catenary", "A rope of 40 segments hangs between two hooks",
                               "tan θᵢ = (i − (N − 1)/2) w/H, and Hooke's law", 2);
-    s.scene.settings.substeps = kSubsteps;
+    s.scene.settings.substeps = 8;
     const RopeParts rope;
     constexpr double kSpan = 1;  // [m]
     const Catenary start(rope.segments, rope.segment(), kSpan),
@@ -90,7 +87,6 @@ Subject hanging_rope() {
     Subject s = begin_subject("hanging_rope", "A rope hangs from one end and swings a little",
                               "the first zero of Bessel's function J₀", 6);
     constexpr double kZero = 2.404825557695773, kTip = 0.02;  // kTip: of the length
-    s.scene.settings.substeps = kSubsteps;
     const RopeParts rope;
     const double rate = kZero / 2 * std::sqrt(kGravity / rope.length);
     add_rope(s.scene, rope, [&](int i) -> Vector3d {
