@@ -31,6 +31,9 @@ template <class F, class Real, int W>
 class PatchSolver {
 public:
     static constexpr int kPoints = F::kPoints, kRows = FormulaSize<F>::kRows;
+    /// Sweeps over the elements after a cycle. Patches push along gradients of before, which throws
+    /// what is taut across itself; fewer sweeps leave that trembling.
+    static constexpr int kSmoothing = 7;
 
     /// A constraint as its group has it, and where that keeps what it has pushed and what damping
     /// takes off; from row to row there are `stride` numbers.
@@ -75,9 +78,11 @@ public:
         });
     }
 
+    /// Whether no deformable is large enough for patches.
+    bool empty() const { return patches_.empty(); }
+
     /// One cycle, called by every worker; ends with all of them at a barrier.
     void iterate(const BodyRows<Real>& rows, Real h, std::uint32_t worker) {
-        if (patches_.empty()) return;
         const Range share = workers_.share(static_cast<std::uint32_t>(blocks_.size()), worker);
         look_(blocks_.data(), corner_slopes_[0].row[0].data(), rows, h, share.first, share.last);
         for (std::uint32_t i = share.first; i < share.last; ++i) add_impulses(h, i);
@@ -99,9 +104,8 @@ public:
 private:
     /// Elements of the smallest patches: where there are fewer, a sweep does as well.
     static constexpr std::uint32_t kLeast = 4;
-    /// Sweeps over all patches to one look at the elements: three lead nearly as far as three
-    /// cycles.
-    static constexpr int kSweeps = 3;
+    /// Sweeps over all patches to one look at the elements: two lead nearly as far as two cycles.
+    static constexpr int kSweeps = 2;
 
     /// Of four, so that it fills a register; the last is 0.
     using Vector = Eigen::Matrix<Real, 4, 1>;

@@ -42,9 +42,13 @@ public:
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
+        int sweeps = 1;
         if constexpr (HasPatches<F>)
-            if (patches_) patches_->iterate(rows, pass.h, worker);
-        iterate(kernels_.solve, rows, pass, worker);
+            if (patches_ && !patches_->empty()) {
+                patches_->iterate(rows, pass.h, worker);
+                sweeps = patches_->kSmoothing;
+            }
+        for (int i = 0; i < sweeps; ++i) iterate(kernels_.solve, rows, pass, worker);
     }
 
 private:

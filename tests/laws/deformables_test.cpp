@@ -275,7 +275,7 @@ TEST_P(Deformables, HangingOnesStretchAsHookeSaysWhenSwept) {
 
 /// Patch by patch a pull reaches the lowest row in a few iterations, however many rows there are.
 TEST_P(Deformables, HangingOnesStretchAsHookeSaysAtFewIterations) {
-    const std::pair<std::uint32_t, std::uint32_t> cases[] = {{5, 20}, {20, 20}, {40, 20}, {80, 30}};
+    const std::pair<std::uint32_t, std::uint32_t> cases[] = {{5, 10}, {20, 20}, {40, 30}, {80, 50}};
     Random random(29);
     for (const bool is_cloth : {false, true})
         for (const auto& [n, iterations] : cases) {
@@ -289,11 +289,11 @@ TEST_P(Deformables, HangingOnesStretchAsHookeSaysAtFewIterations) {
         }
 }
 
-/// At default settings one of 20 rows is too long by less than a third of what it stretches.
+/// At default settings one of 20 rows stretches by less than a quarter too far.
 TEST_P(Deformables, HangingOnesOf20RowsStretchLittleTooFarAtDefaultSettings) {
     Settings settings;
     settings.precision = GetParam();
-    for (const bool is_cloth : {false, true}) expect_hookes_law(settings, is_cloth, 20, 0.33);
+    for (const bool is_cloth : {false, true}) expect_hookes_law(settings, is_cloth, 20, 0.25);
 }
 
 double volume(const World& world, std::uint32_t deformable) {

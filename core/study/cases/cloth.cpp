@@ -51,7 +51,7 @@ Subject hanging_strip() {
             const std::vector<Vector3d>& p = w.particles.position;
             return ((p[kTop] - p[kLowest]).norm() - kLength) / law - 1;
         })};
-    s.tolerance = 0.002;
+    s.tolerance = 5e-4;
     return s;
 }
 
@@ -72,7 +72,7 @@ Subject drape_of(std::uint32_t cells, std::uint32_t substeps) {
     cloth.elasticity.bending_stiffness = 1e-3;
     s.metrics = {{"depth", "", "error of the lowest mean height of the cloth",
                   [lowest] { return std::make_unique<LowestCentre>(lowest); }, unknown / -lowest}};
-    s.tolerance = 0.01;
+    s.tolerance = 0.008;
     return s;
 }
 

@@ -77,7 +77,7 @@ Subject rope_catenary() {
     for (int i = 0; i <= rope.segments; ++i) places.push_back(law.begin(i));
     s.metrics = {{"shape", "m", "largest distance of a particle's mean place from its own",
                   [places] { return std::make_unique<MeanShape>(places); }}};
-    s.tolerance = 5e-4;
+    s.tolerance = 2e-4;
     return s;
 }
 
