@@ -10,7 +10,7 @@
 /// remain what the elements' impulses made them, and a sweep goes on from there.
 ///
 /// A cycle takes C and its gradient once, at the places at the end of the substep as things stand,
-/// and is linear from there on.
+/// and is linear from there on. Sweeps over the elements have to follow it.
 #pragma once
 
 #include "kernels/point_kernels.h"
@@ -194,6 +194,8 @@ private:
         const std::size_t blocks = (elements_.size() + W - 1) / W;
         blocks_.resize(blocks);
         corner_slopes_.resize(blocks * W * kPoints);
+        for (CornerSlope& slope : corner_slopes_)  // kernels of one lane leave the fourth alone
+            for (Vector& row : slope.row) row.setZero();
         for (std::size_t i = 0; i < blocks * W; ++i) {
             // an empty lane looks at an element that is nowhere
             const Bearer& e = elements_[std::min(i, elements_.size() - 1)];

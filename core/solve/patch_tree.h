@@ -15,8 +15,8 @@ namespace plumb {
 struct Patch {
     std::uint32_t first, last;
     std::uint32_t point, point_end;
-    std::uint32_t parent;   ///< stands before it; kNoIndex of a whole deformable
-    std::uint32_t half[2];  ///< stand behind it; kNoIndex of the smallest
+    std::uint32_t parent;   ///< stands before it; kNoIndex where it is a whole deformable
+    std::uint32_t half[2];  ///< stand behind it; kNoIndex where it is one of the smallest
     bool is_smallest() const { return half[0] == kNoIndex; }
 };
 
@@ -35,10 +35,8 @@ public:
         Vector3d middle;
     };
 
-    PatchTree() = default;
-    /// Elements by deformables: the pieces end at `ends`, and make a tree each. The smallest
-    /// patches have at least `least` elements, and fewer than twice as many, where there are so
-    /// many.
+    /// Elements by deformables, which end at `ends` and have a tree each, unless they have fewer
+    /// than `least`. The smallest patches have at least so many, and fewer than twice as many.
     PatchTree(const std::vector<Element>& elements, const std::vector<std::uint32_t>& ends,
               std::uint32_t least);
 
