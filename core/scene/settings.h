@@ -68,8 +68,8 @@ struct Settings {
                              ///< is iterated all the same
     std::uint32_t exact_deformables = 0;  ///< deformables of at most so many particles together are
                                           ///< solved as one system; 0 = all are iterated
-    bool multilevel = true;               ///< what deforms is also solved patch by patch, from the
-                                          ///< whole down to a few elements
+    bool multilevel = false;              ///< sheets and ropes are also solved patch by patch, from
+                                          ///< the whole down to a few elements
     std::uint32_t tree_parts = 64;        ///< into how many parts a tree of joints that touches
                                           ///< nothing may divide a substep; 1 = none
     double joint_tolerance = 5e-7;        ///< up to which trees of joints are closed [m], [rad]
@@ -93,11 +93,12 @@ inline std::uint64_t step_count(const Settings& s) {
 /// each pass apart, no anchors, sums of each pass apart, explicit gyroscopic term, contacts
 /// detected anew in every step, joints by iterations.
 inline void apply_paper_preset(Settings& s) {
-    s.warm_start = s.alternate_sweeps = s.shared_cone = s.shared_push = s.multilevel = false;
+    s.warm_start = s.alternate_sweeps = s.shared_cone = s.shared_push = false;
     s.anchor_stiffness = s.reuse_distance = 0;
     s.gyroscopic = Gyroscopic::explicit_;
     s.joints = JointMethod::iterate;
     s.exact_islands = s.exact_deformables = 0;
+    s.multilevel = false;
     s.accuracy = 0;
 }
 

