@@ -16,7 +16,6 @@
 #include "kernels/point_kernels.h"
 #include "math/dense.h"
 #include "schedule/workers.h"
-#include "solve/particle_rows.h"
 #include "solve/patch_tree.h"
 
 #include <algorithm>
@@ -83,9 +82,9 @@ public:
 
     /// One cycle, called by every worker; ends with all of them at a barrier.
     void iterate(const BodyRows<Real>& rows, Real h, std::uint32_t worker) {
-        const Range share = workers_.share(static_cast<std::uint32_t>(blocks_.size()), worker);
-        look_(blocks_.data(), corner_slopes_[0].row[0].data(), rows, h, share.first, share.last);
-        for (std::uint32_t i = share.first; i < share.last; ++i) add_impulses(h, i);
+        const Range mine = workers_.share(static_cast<std::uint32_t>(blocks_.size()), worker);
+        look_(blocks_.data(), corner_slopes_[0].row[0].data(), rows, h, mine.first, mine.last);
+        for (std::uint32_t i = mine.first; i < mine.last; ++i) add_impulses(h, i);
         workers_.barrier();
         if (worker == 0) {
             gather();

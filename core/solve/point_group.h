@@ -85,12 +85,24 @@ private:
         links_.push_back(link), items_.push_back(item);
     }
 
+    /// Calls visit(first, last), places in the colouring's order, for each block of a batch.
+    template <class Visit>
+    static void each_block(const Batch& batch, Visit visit) {
+        const std::uint32_t width = batch.independent ? W : 1;
+        for (std::uint32_t i = batch.first; i < batch.last; i += width)
+            visit(i, std::min(i + width, batch.last));
+    }
+    template <class Visit>
+    void each_block(Visit visit) const {
+        for (const Batch& batch : colouring_.batches()) each_block(batch, visit);
+    }
+
     void lay_out(const World& world) {
         for (const Batch& batch : colouring_.batches()) {
-            const std::uint32_t width = batch.independent ? W : 1;
             const auto first = static_cast<std::uint32_t>(blocks_.size());
-            for (std::uint32_t i = batch.first; i < batch.last; i += width)
-                add_block(world.zero_row(), i, std::min(i + width, batch.last));
+            each_block(batch, [&](std::uint32_t i, std::uint32_t last) {
+                add_block(world.zero_row(), i, last);
+            });
             ranges_.push_back(
                 {first, static_cast<std::uint32_t>(blocks_.size()), batch.independent});
         }
@@ -98,7 +110,6 @@ private:
 
     void add_block(std::int32_t zero_row, std::uint32_t first, std::uint32_t last) {
         Block& block = blocks_.emplace_back();
-        item_of_.emplace_back().fill(kNoIndex);
         for (auto& rows : block.row) std::fill(std::begin(rows), std::end(rows), zero_row);
         // a lane without an item has a system that can be solved
         for (auto& softness : block.softness)
@@ -106,7 +117,6 @@ private:
         for (std::uint32_t i = first; i < last; ++i) {
             const std::uint32_t at = colouring_.order()[i], lane = i - first;
             const Item& item = items_[at];
-            item_of_.back()[lane] = at;
             const auto put = [&](auto& columns, const auto& numbers) {
                 for (std::size_t k = 0; k < numbers.size(); ++k)
                     columns[k][lane] = static_cast<Real>(numbers[k]);
@@ -123,11 +133,12 @@ private:
     void make_patches(const World& world) {
         using Patches = PatchSolver<F, Real, W>;
         std::vector<typename Patches::Element> elements(items_.size());
-        for (std::size_t b = 0; b < blocks_.size(); ++b)
-            for (int lane = 0; lane < W; ++lane) {
-                if (item_of_[b][lane] == kNoIndex) continue;
-                Block& block = blocks_[b];
-                auto& element = elements[item_of_[b][lane]];
+        auto block_at = blocks_.begin();
+        each_block([&](std::uint32_t first, std::uint32_t last) {
+            Block& block = *block_at++;
+            for (std::uint32_t i = first; i < last; ++i) {
+                const std::uint32_t lane = i - first;
+                auto& element = elements[colouring_.order()[i]];
                 for (int k = 0; k < F::kPoints; ++k) element.row[k] = block.row[k][lane];
                 for (int k = 0; k < Size::kNumbers; ++k)
                     element.numbers[k] = block.numbers[k][lane];
@@ -135,6 +146,7 @@ private:
                 element.impulse = &block.impulse[0][lane], element.lag = &block.lag[0][lane];
                 element.stride = W;
             }
+        });
         std::vector<std::array<Vector3d, F::kPoints>> corners;
         std::vector<std::uint32_t> ends;
         for (const Deformable& d : world.deformables) {
@@ -169,7 +181,6 @@ private:
     std::vector<Item> items_;
     Colouring colouring_;
     std::vector<Block> blocks_;
-    std::vector<std::array<std::uint32_t, W>> item_of_;  ///< [block][lane]
     std::vector<BlockRange> ranges_;
     struct None {};
     std::conditional_t<HasPatches<F>, std::optional<PatchSolver<F, Real, W>>, None> patches_;

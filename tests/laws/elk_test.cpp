@@ -59,9 +59,11 @@ struct Meeting {
     double edges = 1;              ///< share_at_rest, the least since the elk is a metre ahead
 };
 
-Meeting meet(const std::string& collider, std::uint32_t substeps, std::uint32_t iterations) {
+Meeting meet(const std::string& collider, std::uint32_t substeps, std::uint32_t iterations,
+             bool multilevel = true) {
     Scene scene = read_scene(PLUMB_SAMPLES "/scenes/elk.json");
     scene.settings.substeps = substeps, scene.settings.position_iterations = iterations;
+    scene.settings.multilevel = multilevel;
     Simulation simulation(scene, colliders(), collider);
     simulation.watch_contacts();
     const World& w = simulation.world();
@@ -109,11 +111,33 @@ TEST_P(Elk, PassesTheDuckAndGivesItsMomentum) {
     }
 }
 
+/// Swept alone the duck is too soft there, and the elk stays in it. At the sample's settings its
+/// volume is off by one to three per cent, as the run goes.
+TEST_P(Elk, GivesItsMomentumToTheDuckAndTheGround) {
+    for (const std::uint32_t substeps : {2u, 4u}) {
+        const Meeting m = meet(GetParam(), substeps, 5, false);
+        EXPECT_LT(m.worst_volume, substeps == 2 ? 0.04 : 0.02);
+        EXPECT_LT(m.unbalanced, 1e-6);
+        EXPECT_GT(m.lost, 0.1);
+        EXPECT_NEAR(m.given, m.lost, 1e-6);
+    }
+}
+
 /// At the paper's 150 iterations. The duck's skin, which keeps 1.1 times the volume, is stretched
 /// by 3 % on the mean.
 TEST(ElkInADuckOfRubber, PassesItAndLeavesItInShape) {
     const Meeting m = meet("ode", 30, 5);
     EXPECT_LT(m.worst_volume, 0.001);
+    EXPECT_GT(m.pushed, 1);
+    EXPECT_GT(m.ahead, 1);
+    EXPECT_GE(m.edges, 0.95);
+    EXPECT_NEAR(m.given, m.lost, 1e-6);
+}
+
+/// Swept alone it takes 400 of them.
+TEST(ElkInADuckOfRubber, LeavesItInShapeWhenSwept) {
+    const Meeting m = meet("ode", 20, 20, false);
+    EXPECT_LT(m.worst_volume, 0.02);
     EXPECT_GT(m.pushed, 1);
     EXPECT_GT(m.ahead, 1);
     EXPECT_GE(m.edges, 0.95);
