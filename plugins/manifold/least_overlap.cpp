@@ -84,11 +84,11 @@ Witness least_overlap(const Part& a, const Part& b) {
     return {best.normal, middle, best.gap, true, true};
 }
 
-bool axes_part(const Part& a, const Part& b) {
+bool axes_part(const Part& a, const Part& b, double by) {
     for (const Part* part : {&a, &b})
         for (const Vec3& axis : part->world.axis)
             for (double side : {1.0, -1.0})
-                if (support_gap(a, b, side * axis) > 0) return true;
+                if (support_gap(a, b, side * axis) > by) return true;
     return false;
 }
 

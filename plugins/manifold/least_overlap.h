@@ -12,7 +12,7 @@ namespace plumb {
 /// seldom more. For a ball and a shape of a closed form it is exact.
 Witness least_overlap(const Part& a, const Part& b);
 
-/// Whether an axis of one of the frames parts two convex parts.
-bool axes_part(const Part& a, const Part& b);
+/// Whether an axis of one of the frames parts two convex parts by more than a distance [m].
+bool axes_part(const Part& a, const Part& b, double by = 0);
 
 }  // namespace plumb

@@ -101,14 +101,6 @@ void shorten(Witness& witness, const Part& a, const Part& b) {
     if (ask_gjk(other, a, b) && other.gap > implied) witness = other;
 }
 
-/// Boxes that an axis parts: the normal of larger boxes will do where it parts the true ones too,
-/// and two points of them reach the gap that it implies.
-bool ask_boxes_apart(Witness& witness, const Part& a, const Part& b) {
-    if (!ask_boxes(witness, a, b, 0.5 * pair_margin(a, b))) return false;
-    const bool parts = support_gap(a, b, unit_or(witness.normal, {0, 1, 0})) >= 0;
-    return (parts && gap_is_reached(a, b, witness.normal)) || ask_gjk(witness, a, b);
-}
-
 /// Of parts that overlap far ODE may name a long way out, or say nothing at all.
 bool ask_deep(Witness& witness, const Part& a, const Part& b, bool overlap) {
     const double size = size_of(a) + size_of(b);
@@ -118,6 +110,20 @@ bool ask_deep(Witness& witness, const Part& a, const Part& b, bool overlap) {
     const Witness other = least_overlap(a, b);
     if (other.gap > implied + 1e-5 * size) witness = other;
     return true;
+}
+
+/// Boxes that an axis parts: the normal of larger boxes will do where it parts the true ones too,
+/// and two points of them reach the gap that it implies. Where an edge of one is all but parallel
+/// to one of the other, ODE takes boxes for parted along their product, which is rounding alone: no
+/// axis of a face parts those.
+bool ask_boxes_apart(Witness& witness, const Part& a, const Part& b) {
+    const double margin = pair_margin(a, b);
+    if (ask_boxes(witness, a, b, 0.5 * margin)) {
+        const bool parts = support_gap(a, b, unit_or(witness.normal, {0, 1, 0})) >= 0;
+        return (parts && gap_is_reached(a, b, witness.normal)) || ask_gjk(witness, a, b);
+    }
+    if (axes_part(a, b, margin)) return false;
+    return ask_gjk(witness, a, b) || ask_deep(witness, a, b, false);
 }
 
 bool ask_any(Witness& witness, const Part& a, const Part& b) {

@@ -149,25 +149,26 @@ TEST_P(Impacts, RowsKeepTheirEnergy) {
         }
 }
 
-/// A ball, and the row of touching ones that it runs into, whose last one touches a wall; in some
-/// direction, with drawn settings.
+/// A ball or a cube, and the row of touching ones that it runs into, whose last one touches a wall;
+/// in some direction, with drawn settings.
 struct RowBeforeWall {
     Scene scene;
     double speed;
     std::string text;
 };
 
-RowBeforeWall row_before_wall(Scene s, Random& random, int draw, std::uint32_t count) {
+RowBeforeWall row_before_wall(Scene s, const Geometry& shape, Random& random, int draw,
+                              std::uint32_t count) {
     const double speed = random.number(1, 4);
     const Vector along = random.direction();
     const Rotation turn = Rotation::FromTwoVectors(Vector::UnitX(), along);
-    for (std::uint32_t i = 0; i < count; ++i) add_body(s, sphere(0.1), 0.2 * i * along);
-    add_body(s, sphere(0.1), -(0.2 + random.number(0.001, 0.1)) * along).velocity = speed * along;
-    add_body(s, box(0.3, 1, 1), (0.2 * count + 0.2) * along, Motion::fixed).placement.rotation =
-        turn;
+    for (std::uint32_t i = 0; i < count; ++i) add_body(s, shape, 0.2 * i * along);
+    add_body(s, shape, -(0.2 + random.number(0.001, 0.1)) * along).velocity = speed * along;
+    add_body(s, box(0.3, 1, 1), (0.2 * count + 0.2) * along, Motion::fixed);
+    for (BodySpec& body : s.bodies) body.placement.rotation = turn;
     choose_step(s.settings, draw, random);
     const std::string text = "draw " + std::to_string(draw) + ", " + std::to_string(count) +
-                             " balls, " + std::to_string(s.settings.dt) + " s x " +
+                             " bodies, " + std::to_string(s.settings.dt) + " s x " +
                              std::to_string(s.settings.substeps);
     return {std::move(s), speed, text};
 }
@@ -176,7 +177,8 @@ RowBeforeWall row_before_wall(Scene s, Random& random, int draw, std::uint32_t c
 TEST_P(Impacts, RowsKeepTheirEnergyAgainstAWall) {
     Random random(8);
     for (int draw = 0; draw < 24; ++draw) {
-        RowBeforeWall row = row_before_wall(free_scene(1), random, draw, 1 + random.below(8));
+        RowBeforeWall row =
+            row_before_wall(free_scene(1), sphere(0.1), random, draw, 1 + random.below(8));
         row.scene.settings.dt = std::min(row.scene.settings.dt, 0.01);
         SCOPED_TRACE(row.text);
         Simulation simulation(row.scene, colliders(), collider());
@@ -188,11 +190,14 @@ TEST_P(Impacts, RowsKeepTheirEnergyAgainstAWall) {
     }
 }
 
-/// With e = 0 nothing does, however long the row.
+/// With e = 0 nothing does, however long the row, and whatever its friction.
 TEST_P(Impacts, WithoutRestitutionRowsStayAtAWall) {
     Random random(9);
-    for (int draw = 0; draw < 18; ++draw) {
-        const RowBeforeWall row = row_before_wall(free_scene(0), random, draw, 8 + random.below(6));
+    for (int draw = 0; draw < 36; ++draw) {
+        Scene empty = free_scene(0);
+        if (draw % 3 != 0) empty.materials[0].friction = random.number(0.1, 1);
+        const Geometry shape = draw % 4 < 2 ? sphere(0.1) : box(0.1, 0.1, 0.1);
+        const RowBeforeWall row = row_before_wall(empty, shape, random, draw, 3 + random.below(18));
         SCOPED_TRACE(row.text);
         Simulation simulation(row.scene, colliders(), collider());
         run_for(simulation, 0.5);

@@ -2,6 +2,7 @@
 /// Random boxes against an independent separating-axis answer, and the points of boxes at rest.
 #include "harness.h"
 
+#include <array>
 #include <random>
 
 namespace plumb::test {
@@ -96,6 +97,32 @@ TEST_P(BoxBox, AgreesWithSeparatingAxes) {
     EXPECT_LE(wrong_depths, 10) << "depths off by more than 0.1 mm, of 1000";
     EXPECT_LE(wrong_normals, compared / 200)
         << "normals off by more than a degree, of " << compared;
+}
+
+/// Boxes side by side, whose edges are parallel but for rounding: products of these are noise, in
+/// which an axis may seem to part them.
+TEST_P(BoxBox, FindsBoxesSideBySide) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::box, ShapeKind::box, kPairManifold);
+    Boxes random(17);
+    World world(GetParam());
+    for (int i = 0; i < 600; ++i) {
+        const V ha = random.any_half(), hb = i % 3 == 0 ? ha : random.any_half();
+        const Q turn = random.any_turn();
+        const double tilt = std::pow(10, -8 - i % 10);
+        const Q tilted(Eigen::AngleAxisd(i % 2 == 0 ? 0 : tilt, random.any_way()));
+        const double gap = std::array{-0.03, -0.011, -0.002, 0.0, 0.004}[i % 5];
+        const double aside = i % 4 == 0 ? 0 : 0.2;
+        const Place b{V(1, 2, 3), turn};
+        const Place a{b.x + turn * V(ha.x() + hb.x() + gap, aside, -aside), turn * tilted};
+        ASSERT_EQ(world.add(1, box(ha.x(), ha.y(), ha.z()), a).code, Status::ok);
+        ASSERT_EQ(world.add(2, box(hb.x(), hb.y(), hb.z()), b).code, Status::ok);
+        const auto& contacts = world.detect(0.01);
+        ASSERT_FALSE(contacts.empty()) << "pair " << i << " was missed, gap " << gap;
+        EXPECT_NEAR(deepest(contacts).gap, gap, 1e-4) << "pair " << i;
+        EXPECT_GT(v(deepest(contacts).normal).dot(turn * V::UnitX()), 1 - 1e-6) << "pair " << i;
+        world.collider().remove(1);
+        world.collider().remove(2);
+    }
 }
 
 /// How far a point lies outside of a box [m].
