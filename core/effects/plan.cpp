@@ -135,8 +135,8 @@ Wish joint_trees(const World& w) {
     const JointForest forest = find_forest(w);
     const std::size_t iterated = w.joints.size() - forest.edges - forest.loops;
     const std::string left_out =
-        "bodies that hang together are iterated where more than one joint in ten closes a loop, a "
-        "coupling ties two joints, or they are a ragdoll without motors";
+        "bodies that hang together are iterated where more than one joint in ten closes a loop, "
+        "there is more than one coupling to five joints, or they are a ragdoll without motors";
     return counted(
         forest.edges,
         "joints form trees, " + std::to_string(forest.loops) + " close loops" +

@@ -40,8 +40,8 @@ private:
 
 /// What speaks for and against solving an island as a tree.
 struct Census {
-    std::uint32_t bodies = 0, joints = 0;
-    bool held = false, coupled = false, driven = false, has_motors = false;
+    std::uint32_t bodies = 0, joints = 0, couplings = 0;
+    bool held = false, driven = false, has_motors = false;
 
     bool has_many_loops() const {
         const std::uint32_t edges = bodies - (held ? 0 : 1);
@@ -52,7 +52,11 @@ struct Census {
     bool is_passive_ragdoll() const {
         return !held && driven && !has_motors && bodies <= kMostOfARagdoll;
     }
-    bool suits_trees() const { return !coupled && !has_many_loops() && !is_passive_ragdoll(); }
+    /// Couplings are iterated beside a tree. A gripper on an arm has one, of gears all are coupled.
+    bool is_mostly_coupled() const { return 5 * couplings > joints; }
+    bool suits_trees() const {
+        return !is_mostly_coupled() && !has_many_loops() && !is_passive_ragdoll();
+    }
 
     static constexpr std::uint32_t kMostOfARagdoll = 32;
 };
@@ -70,9 +74,11 @@ std::vector<Census> take_census(const World& world, const std::vector<BodyPair>&
         Census& c = census[islands.of(joints[d.joint])];
         c.driven = true, c.has_motors |= d.kind == DriveKind::motor;
     }
-    for (const JointCoupling& c : world.joints.couplings)
-        for (const std::uint32_t joint : {c.joint_a, c.joint_b})
-            census[islands.of(joints[joint])].coupled = true;
+    for (const JointCoupling& c : world.joints.couplings) {
+        const std::int32_t a = islands.of(joints[c.joint_a]), b = islands.of(joints[c.joint_b]);
+        ++census[a].couplings;
+        if (b != a) ++census[b].couplings;
+    }
     return census;
 }
 

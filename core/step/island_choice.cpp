@@ -349,7 +349,8 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     const std::size_t jammed_before = jammed_.size();
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
-    if ((upset_.empty() || is_loose) && (n <= kVerySmall || is_calm(world, island, pairs))) {
+    if ((upset_.empty() || is_loose) &&
+        (n <= (is_tied ? kSmallAndTied : kVerySmall) || is_calm(world, island, pairs))) {
         if (upset_.empty()) return IslandWay::exact;
         jammed_.resize(jammed_before);
         return IslandWay::swept;

@@ -37,6 +37,8 @@ enum class IslandWay : std::uint8_t { exact, swept, left };
 
 /// Islands of so many bodies are solved exactly however they move.
 inline constexpr std::uint32_t kVerySmall = 8;
+/// So many that joints hold together, too: sweeps open the joints of what lands on its feet.
+inline constexpr std::uint32_t kSmallAndTied = 64;
 
 class IslandChoice {
 public:

@@ -36,8 +36,8 @@ constexpr double kLever = 100;
 constexpr int kCloses = 8, kMostCloses = 40;
 constexpr double kClosing = 0.8;
 
-/// An island whose joints stay open by so many tolerances is given up for this long [s], twice as
-/// long with each time that it fails again.
+/// An island whose joints stay open by so many tolerances is tried once more; then it is given up
+/// for twice this long [s], and about twice as long with each time that it fails again.
 constexpr double kAjar = 100, kRest = 0.1;
 constexpr std::uint32_t kMostMisses = 8;
 
@@ -585,6 +585,15 @@ void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
         shift[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift[i] - island.velocity[i]);
 }
 
+/// What motors and springs give to velocities that go from `start` to `end` [J].
+double IslandGroup::work_of_drives(std::span<const IslandRow> rows, std::span<const Vector6d> start,
+                                   std::span<const Vector6d> end) {
+    double work = 0;
+    for (const IslandRow& row : rows)
+        if (row.drive) work += row.impulse * 0.5 * (rate_of(row, start) + rate_of(row, end));
+    return work;
+}
+
 /// Returns whether it is solved.
 bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort effort) {
     const IslandReport report =
@@ -600,7 +609,8 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     const Island island = island_of(m);
     const auto gains = [&](double share = 0) {
         return !(kinetic_energy(island.bodies, island.velocity) <=
-                 (1 + share) * kinetic_energy(island.bodies, starts_of(m)));
+                 (1 + share) * kinetic_energy(island.bodies, starts_of(m)) +
+                     std::max(0.0, work_of_drives(island.rows, starts_of(m), island.velocity)));
     };
     const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
     if (m.splits) {
@@ -630,7 +640,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         const double before = m.open;
         m.solved = solve_system(solver, m, m.effort);
         ask();
-        if (!(m.open > tolerance) || (!m.solved && i > 0)) break;
+        if (!(m.open > tolerance) || (!m.solved && i > 0 && !(m.open <= 0.5 * before))) break;
         if (i >= kCloses && !(m.open <= kClosing * before)) break;
     }
     if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
@@ -703,7 +713,7 @@ void IslandGroup::rest_ties(World& world) {
             some_rest_ |= rest.misses > 0;
             if (rest.misses > 0)
                 rest.steps = static_cast<std::uint32_t>(
-                    std::ceil(kRest * std::exp2(rest.misses) / world.settings.dt));
+                    std::ceil(kRest * (std::exp2(rest.misses) - 2) / world.settings.dt));
         });
 }
 

@@ -107,6 +107,8 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
+    static double work_of_drives(std::span<const IslandRow> rows, std::span<const Vector6d> start,
+                                 std::span<const Vector6d> end);
     bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;
     bool is_pulled_apart(const World& world, const Member& member);

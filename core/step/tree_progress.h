@@ -50,6 +50,9 @@ public:
     bool leaves_any_out() const {
         return std::find(left_out_.begin(), left_out_.end(), 1) != left_out_.end();
     }
+    bool leaves_all_out() const {
+        return std::find(left_out_.begin(), left_out_.end(), 0) == left_out_.end();
+    }
     bool is_left_out(std::uint32_t node) const { return left_out_[tree_[node]] != 0; }
 
     /// Returns whether any tree is to be solved.

@@ -157,6 +157,7 @@ void TreeSolver<W>::give(const BodyRows<Real>& rows) {
 template <int W>
 template <class Real>
 void TreeSolver<W>::solve(const BodyRows<Real>& rows, bool alone) {
+    if (progress_.leaves_all_out()) return open_.clear();
     if (!alone) take(rows);
     solve();
     give(rows);

@@ -35,6 +35,7 @@ public:
     /// Arms, gaps, masses and velocities at the start of a substep of length h [s]. Newton's steps
     /// start where joints that hang by something undo gravity: most of what hangs is near its rest.
     void begin(const World& world, const SubstepTime& time) {
+        if (progress_.leaves_all_out()) return;
         h_ = time.h, fresh_ = true;
         const Vector3d lift = -h_ * world.settings.gravity;
         kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h_,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Gears, racks and what else ties two joints' coordinates, against formulas. 1/60 s × 20 substeps
 /// × 1 iteration unless a test says otherwise.
+#include "support/random.h"
 #include "support/scenes.h"
 
 #include <algorithm>
@@ -133,6 +134,54 @@ TEST_P(Couplings, ACouplingThatLimitsHoldBackStaysCalm) {
         ASSERT_TRUE(simulation.step().finite);
         ASSERT_NEAR(joint_position(simulation, 1, kTurnX), 1, 1e-3);
         ASSERT_NEAR(joint_position(simulation, 0, kTurnX), 0, 1e-3);
+    }
+}
+
+/// An arm of six links with two fingers, of which one follows the other: held out by its motors it
+/// keeps its joints closed and comes to rest at any step. It is a tree but for the coupling.
+TEST_P(Couplings, AnArmWithAGripperIsHeldOut) {
+    Random random(31);
+    for (int draw = 0; draw < 8; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        if (draw > 0) s.settings.dt = random.number(0.002, 0.0167);
+        if (draw > 0) s.settings.substeps = 1 + random.below(10);
+        SCOPED_TRACE(testing::Message() << s.settings.dt << " s x " << s.settings.substeps);
+        const auto hold = [](JointSpec& joint, std::uint32_t axis, double greatest) {
+            joint.axes[axis].motor.mode = MotorMode::position;
+            joint.axes[axis].motor.greatest = greatest;
+            joint.axes[axis].motor.frequency = 60;
+            joint.axes[axis].damping = 100;
+        };
+        for (std::uint32_t i = 0; i < 6; ++i) {
+            add_body(s, box(0.1, 0.04, 0.04), {0.1 + 0.2 * i, 0, 0}).mass = 3;
+            JointSpec& hinge =
+                add_joint(s, JointKind::hinge, i, i == 0 ? kNoIndex : i - 1, {0.2 * i, 0, 0});
+            hinge.frame = Rotation::FromTwoVectors(Vector::UnitX(), Vector::UnitZ());
+            hold(hinge, kTurnX, 300);
+        }
+        for (const double side : {-1.0, 1.0}) {
+            add_body(s, box(0.05, 0.01, 0.01), {1.25, 0, 0.03 * side}).mass = 0.1;
+            JointSpec& slider =
+                add_joint(s, JointKind::slider, static_cast<std::uint32_t>(s.bodies.size()) - 1, 5,
+                          {1.2, 0, 0.03 * side});
+            slider.frame = Rotation::FromTwoVectors(Vector::UnitX(), side * Vector::UnitZ());
+            if (side < 0) hold(slider, kAlongX, 20);
+        }
+        CouplingSpec mimic;
+        mimic.joint_a = 6, mimic.joint_b = 7, mimic.axis_a = mimic.axis_b = kAlongX;
+        s.couplings.push_back(mimic);
+        Simulation simulation(s, colliders(), "reference");
+        double worst = 0;
+        while (simulation.time() < 3) {
+            simulation.step();
+            for (const double error : joint_errors(simulation.world()))
+                worst = std::max(worst, error);
+        }
+        EXPECT_LE(worst, 1e-5);
+        EXPECT_LE(fastest_point(simulation.world()), 2e-3);
+        EXPECT_NEAR(joint_position(simulation, 6, kAlongX), joint_position(simulation, 7, kAlongX),
+                    1e-5);
     }
 }
 

@@ -255,27 +255,32 @@ TEST(JointTreesPlan, FiguresWithoutMotorsAreIterated) {
     EXPECT_EQ(edges(), 2u) << "it is held";
 }
 
+/// One coupling to five joints and more is iterated beside their tree.
 TEST(JointTreesPlan, ACouplingConcernsTheBodiesThatHangTogetherWithIt) {
-    Scene s = mobile(3, Precision::single);
-    JointSpec hinge;
-    hinge.kind = JointKind::hinge;
-    hinge.axes[kTurnX].lower = -0.3;
-    for (const std::uint32_t body : {7u, 8u}) {
-        add_body(s, box(0.1, 0.2, 0.3), {50.0 + body, 0, 0});
-        hinge.body_a = body, hinge.anchor = {50.0 + body, 1, 0};
-        s.joints.push_back(hinge);
+    for (const int levels : {2, 3}) {
+        const std::uint32_t rods = (1u << levels) - 1;
+        Scene s = mobile(levels, Precision::single);
+        JointSpec hinge;
+        hinge.kind = JointKind::hinge;
+        hinge.axes[kTurnX].lower = -0.3;
+        for (const std::uint32_t body : {rods, rods + 1}) {
+            add_body(s, box(0.1, 0.2, 0.3), {50.0 + body, 0, 0});
+            hinge.body_a = body, hinge.anchor = {50.0 + body, 1, 0};
+            s.joints.push_back(hinge);
+        }
+        EXPECT_EQ(find_forest(build_world(s)).edges, rods + 2)
+            << "what drives a joint is part of its tree";
+        CouplingSpec gear;
+        gear.joint_a = rods, gear.joint_b = rods + 1;
+        s.couplings.push_back(gear);
+        const JointForest apart = find_forest(build_world(s));
+        EXPECT_EQ(apart.edges, rods);
+        EXPECT_EQ(apart.in_tree[rods], 0);
+        s.joints[rods].body_b = rods - 1;  // now they hang together
+        EXPECT_EQ(find_forest(build_world(s)).edges, rods + 1 >= 5 ? rods + 1 : 0);
+        s.settings.joints = JointMethod::tree;
+        EXPECT_EQ(find_forest(build_world(s)).edges, rods + 2);
     }
-    EXPECT_EQ(find_forest(build_world(s)).edges, 9u) << "what drives a joint is part of its tree";
-    CouplingSpec gear;
-    gear.joint_a = 7, gear.joint_b = 8;
-    s.couplings.push_back(gear);
-    const JointForest apart = find_forest(build_world(s));
-    EXPECT_EQ(apart.edges, 7u);
-    EXPECT_EQ(apart.in_tree[7], 0);
-    s.joints[7].body_b = 6;  // now they hang together
-    EXPECT_EQ(find_forest(build_world(s)).edges, 0u);
-    s.settings.joints = JointMethod::tree;
-    EXPECT_EQ(find_forest(build_world(s)).edges, 9u);
 }
 
 }  // namespace

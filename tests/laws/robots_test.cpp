@@ -2,7 +2,11 @@
 /// A robot from a URDF file: its bodies are where its masses are, its motors hold it up, and
 /// without them its joints keep together as it falls.
 #include "reader/urdf.h"
+#include "step/joint_state.h"
+#include "support/random.h"
 #include "support/scenes.h"
+
+#include <algorithm>
 
 namespace plumb::test {
 namespace {
@@ -73,5 +77,67 @@ TEST_P(RobotLaws, WeakMotorsLetItDown) {
     EXPECT_LE(worst_joint(simulation), 1e-3);
 }
 
+/// Dropped onto its feet from drawn heights, at drawn settings: its joints keep together while it
+/// lands, and it comes to stand.
+TEST_P(RobotLaws, JointsHoldAsItLandsOnItsFeet) {
+    Random random(21);
+    for (int draw = 0; draw < 8; ++draw) {
+        UrdfOptions options = standing();
+        options.placement.position.y() = random.number(0.02, 0.4);
+        Scene s = read_urdf(kQuadruped, options);
+        s.settings.precision = std::get<1>(GetParam());
+        if (draw > 0) s.settings.dt = random.number(0.002, 0.01);
+        if (draw > 0) s.settings.substeps = 1 + random.below(4);
+        SCOPED_TRACE(testing::Message() << "from " << options.placement.position.y() << " m, "
+                                        << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        double worst = 0;
+        while (simulation.time() < 2.5) {
+            simulation.step();
+            worst = std::max(worst, worst_joint(simulation));
+        }
+        EXPECT_LE(worst, 1e-4);
+        EXPECT_LE(worst_joint(simulation), 1e-5);
+        EXPECT_LE(fastest_point(simulation.world()), 1e-3);
+    }
+}
+
+/// The coordinates of its joints [rad], [m].
+std::vector<double> coordinates(const World& world) {
+    std::vector<double> q;
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i)
+        for (std::uint32_t axis = 0; axis < kJointAxes; ++axis)
+            if (!world.joints.joints[i].locked[axis])
+                q.push_back(joint_coordinate(world, i, axis).value);
+    return q;
+}
+
+/// Legs that swing from a trunk which is held on its side, as a file for itself is read: of second
+/// order in the step where no limit is reached and nothing rubs.
+TEST_P(RobotLaws, SwingingLegsConvergeBySecondOrder) {
+    UrdfOptions options = standing();
+    options.hold = options.self_collision = false;
+    options.base = RobotBase::fixed;
+    Scene s = read_urdf(kQuadruped, options);
+    s.settings.precision = std::get<1>(GetParam());
+    s.settings.gravity = {0, 0, -9.81};
+    for (JointSpec& joint : s.joints) joint.axes[kTurnX] = {};
+    const auto swung = [&](double dt) {
+        s.settings.dt = dt;
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 0.3);
+        return coordinates(simulation.world());
+    };
+    const std::vector<double> fine = swung(0.0005);
+    const auto error = [&](const std::vector<double>& q) {
+        double worst = 0;
+        for (std::size_t i = 0; i < q.size(); ++i)
+            worst = std::max(worst, std::abs(q[i] - fine[i]));
+        return worst;
+    };
+    const double at_5_ms = error(swung(0.005)), at_10_ms = error(swung(0.01));
+    EXPECT_LE(at_5_ms, 1e-3);
+    EXPECT_GE(at_10_ms, 3 * at_5_ms);
+}
 }  // namespace
 }  // namespace plumb::test
