@@ -64,7 +64,7 @@ Status Collider::detect_all(const DetectRequest& request, const ContactSink* sin
     if (request.filter) candidates_.apply(*request.filter, pairs_);
     if (!(request.flags & kDetectRaw) && !sees_far_balls())
         leave_out_far_balls(pairs_, table_.parts());
-    place_parts();
+    place_parts(pairs_.data(), pairs_.size());
     queries_.forget();
     run_blocks(request,
                request.runner ? std::min({threads_, request.runner->workers, sink_count}) : 1);

@@ -50,8 +50,17 @@ protected:
     /// Called only when some part has left its fat bounds.
     virtual void find_pairs(std::vector<PartPair>& pairs) = 0;
 
-    /// Called once a detection, when all parts have their world frames, before the blocks.
-    virtual void place_parts() {}
+    /// Called before blocks of these pairs, whose parts have their world frames: brings what the
+    /// plugin hangs on them there.
+    virtual void place_parts(const PartPair* pairs, std::size_t count) { (void)pairs, (void)count; }
+    /// Calls place(part) for the parts of pairs, each once.
+    template <class Place>
+    void each_part(const PartPair* pairs, std::size_t count, Place place) {
+        is_placed_.assign(table_.parts().size(), 0);
+        for (std::size_t k = 0; k < count; ++k)
+            for (const std::uint32_t i : {pairs[k].first, pairs[k].second})
+                if (!is_placed_[i]) is_placed_[i] = 1, place(table_.parts()[i]);
+    }
 
     /// Whether the narrow phase sees even balls that a closed form tells to be far: where it shall
     /// share nothing with the others.
@@ -90,8 +99,9 @@ private:
     Candidates candidates_;
     Queries queries_{table_};
     std::vector<PartPair> pairs_;
-    std::vector<Block> blocks_;  ///< [worker]
-    ContactList meeting_;        ///< of one pair of parts that meet, for `closest`
+    std::vector<std::uint8_t> is_placed_;  ///< [part]
+    std::vector<Block> blocks_;            ///< [worker]
+    ContactList meeting_;                  ///< of one pair of parts that meet, for `closest`
     DetectStats stats_{};
 };
 
