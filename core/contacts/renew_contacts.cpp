@@ -2,7 +2,6 @@
 #include "contacts/renew_contacts.h"
 
 #include "contacts/contact_pairs.h"
-#include "contacts/pair_poses.h"
 #include "contacts/reuse_contacts.h"
 
 #include <algorithm>
@@ -15,10 +14,12 @@ class Renewal {
 public:
     explicit Renewal(ContactTable& table) : table_(table), kept_(table.kept) {
         kept_.stays.clear(), kept_.comes.clear();
+        table_.pairs.clear();
         kept_.reused = 0;
     }
 
     void stay(const KeptPair& pair) {
+        if (pair.count > 0) table_.pairs.push_back({pair.a, pair.b, new_, pair.count});
         add(kept_.stays, pair.first, pair.count);
         kept_.reused += pair.count;
     }
@@ -28,6 +29,8 @@ public:
     template <class IsNext>
     std::uint32_t come(IsNext is_next) {
         const std::uint32_t first = fresh_, count = skip(is_next);
+        for (std::uint32_t i = 0; i < count; ++i)
+            table_.add_to_pairs(table_.fresh.found[first + i], new_ + i);
         add(kept_.comes, first, count);
         return count;
     }
@@ -85,17 +88,6 @@ void replace(std::vector<Row>& column, const std::vector<Row>& fresh, const Kept
         std::copy_n(fresh.begin() + m.from, m.count, column.begin() + m.to);
 }
 
-/// Calls visit(contact, poses of its bodies) for the contacts of moves, at their new places.
-template <class Visit>
-void each_moved(const World& world, const std::vector<ContactMove>& moves, Visit visit) {
-    const std::vector<Contact>& found = world.contacts.found;
-    for (const ContactMove& m : moves)
-        each_pair(found, m.to, m.to + m.count, [&](std::size_t first, std::size_t end) {
-            const PairPoses poses(world.bodies, found[first].a, found[first].b);
-            for (std::size_t i = first; i < end; ++i) visit(i, poses);
-        });
-}
-
 }  // namespace
 
 std::uint32_t find_moves(World& world) {
@@ -132,13 +124,6 @@ void put_in(World& world) {
     replace(table.found, table.fresh.found, kept, size);
     replace(table.memory, table.fresh.memory, kept, size);
     make_room(kept.rides, kept, kept.pairs.empty() && kept.stays.empty() ? 0 : size);
-    each_moved(world, kept.stays, [&](std::size_t i, const PairPoses& poses) {
-        poses.put_into_world(table.found[i], kept.rides[i]);
-    });
-    if (kept.pairs.empty()) return kept.rides.clear();
-    each_moved(world, kept.comes, [&](std::size_t i, const PairPoses& poses) {
-        kept.rides[i] = poses.put_into_bodies(table.found[i]);
-    });
 }
 
 }  // namespace plumb
