@@ -23,6 +23,8 @@
 #include "step/velocity_table.h"
 #include "world/world.h"
 
+#include <algorithm>
+#include <array>
 #include <tuple>
 #include <vector>
 
@@ -53,8 +55,7 @@ public:
         levels_ = levels;
         find_pairs(world, levels, pairs_);
         if (exact) exact->load(world, pairs_);
-        colouring_.colour(pairs_, world.moving_count());
-        batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
+        lay_out(world);
         trusted_.resize(pairs_.size());
         const double fall = fall_in_step(world.settings);
         const double where_free = world.joints.size() == 0 ? kTrusted : kOutOfReach;
@@ -347,6 +348,22 @@ private:
         });
     }
 
+    /// Gives the pairs their places among the rows: those that they have where the same bodies
+    /// touch in as many points as in the step before.
+    void lay_out(const World& world) {
+        const auto is_alike = [](const BodyPair& x, const BodyPair& y) {
+            return rows_of(x) == rows_of(y) && x.count == y.count && x.level == y.level;
+        };
+        const std::array<std::int32_t, 2> rows{world.moving_count(), world.zero_row()};
+        if (rows == laid_out_rows_ &&
+            std::equal(pairs_.begin(), pairs_.end(), laid_out_.begin(), laid_out_.end(), is_alike))
+            return batches_.clear_rows();
+        laid_out_.reserve(pairs_.capacity());
+        laid_out_ = pairs_, laid_out_rows_ = rows;
+        colouring_.colour(pairs_, world.moving_count());
+        batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
+    }
+
     /// Fills the rows of all pairs by fill(pair), their masses, and what follows from both.
     template <class Fill>
     void fill_rows(const World& world, Fill fill) {
@@ -451,7 +468,8 @@ private:
                          // forbidden
     const ContactKernels<Real, W>& kernels_;
     Workers& workers_;
-    std::vector<BodyPair> pairs_;
+    std::vector<BodyPair> pairs_, laid_out_;
+    std::array<std::int32_t, 2> laid_out_rows_{-1, -1};  // that change, and the one of zeros
     Colouring colouring_;
     ContactBatches<Real, W> batches_;
     MassTable<Real> masses_;
