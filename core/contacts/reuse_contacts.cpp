@@ -21,6 +21,10 @@ constexpr double kStill = 1e-4;
 /// are less than the rest.
 constexpr double kSure = 0.99;
 
+/// So many pairs ahead the memory of their poses is asked for: only some are looked at, and the
+/// processor does not foresee which.
+constexpr std::ptrdiff_t kAhead = 8;
+
 /// The smaller body of a pair, whose points are watched in the frame of the other.
 struct Watched {
     std::uint32_t small, large;
@@ -76,6 +80,7 @@ public:
         }
         KeptPair& pair = pairs[read_];
         PairPose& pose = kept_.poses[read_];
+        __builtin_prefetch(&pose + kAhead), __builtin_prefetch(&(&pose + kAhead)->turn);
         pair.first = contact_;
         contact_ += pair.count;
         if (is_kept(pair, pose, margin))
