@@ -80,6 +80,17 @@ Status Collider::cast_rays(const RayRequest* rays, RayHit* hits, std::uint32_t c
     return guarded([&] { return queries_.cast_rays(rays, hits, count); });
 }
 
+void Collider::list_parts(const PartPair* pairs, std::size_t count) {
+    named_.clear(), named_.reserve(table_.parts().size());
+    is_named_.assign(table_.parts().size(), 0);
+    for (std::size_t k = 0; k < count; ++k)
+        for (const std::uint32_t i : {pairs[k].first, pairs[k].second}) {
+            if (is_named_[i]) continue;
+            is_named_[i] = 1;
+            named_.push_back(&table_.parts()[i]);
+        }
+}
+
 void Collider::run_blocks(const DetectRequest& request, std::uint32_t count) {
     // Equal shares, moved on to where the next pair of bodies begins.
     const auto begins = [this](std::size_t i) {
