@@ -47,7 +47,7 @@ Vector3d bend_of_turntable(const World& world, std::size_t contact, double h) {
 }
 
 /// Whether what moves of a contact touches nothing but what is fixed.
-bool is_on_ground(const Bodies& b, const GroundTouch& ground, const Contact& c) {
+bool is_on_ground(const Bodies& b, const GroundTouch& ground, const ContactPair& c) {
     return ground.is_alone(b.motion[c.a] == Motion::dynamic ? c.a : c.b);
 }
 
@@ -61,16 +61,16 @@ void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, dou
     }
     const bool rims = plan.runs(Effect::rims);
     c.bend.resize(c.found.size());
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const Contact& found = c.found[i];
-        const bool rides = is_on_ground(world.bodies, ground, found) ||
-                           is_turntable(world.bodies, found.a) ||
-                           is_turntable(world.bodies, found.b);
-        const bool carried = rides && c.memory[i].matched && c.memory[i].normal_impulse > 0;
-        if (rims && c.rims[i].rim.radius > 0)
-            c.bend[i] = bend_at_rim(world, i, h) + bend_of_turntable(world, i, h);
-        else
-            c.bend[i] = carried ? bend_of_material(world, i, h) : Vector3d(Vector3d::Zero());
+    for (const ContactPair& pair : c.pairs) {
+        const bool rides = is_on_ground(world.bodies, ground, pair) ||
+                           is_turntable(world.bodies, pair.a) || is_turntable(world.bodies, pair.b);
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+            const bool carried = rides && c.memory[i].matched && c.memory[i].normal_impulse > 0;
+            if (rims && c.rims[i].rim.radius > 0)
+                c.bend[i] = bend_at_rim(world, i, h) + bend_of_turntable(world, i, h);
+            else
+                c.bend[i] = carried ? bend_of_material(world, i, h) : Vector3d(Vector3d::Zero());
+        }
     }
 }
 

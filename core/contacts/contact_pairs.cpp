@@ -8,15 +8,9 @@ namespace plumb {
 void find_pairs(const World& world, const std::vector<std::uint32_t>* levels,
                 std::vector<BodyPair>& pairs) {
     pairs.clear();
-    const std::vector<Contact>& found = world.contacts.found;
-    each_pair(found, 0, found.size(), [&](std::size_t first, std::size_t end) {
-        const Contact& c = found[first];
-        BodyPair pair{world.bodies.row[c.a], world.bodies.row[c.b],
-                      static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first),
-                      0};
-        if (levels) pair.level = std::max((*levels)[c.a], (*levels)[c.b]);
-        pairs.push_back(pair);
-    });
+    for (const ContactPair& p : world.contacts.pairs)
+        pairs.push_back({world.bodies.row[p.a], world.bodies.row[p.b], p.first, p.count,
+                         levels ? std::max((*levels)[p.a], (*levels)[p.b]) : 0});
 }
 
 void find_levels(const World& world, std::vector<std::uint32_t>& levels) {
@@ -28,8 +22,8 @@ void find_levels(const World& world, std::vector<std::uint32_t>& levels) {
 
     // contacts relax the levels until none falls: few rounds, since a round runs forwards and
     // backwards
-    const std::vector<Contact>& found = world.contacts.found;
-    auto relax = [&](const Contact& c) {
+    const std::vector<ContactPair>& pairs = world.contacts.pairs;
+    auto relax = [&](const ContactPair& c) {
         const std::uint32_t via = std::min(levels[c.a], levels[c.b]) + 1;
         const bool falls = via < levels[c.a] || via < levels[c.b];
         levels[c.a] = std::min(levels[c.a], via);
@@ -38,8 +32,8 @@ void find_levels(const World& world, std::vector<std::uint32_t>& levels) {
     };
     for (bool changed = true; changed;) {
         changed = false;
-        for (const Contact& c : found) changed |= relax(c);
-        for (auto c = found.rbegin(); c != found.rend(); ++c) changed |= relax(*c);
+        for (const ContactPair& c : pairs) changed |= relax(c);
+        for (auto c = pairs.rbegin(); c != pairs.rend(); ++c) changed |= relax(*c);
     }
     std::uint32_t highest = 0;
     for (std::uint32_t level : levels)

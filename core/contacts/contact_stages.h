@@ -7,7 +7,6 @@
 #pragma once
 
 #include "contacts/contact_room.h"
-#include "contacts/pose_change.h"
 #include "contacts/reuse_contacts.h"
 #include "effects/ledger.h"
 #include "effects/plan.h"
@@ -23,13 +22,11 @@ namespace plumb {
 
 /// Reused memory of detection.
 struct DetectBuffers {
-    std::vector<double> travels;       ///< [body] how far a point of it may come in the step [m]
-    std::vector<double> sweeps;        ///< [body] of that, what the margin does not cover [m]
-    std::vector<PoseChange> changes;   ///< [body] since the detection before
-    std::vector<Roundness> roundness;  ///< [body]
-    std::vector<ContactRoom> rooms;    ///< [worker], behind the sinks
-    std::vector<ContactSink> sinks;    ///< [worker]
-    std::vector<Vec3> places;          ///< of particles
+    std::vector<BodyMotion> motions;  ///< [body]
+    std::vector<double> sweeps;       ///< [body] BodyMotion::sweep, as colliders take it [m]
+    std::vector<ContactRoom> rooms;   ///< [worker], behind the sinks
+    std::vector<ContactSink> sinks;   ///< [worker]
+    std::vector<Vec3> places;         ///< of particles
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far

@@ -37,23 +37,22 @@ bool before(const Contact& x, const Contact& y) {
     return x.feature < y.feature;
 }
 
-/// Poses, sweeps and roundness of all bodies, and empty sinks.
+/// Poses and motions of all bodies, and empty sinks.
 void prepare_request(World& world, DetectBuffers& buffers, double dt) {
     const Bodies& bodies = world.bodies;
     std::vector<Pose>& poses = world.contacts.kept.seen;
     const std::size_t known = poses.size();
     poses.resize(bodies.size());
-    buffers.travels.resize(bodies.size());
+    buffers.motions.resize(bodies.size());
     buffers.sweeps.resize(bodies.size());
-    buffers.changes.resize(bodies.size());
-    buffers.roundness.resize(bodies.size());
     for (std::uint32_t i = 0; i < bodies.size(); ++i) {
         const Pose pose{to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
-        buffers.changes[i] = i < known ? PoseChange::between(poses[i], pose) : PoseChange();
+        const PoseChange change = i < known ? PoseChange::between(poses[i], pose) : PoseChange();
         poses[i] = pose;
-        buffers.travels[i] = travel_in(world, i, dt);
-        buffers.sweeps[i] = std::max(0.0, buffers.travels[i] - world.settings.margin / 2);
-        buffers.roundness[i] = {is_round(world, i), has_rim(world, i)};
+        const double travel = travel_in(world, i, dt);
+        buffers.sweeps[i] = std::max(0.0, travel - world.settings.margin / 2);
+        buffers.motions[i] = {travel, buffers.sweeps[i], change, is_round(world, i),
+                              has_rim(world, i)};
     }
     buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
     buffers.sinks.clear();
@@ -119,8 +118,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
     }
     const bool reuse = plan.runs(Effect::contact_reuse);
     const TaskRunner runner = runner_on(workers);
-    ReuseContext context{&world, &buffers.travels, &buffers.sweeps, &buffers.changes,
-                         &buffers.roundness};
+    ReuseContext context{&world, &buffers.motions};
     PairFilter filter{};
     if (reuse) filter = reuse_filter(context);
     const DetectRequest request{world.contacts.kept.seen.data(),

@@ -3,8 +3,8 @@
 /// with them the gap and the common point at which the contact acts. Only a point of now keeps
 /// angular momentum: arms of the step's beginning would turn the bodies about where they have been.
 #include "contacts/anchors.h"
-#include "contacts/contact_pairs.h"
 #include "contacts/contact_stages.h"
+#include "contacts/pair_poses.h"
 #include "contacts/rims.h"
 
 #include <algorithm>
@@ -78,16 +78,16 @@ void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) 
 void measure_anchor_slips(World& world) {
     ContactTable& c = world.contacts;
     c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
-    each_pair(c.found, 0, c.found.size(), [&](std::size_t first, std::size_t end) {
-        const auto at = c.found.begin();
-        if (std::none_of(at + first, at + end, is_sharp)) return;
-        const PairPoses poses(world.bodies, at[first].a, at[first].b);
-        for (std::size_t i = first; i < end; ++i) {
+    for (const ContactPair& pair : c.pairs) {
+        const auto first = c.found.begin() + pair.first;
+        if (std::none_of(first, first + pair.count, is_sharp)) continue;
+        const PairPoses poses(world.bodies, pair.a, pair.b);
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
             if (!is_sharp(c.found[i])) continue;
             if (!c.rims.empty()) let_go_of_what_rolled(world, poses, i);
             c.anchor_slip[i] = anchor_slip_of(poses, c.memory[i]);
         }
-    });
+    }
 }
 
 }  // namespace

@@ -189,14 +189,20 @@ void GhostContacts::choose(World& world) {
 /// The contacts of each body of which one is judged; first those that just touch, which carry it.
 void GhostContacts::list_contacts(const World& world) {
     const std::vector<Contact>& found = world.contacts.found;
+    const std::vector<ContactPair>& pairs = world.contacts.pairs;
     const std::vector<Motion>& motion = world.bodies.motion;
     first_.assign(motion.size() + 1, 0);
-    for (const Contact& c : found) first_[c.a] += listed_[c.a], first_[c.b] += listed_[c.b];
+    for (const ContactPair& pair : pairs)
+        for (const std::uint32_t body : {pair.a, pair.b})
+            if (listed_[body]) first_[body] += pair.count;
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     contacts_.resize(first_.back());
-    for (std::size_t i = found.size(); i-- > 0;)
-        for (const std::uint32_t body : {found[i].a, found[i].b})
-            if (listed_[body]) contacts_[--first_[body]] = static_cast<std::uint32_t>(i);
+    for (const ContactPair& pair : pairs)
+        for (const std::uint32_t body : {pair.a, pair.b}) {
+            if (!listed_[body]) continue;
+            for (std::uint32_t k = 0; k < pair.count; ++k)
+                contacts_[--first_[body]] = pair.first + k;
+        }
     for (std::size_t body = 0; body < motion.size(); ++body)
         std::sort(contacts_.begin() + first_[body], contacts_.begin() + first_[body + 1],
                   [&](std::uint32_t i, std::uint32_t k) {

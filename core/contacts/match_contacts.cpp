@@ -17,6 +17,8 @@ struct PairRun {
     std::span<const Contact> found;
     std::span<ContactMemory> memory;
 
+    PairRun(RememberedContacts& of, const ContactPair& pair)
+        : PairRun(of, pair.first, pair.first + pair.count) {}
     PairRun(RememberedContacts& of, std::size_t first, std::size_t end)
         : found(of.found.data() + first, end - first),
           memory(of.memory.data() + first, end - first) {}
@@ -86,9 +88,7 @@ std::size_t nearest_sticking(const PairRun& before, const Vector3d& point) {
 /// A contact that slid begins to stick anew where it is. One that is new, or carried nothing, takes
 /// over the slip of the nearest contact of the pair that stuck, or what the pair has crept would
 /// be forgotten with every feature that changes and every corner that lifts for a moment.
-void anchor_pair(const Bodies& bodies, const PairRun& now, const PairRun& before) {
-    if (std::none_of(now.found.begin(), now.found.end(), is_sharp)) return;
-    const PairPoses poses(bodies, now.found[0].a, now.found[0].b);
+void anchor_pair(const PairPoses& poses, const PairRun& now, const PairRun& before) {
     for (std::size_t i = 0; i < now.size(); ++i) {
         ContactMemory& m = now.memory[i];
         const Contact& contact = now.found[i];
@@ -122,34 +122,44 @@ void match_fresh(World& world, bool anchors) {
     RememberedContacts& fresh = table.fresh;
     fresh.memory.resize(fresh.found.size());
     std::size_t old = 0;
-    each_pair(fresh.found, 0, fresh.found.size(), [&](std::size_t i, std::size_t end) {
+    each_pair(fresh.found, [&](std::size_t i, std::size_t end) {
         old = skip_to(table.found, old, fresh.found[i]);
         const std::size_t first = old;
         if (old < table.found.size() && bodies_of(table.found[old]) == bodies_of(fresh.found[i]))
             old = end_of_pair(table.found, old);
         const PairRun now(fresh, i, end), before(table, first, old);
         match_pair(now, before, table.used);
-        if (anchors) anchor_pair(world.bodies, now, before);
+        if (anchors && std::any_of(now.found.begin(), now.found.end(), is_sharp))
+            anchor_pair(PairPoses(world.bodies, now.found[0].a, now.found[0].b), now, before);
     });
 }
 
-/// Contacts that stay, where one of them slid or carried nothing: with a copy of what their pair
-/// remembers, for each looks at the others of before.
-void anchor_kept(World& world) {
+/// Contacts of a pair that stay, where one of them slid or carried nothing: with a copy of what the
+/// pair remembers, for each looks at the others of before.
+void anchor_kept(ContactTable& c, const PairPoses& poses, const PairRun& now) {
+    bool any = false;
+    for (std::size_t i = 0; i < now.size(); ++i)
+        any |= is_sharp(now.found[i]) && !now.memory[i].sticks;
+    if (!any) return;
+    c.copy.found.assign(now.found.begin(), now.found.end());
+    c.copy.memory.assign(now.memory.begin(), now.memory.end());
+    anchor_pair(poses, now, PairRun(c.copy, 0, now.size()));
+}
+
+/// What stays is brought to the poses now, where it rides on; what comes rides from here.
+void ride(World& world, bool anchors) {
     ContactTable& c = world.contacts;
-    RememberedContacts& copy = c.copy;
-    const auto needs_anchors = [&](std::size_t i) {
-        return !c.memory[i].sticks && is_sharp(c.found[i]);
-    };
-    for (const ContactMove& stay : c.kept.stays)
-        each_pair(c.found, stay.to, stay.to + stay.count, [&](std::size_t i, std::size_t end) {
-            bool any = false;
-            for (std::size_t k = i; k < end; ++k) any |= needs_anchors(k);
-            if (!any) return;
-            copy.found.assign(c.found.begin() + i, c.found.begin() + end);
-            copy.memory.assign(c.memory.begin() + i, c.memory.begin() + end);
-            anchor_pair(world.bodies, PairRun(c, i, end), PairRun(copy, 0, end - i));
-        });
+    KeptContacts& kept = c.kept;
+    each_moved(world, kept.stays, [&](const ContactPair& pair, const PairPoses& poses) {
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
+            poses.put_into_world(c.found[i], kept.rides[i]);
+        if (anchors) anchor_kept(c, poses, PairRun(c, pair));
+    });
+    if (kept.pairs.empty()) return kept.rides.clear();
+    each_moved(world, kept.comes, [&](const ContactPair& pair, const PairPoses& poses) {
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
+            kept.rides[i] = poses.put_into_bodies(c.found[i]);
+    });
 }
 
 }  // namespace
@@ -158,7 +168,7 @@ void match_contacts(World& world, const Plan& plan) {
     const bool anchors = plan.runs(Effect::sticking_anchors);
     match_fresh(world, anchors);
     put_in(world);
-    if (anchors) anchor_kept(world);
+    ride(world, anchors);
 }
 
 }  // namespace plumb

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/renew_contacts.h"
 
-#include "contacts/contact_pairs.h"
-#include "contacts/pair_poses.h"
 #include "contacts/reuse_contacts.h"
 
 #include <algorithm>
@@ -15,32 +13,42 @@ class Renewal {
 public:
     explicit Renewal(ContactTable& table) : table_(table), kept_(table.kept) {
         kept_.stays.clear(), kept_.comes.clear();
+        table_.pairs.clear();
         kept_.reused = 0;
+        look();
     }
 
     void stay(const KeptPair& pair) {
+        if (pair.count > 0) table_.pairs.push_back({pair.a, pair.b, new_, pair.count});
         add(kept_.stays, pair.first, pair.count);
         kept_.reused += pair.count;
     }
 
-    /// Lets the next contacts come that were detected, as long as `is_next` says so of them.
+    /// Lets the next contacts come that were detected, of the pairs up to `last` (pair_key).
     /// Returns how many.
-    template <class IsNext>
-    std::uint32_t come(IsNext is_next) {
-        const std::uint32_t first = fresh_, count = skip(is_next);
+    std::uint32_t come(std::uint64_t last) {
+        const std::uint32_t first = fresh_, count = skip(last);
+        for (std::uint32_t i = 0; i < count; ++i)
+            table_.add_to_pairs(table_.fresh.found[first + i], new_ + i);
         add(kept_.comes, first, count);
         return count;
     }
 
     /// Leaves them out.
-    template <class IsNext>
-    std::uint32_t skip(IsNext is_next) {
+    std::uint32_t skip(std::uint64_t last) {
         const std::uint32_t first = fresh_;
-        while (fresh_ < table_.fresh.found.size() && is_next(table_.fresh.found[fresh_])) ++fresh_;
+        while (next_ <= last) ++fresh_, look();
         return fresh_ - first;
     }
 
+    static constexpr std::uint64_t kEnd = ~std::uint64_t{0};  ///< beyond the keys of all pairs
+
 private:
+    void look() {
+        const std::vector<Contact>& found = table_.fresh.found;
+        next_ = fresh_ < found.size() ? pair_key(found[fresh_].a, found[fresh_].b) : kEnd;
+    }
+
     /// In one with the move before where it goes on.
     void add(std::vector<ContactMove>& moves, std::uint32_t from, std::uint32_t count) {
         if (count == 0) return;
@@ -55,6 +63,7 @@ private:
     ContactTable& table_;
     KeptContacts& kept_;
     std::uint32_t fresh_ = 0, new_ = 0;
+    std::uint64_t next_ = kEnd;  // pair_key of the next that was detected
 };
 
 /// Moves what stays within a column that has room for all. What goes up must not run into what
@@ -85,17 +94,6 @@ void replace(std::vector<Row>& column, const std::vector<Row>& fresh, const Kept
         std::copy_n(fresh.begin() + m.from, m.count, column.begin() + m.to);
 }
 
-/// Calls visit(contact, poses of its bodies) for the contacts of moves, at their new places.
-template <class Visit>
-void each_moved(const World& world, const std::vector<ContactMove>& moves, Visit visit) {
-    const std::vector<Contact>& found = world.contacts.found;
-    for (const ContactMove& m : moves)
-        each_pair(found, m.to, m.to + m.count, [&](std::size_t first, std::size_t end) {
-            const PairPoses poses(world.bodies, found[first].a, found[first].b);
-            for (std::size_t i = first; i < end; ++i) visit(i, poses);
-        });
-}
-
 }  // namespace
 
 std::uint32_t find_moves(World& world) {
@@ -103,17 +101,16 @@ std::uint32_t find_moves(World& world) {
     Renewal renewal(table);
     std::uint32_t unasked = 0, foreign = 0;
     for (KeptPair& pair : table.kept.pairs) {
-        const auto is_earlier = [&](const Contact& c) { return bodies_of(c) < bodies_of(pair); };
-        const auto is_of_pair = [&](const Contact& c) { return bodies_of(c) == bodies_of(pair); };
-        foreign += renewal.come(is_earlier);
+        const std::uint64_t key = pair_key(pair.a, pair.b);
+        foreign += renewal.come(key - 1);
         if (pair.fresh) {
-            pair.count = renewal.come(is_of_pair);
+            pair.count = renewal.come(key);
             continue;
         }
         renewal.stay(pair);
-        unasked += renewal.skip(is_of_pair);
+        unasked += renewal.skip(key);
     }
-    foreign += renewal.come([](const Contact&) { return true; });
+    foreign += renewal.come(Renewal::kEnd - 1);
     if (foreign > 0) forget_kept_contacts(world);  // of pairs that were no candidates
     return unasked;
 }
@@ -132,13 +129,6 @@ void put_in(World& world) {
     replace(table.found, table.fresh.found, kept, size);
     replace(table.memory, table.fresh.memory, kept, size);
     make_room(kept.rides, kept, kept.pairs.empty() && kept.stays.empty() ? 0 : size);
-    each_moved(world, kept.stays, [&](std::size_t i, const PairPoses& poses) {
-        poses.put_into_world(table.found[i], kept.rides[i]);
-    });
-    if (kept.pairs.empty()) return kept.rides.clear();
-    each_moved(world, kept.comes, [&](std::size_t i, const PairPoses& poses) {
-        kept.rides[i] = poses.put_into_bodies(table.found[i]);
-    });
 }
 
 }  // namespace plumb

@@ -7,12 +7,13 @@
 /// about to go.
 #pragma once
 
+#include "contacts/pair_poses.h"
 #include "world/world.h"
 
 namespace plumb {
 
-/// Finds which contacts stay and which come. Returns how many were detected of pairs that were
-/// kept, and are left out.
+/// Finds which contacts stay and which come, and lists their pairs. Returns how many were detected
+/// of pairs that were kept, and are left out.
 std::uint32_t find_moves(World& world);
 
 /// How many contacts there will be.
@@ -20,5 +21,17 @@ std::uint32_t contacts_to_be(const KeptContacts& kept);
 
 /// Puts what was detected, with its memory, among what was kept.
 void put_in(World& world);
+
+/// Calls visit(pair, poses of its bodies) for the pairs of moves, at their new places.
+template <class Visit>
+void each_moved(const World& world, const std::vector<ContactMove>& moves, Visit visit) {
+    auto pair = world.contacts.pairs.begin();
+    for (const ContactMove& m : moves) {
+        while (pair->first < m.to) ++pair;
+        for (const std::uint32_t end = m.to + m.count;
+             pair != world.contacts.pairs.end() && pair->first < end; ++pair)
+            visit(*pair, PairPoses(world.bodies, pair->a, pair->b));
+    }
+}
 
 }  // namespace plumb

@@ -5,7 +5,6 @@
 #include "contacts/contact_pairs.h"
 
 #include <algorithm>
-#include <tuple>
 
 namespace plumb {
 namespace {
@@ -21,6 +20,10 @@ constexpr double kStill = 1e-4;
 /// Share of what is allowed up to which a bound on the motion is as good as the motion: roundings
 /// are less than the rest.
 constexpr double kSure = 0.99;
+
+/// So many pairs ahead the memory of their poses is asked for: only some are looked at, and the
+/// processor does not foresee which.
+constexpr std::ptrdiff_t kAhead = 8;
 
 /// The smaller body of a pair, whose points are watched in the frame of the other.
 struct Watched {
@@ -53,30 +56,31 @@ struct Allowed {
 class Choice {
 public:
     explicit Choice(const ReuseContext& context)
-        : context_(context),
-          world_(*context.world),
+        : world_(*context.world),
+          motions_(*context.motions),
           contacts_(world_.contacts),
-          kept_(contacts_.kept) {
+          kept_(contacts_.kept),
+          fall_(fall_in_step(world_.settings)) {
         kept_.born.clear(), kept_.born_poses.clear();
     }
 
     /// Whether the narrow phase must run on a pair. Nothing is kept of one that is out of order or
     /// of no bodies, which is a fault of the collider.
     bool is_wanted(std::uint32_t a, std::uint32_t b) {
-        if (!(a < b) || b >= context_.sweeps->size() || std::tie(a, b) <= last_) return true;
-        last_ = {a, b};
+        const std::uint64_t key = pair_key(a, b);
+        if (!(a < b) || b >= motions_.size() || key <= last_) return true;
+        last_ = key;
         std::vector<KeptPair>& pairs = kept_.pairs;
-        while (read_ < pairs.size() && bodies_of(pairs[read_]) < std::tie(a, b))
-            contact_ += pairs[read_++].count;
-        const double margin =
-            world_.settings.margin + (*context_.sweeps)[a] + (*context_.sweeps)[b];
-        if (read_ == pairs.size() || bodies_of(pairs[read_]) != std::tie(a, b)) {
+        while (read_ < pairs.size() && key_of(pairs[read_]) < key) contact_ += pairs[read_++].count;
+        const double margin = world_.settings.margin + motions_[a].sweep + motions_[b].sweep;
+        if (read_ == pairs.size() || key_of(pairs[read_]) != key) {
             kept_.born.push_back({a, b, 0, 0, true, margin, 0, 0});
             renew(kept_.born.back(), kept_.born_poses.emplace_back(), margin);
             return true;
         }
         KeptPair& pair = pairs[read_];
         PairPose& pose = kept_.poses[read_];
+        __builtin_prefetch(&pose + kAhead), __builtin_prefetch(&(&pose + kAhead)->turn);
         pair.first = contact_;
         contact_ += pair.count;
         if (is_kept(pair, pose, margin))
@@ -135,7 +139,7 @@ private:
 
     /// Adds what the bodies have moved since the detection before to the bound of a pair.
     void add_motion(KeptPair& pair) const {
-        const PoseChange &a = (*context_.changes)[pair.a], &b = (*context_.changes)[pair.b];
+        const PoseChange &a = motions_[pair.a].change, &b = motions_[pair.b].change;
         pair.moved += a.travel + b.travel + (a.turn + b.turn) * (pair.reach + pair.moved);
     }
 
@@ -152,14 +156,13 @@ private:
     /// By how much a pair may move that was farther apart than its margin [m]; 0 where it was not.
     double allowed_apart(const KeptPair& pair, double margin) const {
         if (pair.count > 0) return 0;
-        const double step = (*context_.travels)[pair.a] + (*context_.travels)[pair.b] +
-                            fall_in_step(world_.settings);
+        const double step = motions_[pair.a].travel + motions_[pair.b].travel + fall_;
         return pair.margin - std::max(margin - world_.settings.margin / 2, 2 * step);
     }
 
     Allowed allowed(const KeptPair& pair) const {
         const double distance = world_.settings.reuse_distance;
-        const Roundness &a = (*context_.roundness)[pair.a], &b = (*context_.roundness)[pair.b];
+        const BodyMotion &a = motions_[pair.a], &b = motions_[pair.b];
         Allowed most{distance, distance};
         if (!a.is_round && !b.is_round) return most;
         if (a.has_rim || b.has_rim) most.turned = kLag * distance;
@@ -167,13 +170,16 @@ private:
         return most;
     }
 
-    const ReuseContext& context_;
+    static std::uint64_t key_of(const KeptPair& pair) { return pair_key(pair.a, pair.b); }
+
     World& world_;
+    const std::vector<BodyMotion>& motions_;
     ContactTable& contacts_;
     KeptContacts& kept_;
-    std::size_t read_ = 0, write_ = 0;                     // of the pairs
-    std::uint32_t contact_ = 0;                            // the first of pair `read_`
-    std::tuple<std::uint32_t, std::uint32_t> last_{0, 0};  // that was in order
+    const double fall_;                 // [m]
+    std::size_t read_ = 0, write_ = 0;  // of the pairs
+    std::uint32_t contact_ = 0;         // the first of pair `read_`
+    std::uint64_t last_ = 0;            // pair_key of the last that was in order
 };
 
 void choose(void* ctx, const CandidatePair* pairs, std::uint32_t count, std::uint8_t* wanted) {

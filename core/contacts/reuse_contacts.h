@@ -26,19 +26,19 @@
 
 namespace plumb {
 
-/// What rolls of a body.
-struct Roundness {
+/// How a body moves, and what of it rolls: side by side, for pairs name bodies in any order.
+struct BodyMotion {
+    double travel;      ///< how far a point of it may come in the step [m]
+    double sweep;       ///< of that, what the margin does not cover [m]
+    PoseChange change;  ///< since the detection before
     bool is_round, has_rim;
 };
 
 /// What a question to the collider needs to leave out pairs.
 struct ReuseContext {
     World* world;
-    const std::vector<double>* travels;       ///< [body] what it may move by in the step [m]
-    const std::vector<double>* sweeps;        ///< [body] beyond what the margin covers [m]
-    const std::vector<PoseChange>* changes;   ///< [body]
-    const std::vector<Roundness>* roundness;  ///< [body]
-    bool asked = false;                       ///< whether the collider has asked
+    const std::vector<BodyMotion>* motions;  ///< [body]
+    bool asked = false;                      ///< whether the collider has asked
 };
 
 /// Asks for the contacts of all pairs but those that are kept. `context` must outlive the call.

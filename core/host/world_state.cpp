@@ -149,6 +149,7 @@ void write_state(const World& world, StateWriter& to) { each_number(to, world); 
 void read_state(World& world, StateReader& from) {
     each_number(from, world);
     drop_what_does_not_fit(world.contacts, world.bodies.size());
+    world.contacts.list_pairs();
     for (Deformable& d : world.deformables)
         if (d.can_tear()) leave_out_torn(d);
 }

@@ -18,6 +18,11 @@ using ContactPass = void (*)(const ContactArrays<Real, W>& arrays, const BodyRow
                              const PassSettings<Real>& pass, std::uint32_t first,
                              std::uint32_t last);
 
+/// Takes the masses of the blocks' bodies from a table by row (solve/mass_table.h).
+template <class Real, int W>
+using MassPass = void (*)(const ContactArrays<Real, W>& arrays, const Real* masses,
+                          std::uint32_t first, std::uint32_t last);
+
 /// Finds the residuals of the blocks [first, last), and changes nothing else.
 template <class Real, int W>
 using ResidualPass = void (*)(PairResidual<Real, W>* residuals,
@@ -27,7 +32,8 @@ using ResidualPass = void (*)(PairResidual<Real, W>* residuals,
 
 template <class Real, int W>
 struct ContactKernels {
-    ContactPass<Real, W> prepare;           // at new poses: tangents, effective masses
+    MassPass<Real, W> take_masses;          // at new poses, first,
+    ContactPass<Real, W> prepare;           // then this: tangents, effective masses
     ContactPass<Real, W> begin;             // once a substep: velocities at its start
     ContactPass<Real, W> warm_start;        // applies the impulses that the rows already hold
     ContactPass<Real, W> solve_velocities;  // one iteration

@@ -69,6 +69,16 @@ inline Tangents<T> load_tangents(const FrictionRow<Real, W>& row, const Vector3<
 
 // ---- once a step, and in each substep that finds the bodies elsewhere
 
+template <class Real, int W>
+void take_masses(const ContactArrays<Real, W>& arrays, const Real* masses, std::uint32_t first,
+                 std::uint32_t last) {
+    for (std::uint32_t i = first; i < last; ++i) {
+        PairBlock<Real, W>& block = arrays.blocks[i];
+        read_masses<Real, W>(masses, block.row_a, block.inverse_mass_a, block.inverse_inertia_a);
+        read_masses<Real, W>(masses, block.row_b, block.inverse_mass_b, block.inverse_inertia_b);
+    }
+}
+
 template <class Real, int W, ContactVariant V>
 void prepare(const ContactArrays<Real, W>& arrays, const BodyRows<Real>&, const PassSettings<Real>&,
              std::uint32_t first, std::uint32_t last) {

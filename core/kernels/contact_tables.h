@@ -12,7 +12,8 @@ namespace plumb::kernels {
 
 template <class Real, int W, ContactVariant V>
 constexpr ContactKernels<Real, W> kernels_of() {
-    return {prepare<Real, W, V>,
+    return {take_masses<Real, W>,
+            prepare<Real, W, V>,
             begin<Real, W, V>,
             warm_start<Real, W, V>,
             solve<Pass::velocity, Real, W, V>,

@@ -152,6 +152,22 @@ inline Velocity<Number<Real, W>> read_velocities(const Real* rows, const std::in
     }
 }
 
+/// Inverse masses and inertias of W bodies, from rows of seven numbers and one to spare.
+template <class Real, int W>
+inline void read_masses(const Real* rows, const std::int32_t (&index)[W], Real (&mass)[W],
+                        Real (&inertia)[6][W]) {
+    if constexpr (W == 1) {
+        const Real* r = rows + index[0] * kBodyRowSize;
+        mass[0] = r[0];
+        for (int i = 0; i < 6; ++i) inertia[i][0] = r[1 + i];
+    } else {
+        RowLanes<Real, W> m;
+        read_rows<Real, W>(rows, index, m);
+        store(mass, m.component[0]);
+        for (int i = 0; i < 6; ++i) store(inertia[i], m.component[1 + i]);
+    }
+}
+
 template <class Real, int W>
 inline void write_velocities(Real* rows, const std::int32_t (&index)[W], std::int32_t dynamic_count,
                              const Velocity<Number<Real, W>>& x) {

@@ -46,6 +46,13 @@ public:
         clear(rollings_, variant == ContactVariant::rolling ? rows : 0);
     }
 
+    /// Zeroes the rows, and leaves all pairs where they are, with the masses of their bodies.
+    void clear_rows() {
+        clear(normals_, normals_.size());
+        clear(frictions_, frictions_.size());
+        clear(rollings_, rollings_.size());
+    }
+
     /// Calls visit(ContactPlace) for all contacts of the pairs that were laid out, in their order.
     template <class Visit>
     void each_contact(const std::vector<BodyPair>& pairs, Visit visit) const {

@@ -3,11 +3,29 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace plumb {
 namespace {
 
 constexpr std::uint32_t kNone = ~0u;
+
+/// Brings a value up to date; returns whether it was.
+template <class Value>
+bool keep(Value& kept, const Value& now) {
+    return std::exchange(kept, now) == now;
+}
+template <class Rows>
+bool keep_rows(Rows& kept, const std::vector<BodyPair>& pairs) {
+    const bool known =
+        std::equal(kept.begin(), kept.end(), pairs.begin(), pairs.end(),
+                   [](const auto& rows, const BodyPair& p) { return rows == rows_of(p); });
+    if (known) return true;
+    kept.resize(pairs.size());
+    std::transform(pairs.begin(), pairs.end(), kept.begin(),
+                   [](const BodyPair& p) { return rows_of(p); });
+    return false;
+}
 
 }  // namespace
 
@@ -29,6 +47,9 @@ void ContactIslands::join(const std::vector<BodyPair>& pairs) {
 
 void ContactIslands::find(const std::vector<BodyPair>& pairs, const std::vector<BodyPair>& ties,
                           std::size_t first_seed, std::int32_t dynamic_count) {
+    const bool alike = keep_rows(rows_of_pairs_, pairs) & keep_rows(rows_of_ties_, ties) &
+                       keep(first_seed_, first_seed) & keep(dynamic_count_, dynamic_count);
+    if (alike) return;
     parent_.resize(dynamic_count);
     std::iota(parent_.begin(), parent_.end(), 0);
     island_.assign(dynamic_count, kNone);

@@ -5,6 +5,7 @@
 
 #include "schedule/colouring.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,7 +23,8 @@ struct ContactIsland {
 class ContactIslands {
 public:
     /// `ties`: bodies that are held together. Where nothing touches there is no island, but for
-    /// what the ties from `first_seed` on hold.
+    /// what the ties from `first_seed` on hold. What rests is mostly asked for as it was the last
+    /// time, and then nothing is done.
     void find(const std::vector<BodyPair>& pairs, const std::vector<BodyPair>& ties,
               std::size_t first_seed, std::int32_t dynamic_count);
 
@@ -35,10 +37,17 @@ public:
     std::uint32_t index_in_island(std::int32_t row) const { return index_[row]; }
 
 private:
+    using Rows = std::vector<std::array<std::int32_t, 2>>;
+
     std::int32_t root(std::int32_t row);
     void join(const std::vector<BodyPair>& pairs);
     void sort(const std::vector<BodyPair>& pairs, std::uint32_t ContactIsland::*first,
               std::uint32_t ContactIsland::*last, std::vector<std::uint32_t>& sorted);
+
+    // what was asked for
+    Rows rows_of_pairs_, rows_of_ties_;
+    std::size_t first_seed_ = 0;
+    std::int32_t dynamic_count_ = 0;
 
     std::vector<std::int32_t> parent_;   // [dynamic row]
     std::vector<std::uint32_t> island_;  // [dynamic row]

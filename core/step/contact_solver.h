@@ -14,7 +14,7 @@
 #include "solve/constraint_group.h"
 #include "solve/contact_iteration.h"
 #include "solve/contact_residuals.h"
-#include "solve/fill_mass.h"
+#include "solve/mass_table.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
 #include "step/island_group.h"
@@ -23,6 +23,8 @@
 #include "step/velocity_table.h"
 #include "world/world.h"
 
+#include <algorithm>
+#include <array>
 #include <tuple>
 #include <vector>
 
@@ -53,12 +55,8 @@ public:
         levels_ = levels;
         find_pairs(world, levels, pairs_);
         if (exact) exact->load(world, pairs_);
-        colouring_.colour(pairs_, world.moving_count());
-        batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
-        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
-            fill_surface(world, contact, k, lane);
-        });
-        trusted_.resize(world.contacts.found.size());
+        lay_out(world);
+        trusted_.resize(pairs_.size());
         const double fall = fall_in_step(world.settings);
         const double where_free = world.joints.size() == 0 ? kTrusted : kOutOfReach;
         const bool is_loose = world.joints.size() == 0 && world.particles.size() == 0;
@@ -71,9 +69,12 @@ public:
             if (driven && has_bounds_) greatest_[i] = greatest_impulse(world, pair, weight);
             const double share = driven ? kTrustedWhereDriven : where_free;
             const double radius = smaller_radius(world.bodies, world.contacts.found[pair.first]);
-            std::fill_n(trusted_.begin() + pair.first, pair.count, std::max(share * radius, fall));
+            trusted_[i] = std::max(share * radius, fall);
         }
-        fill_geometry(world);
+        fill_rows(world, [&](std::size_t p) {
+            fill_surface(world, p);
+            fill_arms(world, p);
+        });
         is_fresh_ = true;
     }
 
@@ -106,7 +107,7 @@ public:
         clamped_ = 0;
         deep_.assign(pairs_.size(), 0);
         if (pairs_.empty()) return;
-        if (!is_fresh_) fill_geometry(world);
+        if (!is_fresh_) move_geometry(world);
         is_fresh_ = false;
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
@@ -119,8 +120,8 @@ public:
             row.gap[lane] = static_cast<Real>(gap);
             row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
             clamped_ += is_clamped(c.gap[contact], gap, pass.recovery);
-            if (-c.gap[contact] > trusted_[contact]) {
-                damp_impulses(rows, k, lane, -c.gap[contact] / trusted_[contact]);
+            if (-c.gap[contact] > trusted_[at.pair]) {
+                damp_impulses(rows, k, lane, -c.gap[contact] / trusted_[at.pair]);
                 deep_[at.pair] = 1;
             }
             if (!rows.frictions || c.anchor_slip.empty()) return;
@@ -135,13 +136,13 @@ public:
         bend(c);
     }
 
-    /// Memory for impacts, so that the first of them allocates none.
-    void reserve_impacts() { impacts_.reserve(batches_, trusted_.size()); }
+    /// Memory for impacts among so many contacts, so that the first of them allocates none.
+    void reserve_impacts(std::size_t contacts) { impacts_.reserve(batches_, contacts); }
 
     /// What an impact does to the rows is said in step/contact_impacts.h.
     void begin_impacts(const World& world, const Impacts& impacts, const BodyRows<Real>& bodies,
                        const PassSettings<Real>& pass) {
-        if (!is_fresh_) fill_geometry(world);
+        if (!is_fresh_) move_geometry(world);
         is_fresh_ = true;
         impacts_.begin(world.contacts, impacts, pairs_, batches_);
         workers_.run([&](std::uint32_t worker) {
@@ -347,58 +348,92 @@ private:
         });
     }
 
-    /// Arms and masses at the poses now, and what follows from them.
-    void fill_geometry(const World& world) {
+    /// Gives the pairs their places among the rows: those that they have where the same bodies
+    /// touch in as many points as in the step before.
+    void lay_out(const World& world) {
+        const auto is_alike = [](const BodyPair& x, const BodyPair& y) {
+            return rows_of(x) == rows_of(y) && x.count == y.count && x.level == y.level;
+        };
+        const std::array<std::int32_t, 2> rows{world.moving_count(), world.zero_row()};
+        if (rows == laid_out_rows_ &&
+            std::equal(pairs_.begin(), pairs_.end(), laid_out_.begin(), laid_out_.end(), is_alike))
+            return batches_.clear_rows();
+        laid_out_.reserve(pairs_.capacity());
+        laid_out_ = pairs_, laid_out_rows_ = rows;
+        colouring_.colour(pairs_, world.moving_count());
+        batches_.lay_out(pairs_, colouring_, variant_, world.zero_row());
+    }
+
+    /// Fills the rows of all pairs by fill(pair), their masses, and what follows from both.
+    template <class Fill>
+    void fill_rows(const World& world, Fill fill) {
+        masses_.fill(world);
         workers_.run([&](std::uint32_t worker) {
-            const Range share = workers_.share(static_cast<std::uint32_t>(pairs_.size()), worker);
-            for (std::size_t p = share.first; p < share.last; ++p) fill_pair(world, p);
+            const Range blocks = workers_.share(batches_.block_count(), worker);
+            kernels_.take_masses(batches_.arrays(), masses_.rows(), blocks.first, blocks.last);
+            const Range pairs = workers_.share(static_cast<std::uint32_t>(pairs_.size()), worker);
+            for (std::size_t p = pairs.first; p < pairs.last; ++p) fill(p);
         });
+        if (levels_) hold_lower(world);
         run(kernels_.prepare, {}, {});
     }
 
-    void fill_pair(const World& world, std::size_t p) {
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        const auto slot = batches_.slot(p);
-        const Contact& first = world.contacts.found[pairs_[p].first];
-        PairBlock<Real, W>& block = rows.blocks[slot.block];
-        const bool hold_a = levels_ && (*levels_)[first.a] < (*levels_)[first.b];
-        const bool hold_b = levels_ && (*levels_)[first.b] < (*levels_)[first.a];
-        if (!hold_a)
-            fill_mass(world.bodies, first.a, block.inverse_mass_a, block.inverse_inertia_a,
-                      slot.lane);
-        if (!hold_b)
-            fill_mass(world.bodies, first.b, block.inverse_mass_b, block.inverse_inertia_b,
-                      slot.lane);
-        for (std::uint32_t i = 0; i < pairs_[p].count; ++i)
-            fill_arms(world, pairs_[p].first + i, rows.normals[block.first_row + i], slot.lane);
+    /// To the poses now.
+    void move_geometry(const World& world) {
+        fill_rows(world, [&](std::size_t p) { fill_arms(world, p); });
     }
 
-    static void fill_arms(const World& world, std::size_t contact, NormalRow<Real, W>& row,
-                          std::uint32_t lane) {
-        const Contact& c = world.contacts.found[contact];
-        const Vector3d& point = world.contacts.point[contact];
-        const Vector3d arm_a = point - world.bodies.position[c.a],
-                       arm_b = point - world.bodies.position[c.b];
-        for (int i = 0; i < 3; ++i) {
-            row.arm_a[i][lane] = static_cast<Real>(arm_a[i]);
-            row.arm_b[i][lane] = static_cast<Real>(arm_b[i]);
+    /// Makes the body of a pair immovable that is nearer to the ground.
+    void hold_lower(const World& world) {
+        const auto hold = [](Real(&mass)[W], Real(&inertia)[6][W], std::uint32_t lane) {
+            mass[lane] = 0;
+            for (auto& entry : inertia) entry[lane] = 0;
+        };
+        for (std::size_t p = 0; p < pairs_.size(); ++p) {
+            const auto [at, lane] = batches_.slot(p);
+            const Contact& first = world.contacts.found[pairs_[p].first];
+            const std::uint32_t a = (*levels_)[first.a], b = (*levels_)[first.b];
+            PairBlock<Real, W>& block = batches_.arrays().blocks[at];
+            if (a < b) hold(block.inverse_mass_a, block.inverse_inertia_a, lane);
+            if (b < a) hold(block.inverse_mass_b, block.inverse_inertia_b, lane);
         }
     }
 
-    /// What a row keeps through all substeps.
-    void fill_surface(const World& world, std::size_t contact, std::uint32_t k,
-                      std::uint32_t lane) {
+    /// From the bodies of a pair to its contacts.
+    void fill_arms(const World& world, std::size_t p) {
         const ContactArrays<Real, W> rows = batches_.arrays();
-        const Contact& c = world.contacts.found[contact];
-        const double normal[3] = {c.normal.x, c.normal.y, c.normal.z};
-        for (int i = 0; i < 3; ++i) rows.normals[k].normal[i][lane] = static_cast<Real>(normal[i]);
-        const SurfacePair& surface = world.surface_pair(c.a, c.b);
-        if (rows.frictions)
-            rows.frictions[k].friction[lane] =
-                static_cast<Real>(has_friction_ ? surface.friction : 0);
-        if (!rows.rollings) return;
-        rows.rollings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
-        rows.rollings[k].spinning[lane] = static_cast<Real>(surface.spinning_friction);
+        const Contact& first = world.contacts.found[pairs_[p].first];
+        const Vector3d &at_a = world.bodies.position[first.a],
+                       &at_b = world.bodies.position[first.b];
+        each_place(p, [&](const ContactPlace& at) {
+            const Vector3d& point = world.contacts.point[at.contact];
+            const Vector3d arm_a = point - at_a, arm_b = point - at_b;
+            NormalRow<Real, W>& row = rows.normals[at.row];
+            for (int i = 0; i < 3; ++i) {
+                row.arm_a[i][at.lane] = static_cast<Real>(arm_a[i]);
+                row.arm_b[i][at.lane] = static_cast<Real>(arm_b[i]);
+            }
+        });
+    }
+
+    /// What the rows of a pair keep through all substeps.
+    void fill_surface(const World& world, std::size_t p) {
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        const Contact& first = world.contacts.found[pairs_[p].first];
+        const SurfacePair& surface = world.surface_pair(first.a, first.b);
+        each_place(p, [&](const ContactPlace& at) {
+            const auto [contact, k, lane] = std::tuple(at.contact, at.row, at.lane);
+            const Vec3& n = world.contacts.found[contact].normal;
+            const double normal[3] = {n.x, n.y, n.z};
+            for (int i = 0; i < 3; ++i)
+                rows.normals[k].normal[i][lane] = static_cast<Real>(normal[i]);
+            if (rows.frictions)
+                rows.frictions[k].friction[lane] =
+                    static_cast<Real>(has_friction_ ? surface.friction : 0);
+            if (!rows.rollings) return;
+            rows.rollings[k].rolling[lane] = static_cast<Real>(surface.rolling_friction);
+            rows.rollings[k].spinning[lane] = static_cast<Real>(surface.spinning_friction);
+        });
     }
 
     static void copy_row(const ContactArrays<Real, W>& to, std::uint32_t k, std::uint32_t lane,
@@ -433,12 +468,14 @@ private:
                          // forbidden
     const ContactKernels<Real, W>& kernels_;
     Workers& workers_;
-    std::vector<BodyPair> pairs_;
+    std::vector<BodyPair> pairs_, laid_out_;
+    std::array<std::int32_t, 2> laid_out_rows_{-1, -1};  // that change, and the one of zeros
     Colouring colouring_;
     ContactBatches<Real, W> batches_;
+    MassTable<Real> masses_;
     ContactImpacts<Real, W> impacts_;
     ContactResiduals<Real, W> residuals_;
-    std::vector<double> trusted_;     // [contact] overlap [m]
+    std::vector<double> trusted_;     // [pair] overlap [m]
     bool has_bounds_ = false;         // whether any is below kOutOfReach
     std::vector<double> greatest_;    // [pair], see greatest_impulse [N s]
     std::vector<std::uint8_t> deep_;  // [pair]

@@ -5,7 +5,6 @@
 #include "constraints/contact.h"
 #include "constraints/friction.h"
 #include "contacts/contact_measures.h"
-#include "contacts/contact_pairs.h"
 #include "math/rotation.h"
 #include "step/island_rows.h"
 #include "step/joint_geometry.h"
@@ -759,13 +758,13 @@ void IslandGroup::note_what_misses(World& world, const IslandResiduals& residual
     const std::vector<IslandResidual>& all = residuals.islands();
     if (!(s.accuracy > 0) || std::none_of(all.begin(), all.end(), needs_more)) return;
     ContactTable& c = world.contacts;
-    each_pair(c.found, 0, c.found.size(), [&](std::size_t first, std::size_t end) {
-        const Contact& contact = c.found[first];
-        const std::int32_t a = world.bodies.row[contact.a], b = world.bodies.row[contact.b];
+    for (const ContactPair& pair : c.pairs) {
+        const std::int32_t a = world.bodies.row[pair.a], b = world.bodies.row[pair.b];
         const IslandResidual* island = residuals.of(std::min(a, b));
-        if (!island || !needs_more(*island)) return;
-        for (std::size_t k = first; k < end; ++k) note(c.memory[k], *island);
-    });
+        if (!island || !needs_more(*island)) continue;
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
+            note(c.memory[k], *island);
+    }
 }
 
 }  // namespace plumb

@@ -61,7 +61,7 @@ public:
         if (warm_start_) contacts_->load_impulses(world, exact);
         if (has_impacts_) {
             impacts_.reserve(world, contacts_->pairs());
-            contacts_->reserve_impacts();
+            contacts_->reserve_impacts(world.contacts.found.size());
             settled_.resize(static_cast<std::size_t>(world.dynamic_count));
         }
         if (!shocks_) return;

@@ -42,6 +42,12 @@ struct RememberedContacts {
     std::vector<ContactMemory> memory;  ///< [contact]
 };
 
+/// The contacts of two bodies, which stand side by side in their table.
+struct ContactPair {
+    std::uint32_t a, b;          ///< bodies, a < b
+    std::uint32_t first, count;  ///< its contacts
+};
+
 /// Where the points of a contact ride, for following it through substeps; body frames.
 struct ContactTrack {
     Vector3d a, b;  ///< anchors [m]
@@ -72,6 +78,7 @@ enum class Restitution : std::uint8_t {
 /// works with. The contacts and what they remember stay from step to step: those of pairs that
 /// hardly moved are brought to the poses of the step where they stand.
 struct ContactTable : RememberedContacts {
+    std::vector<ContactPair> pairs;   ///< of the contacts, in their order
     std::vector<ContactTrack> track;  ///< only with more than one substep
     std::vector<ContactRim> rims;     ///< of radius 0 where a contact is on none; only where shapes
                                       ///< have rims
@@ -103,6 +110,18 @@ struct ContactTable : RememberedContacts {
     void set_restitution(std::size_t i, double velocity) {
         restitution[i] = velocity > 0 ? Restitution::bouncing : Restitution::none;
         restitution_velocity[i] = velocity;
+    }
+
+    /// Adds a contact to the end of the pairs.
+    void add_to_pairs(const Contact& c, std::uint32_t contact) {
+        if (pairs.empty() || pairs.back().a != c.a || pairs.back().b != c.b)
+            pairs.push_back({c.a, c.b, contact, 0});
+        ++pairs.back().count;
+    }
+    /// Brings the pairs up to date where contacts were taken out.
+    void list_pairs() {
+        pairs.clear();
+        for (std::uint32_t i = 0; i < found.size(); ++i) add_to_pairs(found[i], i);
     }
 
     static constexpr double kParting = 1e-9;  ///< velocity of what has bounced already [m/s]

@@ -61,6 +61,7 @@ void forget_contacts(World& world, std::uint32_t slot) {
     c.found.resize(kept);
     c.memory.resize(kept);
     if (rides) c.kept.rides.resize(kept);
+    c.list_pairs();
     forget_pairs(c.kept, is_of_body);
     world.particle_contacts = {};
     world.surface_contacts.clear();

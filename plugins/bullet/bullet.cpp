@@ -21,9 +21,8 @@ private:
 
     void find_pairs(std::vector<PartPair>& pairs) override { tree_.find_pairs(pairs, table_); }
 
-    void place_parts() override {
-        for (const Part& part : table_.parts())
-            if (part.present) place_shapes(part);
+    void place_parts(const PartPair* pairs, std::size_t count) override {
+        each_part(pairs, count, [](const Part& part) { place_shapes(part); });
     }
 
     void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool raw,

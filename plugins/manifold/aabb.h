@@ -9,9 +9,12 @@ namespace plumb {
 struct Aabb {
     Vec3 low, high;  ///< [m]
 };
+/// Without a branch: what is asked of many boxes can be told of none beforehand.
 inline bool overlap(const Aabb& a, const Aabb& b) {
-    return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y &&
-           b.low.y <= a.high.y && a.low.z <= b.high.z && b.low.z <= a.high.z;
+    const bool x = (a.low.x <= b.high.x) & (b.low.x <= a.high.x),
+               y = (a.low.y <= b.high.y) & (b.low.y <= a.high.y),
+               z = (a.low.z <= b.high.z) & (b.low.z <= a.high.z);
+    return x & y & z;
 }
 
 }  // namespace plumb

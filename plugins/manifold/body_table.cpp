@@ -228,6 +228,7 @@ Status BodyTable::place(const DetectRequest& request) {
     if (!(request.margin >= 0) || (request.body_count && !request.poses))
         return {Status::bad_argument, 0, "detect needs poses and a margin of at least 0"};
     std::uint32_t lost = 0;
+    greatest_expansion_ = 0;
     for (Part& part : parts_) {
         part.present = part.body < request.body_count;
         if (part.present) part.world = frame_of(request.poses[part.body]) * part.local;
@@ -239,6 +240,7 @@ Status BodyTable::place(const DetectRequest& request) {
         // be near.
         const double sweep = request.sweeps ? request.sweeps[part.body] : 0.0;
         part.expansion = 0.5 * request.margin + (sweep > 0 ? sweep : 0.0);
+        greatest_expansion_ = std::max(greatest_expansion_, part.expansion);
         const Vec3 grown{part.expansion, part.expansion, part.expansion};
         part.bounds = bounds_of(part);
         part.bounds = {part.bounds.low - grown, part.bounds.high + grown};

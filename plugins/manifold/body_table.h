@@ -74,6 +74,9 @@ public:
     /// Whether some body has more than one part.
     bool has_compounds() const { return has_compounds_; }
 
+    /// The greatest expansion of a part's bounds, at the poses of the last `place` [m].
+    double greatest_expansion() const { return greatest_expansion_; }
+
     /// Counts changes of the set of parts and of what is excluded.
     std::uint64_t version() const { return version_; }
 
@@ -86,6 +89,7 @@ private:
     SurfaceStore surfaces_;
     std::unordered_set<std::uint64_t> excluded_;
     bool has_compounds_ = false;
+    double greatest_expansion_ = 0;
     std::uint64_t version_ = 0;
 };
 

@@ -29,15 +29,17 @@ void Candidates::find_escaped(BodyTable& table) {
     ++detection_;
     escaped_.clear();
     std::vector<Part>& parts = table.parts();
-    places_.resize(parts.size());
+    bounds_.resize(parts.size()), fats_.resize(parts.size()), bodies_.resize(parts.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         Part& part = parts[i];
-        places_[i] = {part.present ? part.bounds : kNothing, part.body};
         // A part that is lost may come back anywhere, and then counts as escaped.
         if (!part.present)
             part.fat = kNothing;
         else if (!contains(part.fat, part.bounds))
             escaped_.push_back(i);
+        bounds_[i] = {part.present ? part.bounds : kNothing};
+        fats_[i] = {part.fat};
+        bodies_[i] = part.body;
     }
 }
 
@@ -69,22 +71,20 @@ void Candidates::renew_escaped(BodyTable& table) {
     for (std::uint32_t i : escaped_) {
         fatten(parts[i], made_[i]);
         is_escaped_[i] = 1;
+        fats_[i] = {parts[i].fat};
         escaped_fat_.push_back(parts[i].fat);
     }
     std::erase_if(wide_,
                   [&](const PartPair& p) { return is_escaped_[p.first] || is_escaped_[p.second]; });
 
     renewed_.clear();
-    for (std::uint32_t j = 0; j < parts.size(); ++j) {
-        if (!parts[j].present) continue;
-        const Aabb fat = parts[j].fat;
+    for (std::uint32_t j = 0; j < parts.size(); ++j)
         for (std::size_t k = 0; k < escaped_.size(); ++k) {
             const std::uint32_t i = escaped_[k];
-            if (!overlap(fat, escaped_fat_[k]) || (is_escaped_[j] && j <= i)) continue;
-            if (table.wanted(parts[i], parts[j]))
+            if (!overlap(fats_[j].box, escaped_fat_[k]) || (is_escaped_[j] && j <= i)) continue;
+            if (parts[j].present && table.wanted(parts[i], parts[j]))
                 renewed_.push_back({std::min(i, j), std::max(i, j)});
         }
-    }
     sort_pairs(renewed_, parts);
     const auto middle = static_cast<std::ptrdiff_t>(wide_.size());
     wide_.insert(wide_.end(), renewed_.begin(), renewed_.end());
@@ -92,29 +92,31 @@ void Candidates::renew_escaped(BodyTable& table) {
 }
 
 void Candidates::take_overlapping(std::vector<PartPair>& near) const {
-    near.clear();
-    for (const PartPair& pair : wide_)
-        if (overlap(places_[pair.first].bounds, places_[pair.second].bounds)) near.push_back(pair);
+    near.resize(wide_.size());
+    std::size_t count = 0;
+    for (const PartPair& pair : wide_) {
+        near[count] = pair;
+        count += overlap(bounds_[pair.first].box, bounds_[pair.second].box);
+    }
+    near.resize(count);
 }
 
 void Candidates::apply(const PairFilter& filter, std::vector<PartPair>& pairs) {
-    const auto ids = [this](const PartPair& p) {
-        return CandidatePair{places_[p.first].body, places_[p.second].body};
-    };
-    const auto same = [](const CandidatePair& p, const CandidatePair& q) {
-        return p.a == q.a && p.b == q.b;
-    };
-    asked_.clear();
-    for (const PartPair& pair : pairs)
-        if (asked_.empty() || !same(asked_.back(), ids(pair))) asked_.push_back(ids(pair));
+    asked_.clear(), first_.clear();
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const CandidatePair ids{bodies_[pairs[i].first], bodies_[pairs[i].second]};
+        if (i > 0 && asked_.back().a == ids.a && asked_.back().b == ids.b) continue;
+        asked_.push_back(ids), first_.push_back(i);
+    }
+    first_.push_back(pairs.size());
     wanted_.assign(asked_.size(), 1);
     filter.choose(filter.ctx, asked_.data(), static_cast<std::uint32_t>(asked_.size()),
                   wanted_.data());
-    std::size_t at = 0;
-    std::erase_if(pairs, [&](const PartPair& pair) {
-        if (!same(asked_[at], ids(pair))) ++at;
-        return wanted_[at] == 0;
-    });
+    auto end = pairs.begin();
+    for (std::size_t k = 0; k < asked_.size(); ++k)
+        if (wanted_[k])
+            end = std::copy(pairs.begin() + first_[k], pairs.begin() + first_[k + 1], end);
+    pairs.erase(end, pairs.end());
 }
 
 }  // namespace plumb

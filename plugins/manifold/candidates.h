@@ -48,22 +48,25 @@ private:
     void renew_escaped(BodyTable& table);
     void take_overlapping(std::vector<PartPair>& near) const;
 
-    /// What a walk over the pairs reads of a part, side by side in memory.
-    struct Place {
-        Aabb bounds;  ///< nothing where it is absent
-        std::uint32_t body;
+    /// In one line of the processor's cache.
+    struct alignas(64) Bounds {
+        Aabb box;
     };
 
     std::vector<PartPair> wide_, renewed_;
-    std::vector<Place> places_;           ///< [part]
+    // What walks over all pairs and parts read of them, side by side in memory.
+    std::vector<Bounds> bounds_;          ///< [part] nothing where it is absent
+    std::vector<Bounds> fats_;            ///< [part]
+    std::vector<std::uint32_t> bodies_;   ///< [part]
     std::vector<std::uint32_t> escaped_;  ///< parts that left their fat bounds
     std::vector<std::uint8_t> is_escaped_;
     std::vector<Aabb> escaped_fat_;  ///< [escaped part]
     std::vector<Made> made_;         ///< [part]
     std::uint64_t version_ = ~std::uint64_t{0};
     std::uint64_t detection_ = 0;       ///< counted
-    std::vector<CandidatePair> asked_;  ///< by the filter, each once
-    std::vector<std::uint8_t> wanted_;
+    std::vector<CandidatePair> asked_;  ///< of the filter, each once
+    std::vector<std::size_t> first_;    ///< [asked, and the end] of their pairs of parts
+    std::vector<std::uint8_t> wanted_;  ///< [asked]
 };
 
 }  // namespace plumb

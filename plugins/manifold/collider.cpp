@@ -64,7 +64,7 @@ Status Collider::detect_all(const DetectRequest& request, const ContactSink* sin
     if (request.filter) candidates_.apply(*request.filter, pairs_);
     if (!(request.flags & kDetectRaw) && !sees_far_balls())
         leave_out_far_balls(pairs_, table_.parts());
-    place_parts();
+    place_parts(pairs_.data(), pairs_.size());
     queries_.forget();
     run_blocks(request,
                request.runner ? std::min({threads_, request.runner->workers, sink_count}) : 1);
@@ -78,6 +78,17 @@ Status Collider::detect_particles(const ParticleRequest& request, const ContactS
 
 Status Collider::cast_rays(const RayRequest* rays, RayHit* hits, std::uint32_t count) noexcept {
     return guarded([&] { return queries_.cast_rays(rays, hits, count); });
+}
+
+void Collider::list_parts(const PartPair* pairs, std::size_t count) {
+    named_.clear(), named_.reserve(table_.parts().size());
+    is_named_.assign(table_.parts().size(), 0);
+    for (std::size_t k = 0; k < count; ++k)
+        for (const std::uint32_t i : {pairs[k].first, pairs[k].second}) {
+            if (is_named_[i]) continue;
+            is_named_[i] = 1;
+            named_.push_back(&table_.parts()[i]);
+        }
 }
 
 void Collider::run_blocks(const DetectRequest& request, std::uint32_t count) {

@@ -50,8 +50,25 @@ protected:
     /// Called only when some part has left its fat bounds.
     virtual void find_pairs(std::vector<PartPair>& pairs) = 0;
 
-    /// Called once a detection, when all parts have their world frames, before the blocks.
-    virtual void place_parts() {}
+    /// Called before blocks of these pairs, whose parts have their world frames: brings what the
+    /// plugin hangs on them there.
+    virtual void place_parts(const PartPair* pairs, std::size_t count) { (void)pairs, (void)count; }
+    /// Calls place(part) for the parts of pairs, each once. They lie far apart in memory, which is
+    /// asked for ahead.
+    template <class Place>
+    void each_part(const PartPair* pairs, std::size_t count, Place place) {
+        constexpr std::size_t kPartAhead = 8, kBackendAhead = 4;
+        list_parts(pairs, count);
+        for (std::size_t k = 0; k < named_.size(); ++k) {
+            if (k + kPartAhead < named_.size()) {
+                const Part& part = *named_[k + kPartAhead];
+                __builtin_prefetch(&part.backend), __builtin_prefetch(&part.world);
+            }
+            if (k + kBackendAhead < named_.size())
+                __builtin_prefetch(named_[k + kBackendAhead]->backend.get());
+            place(*named_[k]);
+        }
+    }
 
     /// Whether the narrow phase sees even balls that a closed form tells to be far: where it shall
     /// share nothing with the others.
@@ -80,6 +97,7 @@ private:
     void run_blocks(const DetectRequest& request, std::uint32_t count);
     void run_block(std::uint32_t index, bool raw, const PartPair* pairs,
                    std::size_t count) noexcept;
+    void list_parts(const PartPair* pairs, std::size_t count);
     Status gather(const ContactSink* sinks);
     Status closest_of_bodies(BodyTable::Range a, BodyTable::Range b, Contact& result);
     Closeness closest_of_pair(Contact& result, const PartPair& pair);
@@ -90,8 +108,10 @@ private:
     Candidates candidates_;
     Queries queries_{table_};
     std::vector<PartPair> pairs_;
-    std::vector<Block> blocks_;  ///< [worker]
-    ContactList meeting_;        ///< of one pair of parts that meet, for `closest`
+    std::vector<const Part*> named_;      ///< by the pairs, each once
+    std::vector<std::uint8_t> is_named_;  ///< [part]
+    std::vector<Block> blocks_;           ///< [worker]
+    ContactList meeting_;                 ///< of one pair of parts that meet, for `closest`
     DetectStats stats_{};
 };
 

@@ -55,6 +55,7 @@ Closeness Collider::closest_of_pair(Contact& result, const PartPair& pair) {
 /// meet.
 bool Collider::deepest_of_pair(Contact& result, const PartPair& pair) {
     constexpr double kRounding = 1e-9;  // of the sizes
+    place_parts(&pair, 1);
     double& expansion = table_.parts()[pair.first].expansion;
     const double before = expansion;
     const double sizes = size_of(table_.parts()[pair.first]) + size_of(table_.parts()[pair.second]);

@@ -33,12 +33,9 @@ private:
         grid_.find_pairs(pairs, table_);
     }
 
-    void place_parts() override {
-        double expansion = 0;
-        for (const Part& part : table_.parts())
-            expansion = std::max(expansion, part.present ? part.expansion : 0);
-        for (const Part& part : table_.parts())
-            if (part.present) place_geoms(part, 2 * expansion);
+    void place_parts(const PartPair* pairs, std::size_t count) override {
+        const double wider_by = 2 * table_.greatest_expansion();
+        each_part(pairs, count, [&](const Part& part) { place_geoms(part, wider_by); });
     }
 
     void collide_block(const NarrowOutput& out, const PartPair* pairs, std::size_t count, bool raw,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 namespace plumb {
 namespace {
@@ -114,6 +115,35 @@ TEST(ContactIslands, TiesHoldWhatTouchesTogether) {
             }
         }
     }
+}
+
+/// What was asked for before leaves nothing behind, whatever of it changes.
+TEST(ContactIslands, AreTheSameWhateverWasAskedForBefore) {
+    const std::vector<BodyPair> chain{{0, 1, 0, 1}, {1, 2, 1, 1}, {4, 5, 2, 1}},
+        shorter{{0, 1, 0, 1}, {4, 5, 1, 1}}, moved{{0, 3, 0, 1}, {1, 2, 1, 1}, {4, 5, 2, 1}},
+        tie{{2, 4, 0, 1}};
+    const auto places = [](const ContactIslands& found) {
+        return std::tuple(found.island_of(), found.bodies(), found.pairs(), found.ties());
+    };
+    ContactIslands used;
+    const auto expect_as_fresh = [&](const std::vector<BodyPair>& pairs,
+                                     const std::vector<BodyPair>& ties, std::size_t first_seed,
+                                     std::int32_t dynamic_count) {
+        ContactIslands fresh;
+        fresh.find(pairs, ties, first_seed, dynamic_count);
+        for (int time = 0; time < 2; ++time) {
+            used.find(pairs, ties, first_seed, dynamic_count);
+            EXPECT_EQ(places(used), places(fresh));
+        }
+    };
+    expect_as_fresh(chain, {}, 0, 6);
+    expect_as_fresh(moved, {}, 0, 6);
+    expect_as_fresh(shorter, {}, 0, 6);
+    expect_as_fresh(shorter, tie, 1, 6);
+    expect_as_fresh(shorter, tie, 0, 6);
+    expect_as_fresh(shorter, tie, 0, 5);
+    expect_as_fresh({}, {}, 0, 0);
+    expect_as_fresh(chain, {}, 0, 6);
 }
 
 }  // namespace
