@@ -35,8 +35,8 @@ constexpr double kLever = 100;
 constexpr int kCloses = 8, kMostCloses = 40;
 constexpr double kClosing = 0.8;
 
-/// An island whose joints stay open by so many tolerances is tried once more; then it is given up
-/// for twice this long [s], and about twice as long with each time that it fails again.
+/// An island whose joints stay open by so many tolerances is given up for twice this long [s], and
+/// twice as long with each time that it fails again; a tree is tried once more before.
 constexpr double kAjar = 100, kRest = 0.1;
 constexpr std::uint32_t kMostMisses = 8;
 
@@ -606,10 +606,14 @@ bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort eff
 void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     const double tolerance = world.settings.joint_tolerance;
     const Island island = island_of(m);
+    // what is meshed has no motors, and limits may contradict it
+    const auto given = [&] {
+        if (m.is_meshed) return 0.0;
+        return std::max(0.0, work_of_drives(island.rows, starts_of(m), island.velocity));
+    };
     const auto gains = [&](double share = 0) {
         return !(kinetic_energy(island.bodies, island.velocity) <=
-                 (1 + share) * kinetic_energy(island.bodies, starts_of(m)) +
-                     std::max(0.0, work_of_drives(island.rows, starts_of(m), island.velocity)));
+                 (1 + share) * kinetic_energy(island.bodies, starts_of(m)) + given());
     };
     const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
     if (m.splits) {
@@ -639,7 +643,8 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         const double before = m.open;
         m.solved = solve_system(solver, m, m.effort);
         ask();
-        if (!(m.open > tolerance) || (!m.solved && i > 0 && !(m.open <= 0.5 * before))) break;
+        const bool closes = !m.is_meshed && m.open <= 0.5 * before;
+        if (!(m.open > tolerance) || (!m.solved && i > 0 && !closes)) break;
         if (i >= kCloses && !(m.open <= kClosing * before)) break;
     }
     if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
@@ -710,9 +715,11 @@ void IslandGroup::rest_ties(World& world) {
             if (members_[i].effort == IslandEffort::swept) return;  // nothing is learnt by sweeps
             rest.misses = members_[i].given_up ? std::min(rest.misses + 1, kMostMisses) : 0;
             some_rest_ |= rest.misses > 0;
+            // loops may contradict themselves; what a tree cannot do now it can in the next step
+            const double shorter = members_[i].is_meshed ? 0 : 2;
             if (rest.misses > 0)
                 rest.steps = static_cast<std::uint32_t>(
-                    std::ceil(kRest * (std::exp2(rest.misses) - 2) / world.settings.dt));
+                    std::ceil(kRest * (std::exp2(rest.misses) - shorter) / world.settings.dt));
         });
 }
 
