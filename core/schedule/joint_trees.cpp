@@ -52,10 +52,8 @@ struct Census {
     bool is_passive_ragdoll() const {
         return !held && driven && !has_motors && bodies <= kMostOfARagdoll;
     }
-    /// Couplings are iterated beside a tree. A gripper on an arm has one, of gears all are coupled.
-    bool is_mostly_coupled() const { return 5 * couplings > joints; }
     bool suits_trees() const {
-        return !is_mostly_coupled() && !has_many_loops() && !is_passive_ragdoll();
+        return !is_mostly_coupled(couplings, joints) && !has_many_loops() && !is_passive_ragdoll();
     }
 
     static constexpr std::uint32_t kMostOfARagdoll = 32;

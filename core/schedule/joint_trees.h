@@ -8,9 +8,15 @@
 namespace plumb {
 
 /// The forest of the joints that are to be solved exactly. With JointMethod::auto_, bodies that
-/// hang together are left out where a coupling ties two of their joints, where more than one joint
-/// in ten closes a loop, or where they are a passive ragdoll: few, held by nothing, driven but by
+/// hang together are left out where they are mostly coupled, where more than one joint in ten
+/// closes a loop, or where they are a passive ragdoll: few, held by nothing, driven but by
 /// no motor.
 JointForest find_forest(const World& world);
+
+/// Whether bodies have so many couplings that a tree of their joints is not most of what holds
+/// them: of gears all are coupled, a gripper on an arm has one coupling.
+constexpr bool is_mostly_coupled(std::size_t couplings, std::size_t joints) {
+    return 5 * couplings > joints;
+}
 
 }  // namespace plumb

@@ -4,6 +4,7 @@
 #include "constraints/contact.h"
 #include "constraints/joint_lever.h"
 #include "contacts/contact_measures.h"
+#include "schedule/joint_trees.h"
 #include "solve/linked_point.h"
 #include "step/joint_state.h"
 #include "step/large_islands.h"
@@ -295,7 +296,14 @@ bool IslandChoice::can_do_work(const World& world, const ContactIsland& island) 
 }
 
 bool IslandChoice::is_meshed(const ContactIsland& island) const {
-    return island.first_tie < island.last_tie && found_.ties()[island.last_tie - 1] >= first_seed_;
+    const auto ties = found_.ties().begin();
+    const auto first = ties + island.first_tie, last = ties + island.last_tie;
+    const auto mesh = std::lower_bound(first, last, first_seed_);
+    if (mesh == last) return false;
+    const bool touches = island.first_pair < island.last_pair;
+    const bool loops = std::any_of(
+        mesh, last, [&](std::uint32_t i) { return ties_[i].kind != TieKind::coupling; });
+    return !touches || loops || is_mostly_coupled(last - mesh, mesh - first);
 }
 
 /// Whether a joint is farther open than the radius of what it holds.

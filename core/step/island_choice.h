@@ -61,7 +61,8 @@ public:
     /// Leaves an island to others, and marks what of it goes on from its impulses there.
     void leave(const World& world, const ContactIsland& island, const std::vector<BodyPair>& pairs);
 
-    /// Whether links, couplings or joints that close a loop tie it: others only iterate those.
+    /// Whether links, couplings or joints that close a loop tie it: others only iterate those. Few
+    /// couplings of a tree that touches something are none: with them it is solved as others are.
     bool is_meshed(const ContactIsland& island) const;
     bool is_torn(const World& world, const ContactIsland& island) const;
 
