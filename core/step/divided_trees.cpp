@@ -38,8 +38,9 @@ constexpr double kSpin = 0.1, kTooFast = 0.2;
 constexpr double kJerk = 0.01;
 
 /// For how long fewer parts must do before fewer are taken [s]: longer than what swings quickly
-/// takes to come back.
-constexpr double kCalmTime = 5;
+/// takes to come back; and where every joint rubs, is damped or has a motor, which leaves no swing
+/// to keep.
+constexpr double kCalmTime = 5, kDampedCalmTime = 0.05;
 
 /// What is left of a joint's error by its last Newton step has always the same sign, and feeds or
 /// brakes the swing: it must be small against the way of a part.
@@ -133,6 +134,12 @@ double eccentric_spin(const World& world, const std::vector<std::uint32_t>& join
     return most;
 }
 
+/// Whether a drive takes energy from whatever moves its axis.
+bool brakes(const JointDrive& drive) {
+    return drive.kind == DriveKind::friction || drive.kind == DriveKind::motor ||
+           (drive.kind == DriveKind::spring && drive.spec.damping > 0);
+}
+
 bool stands_still(const Bodies& b, const std::vector<std::uint32_t>& bodies) {
     return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
         return b.velocity[i].isZero(0) && b.angular_velocity[i].isZero(0);
@@ -199,8 +206,15 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
     for (const JointCoupling& c : world.joints.couplings)
         for (const std::uint32_t joint : {c.joint_a, c.joint_b})
             if (tree_with[joint]) tree_with[joint]->may_divide = false;
-    for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i)
-        if (Tree* tree = tree_with[world.joints.drives[i].joint]) tree->drives.push_back(i);
+    std::vector<std::uint8_t> damped(world.joints.size(), 0);
+    for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i) {
+        const JointDrive& drive = world.joints.drives[i];
+        if (Tree* tree = tree_with[drive.joint]) tree->drives.push_back(i);
+        if (brakes(drive)) damped[drive.joint] = 1;
+    }
+    for (Tree& tree : trees_)
+        tree.is_damped = std::all_of(tree.joints.begin(), tree.joints.end(),
+                                     [&](std::uint32_t joint) { return damped[joint] != 0; });
     for (const std::uint32_t i : revolute_joints(world))
         if (tree_with[i]) tree_with[i]->revolute.push_back(i);
 }
@@ -276,7 +290,7 @@ void DividedTrees::choose(World& world, double h) {
         if (needed >= before) {
             pace = {needed, before, 0};
         } else {
-            const bool calm = ++pace.calm * h > kCalmTime;
+            const bool calm = ++pace.calm * h > (tree.is_damped ? kDampedCalmTime : kCalmTime);
             pace = {calm ? before / 2 : before, before, calm ? 0 : pace.calm};
         }
     }

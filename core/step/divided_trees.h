@@ -52,6 +52,7 @@ private:
         TreeSolver<1> solver;
         bool may_divide = true;  ///< nothing else ever holds or moves its bodies
         bool has_lines = false;  ///< of distance joints
+        bool is_damped = false;  ///< all its joints take energy from what moves
         bool is_free = false;    ///< and nothing touches them in this step
         bool was_open = false;   ///< in this substep, undivided
         double error = -1;  ///< how far it was left open in this substep [m], [rad]; none: −1
