@@ -256,7 +256,7 @@ Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options) {
     if (std::isfinite(lowest)) reader::lift(scene, options.placement.position.y() - lowest);
     BodySpec& ground = add_ground(scene);
     ground.name = scene.geometries.back().name = "ground";
-    scene.settings.leapfrog_start = true;
+    scene.settings.dt = 0.005, scene.settings.leapfrog_start = true;
     return scene;
 }
 

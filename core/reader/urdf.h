@@ -68,7 +68,7 @@ struct Robot {
 Robot add_robot(Scene& scene, const std::filesystem::path& file, const UrdfOptions& options);
 
 /// A scene of one robot, whose lowest point stands on the ground, a plane at y = 0. The position of
-/// the options is added to that. It has the usual settings, and a leapfrog start.
+/// the options is added to that. Steps of 5 ms, with a leapfrog start.
 Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options = {});
 
 }  // namespace plumb

@@ -342,9 +342,11 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         return IslandWay::left;
     const std::uint8_t obstacles = obstacles_of(island);
     const bool meshed = is_meshed(island);
-    if ((obstacles & kBeyond) || (meshed ? can_do_work(world, island) : obstacles != 0))
-        return IslandWay::left;
     upset_.clear();
+    if ((obstacles & kBeyond) || (meshed ? can_do_work(world, island) : obstacles != 0)) {
+        if (is_tied && !meshed) leave(world, island, pairs);
+        return IslandWay::left;
+    }
     if (is_large(world.settings, n)) {
         if (rests_and_misses(world, island, pairs)) return IslandWay::exact;
         leave(world, island, pairs);
@@ -358,7 +360,8 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
     if ((upset_.empty() || is_loose) &&
-        (n <= (is_tied ? kSmallAndTied : kVerySmall) || is_calm(world, island, pairs))) {
+        (n <= kVerySmall || is_calm(world, island, pairs) ||
+         (is_tied && !meshed && n <= kSmallTree && is_followed(world, island, pairs)))) {
         if (upset_.empty()) return IslandWay::exact;
         jammed_.resize(jammed_before);
         return IslandWay::swept;
@@ -476,6 +479,15 @@ bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
     const Stir stir =
         stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
     return stir.speed <= calm_speed(world, stir.radius, stir.pull);
+}
+
+/// Whether its contacts come so little a way in a substep that those of its start will do.
+bool IslandChoice::is_followed(const World& world, const ContactIsland& island,
+                               const std::vector<BodyPair>& pairs) const {
+    if (is_driven(island)) return false;
+    const Stir stir =
+        stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
+    return stir.speed * substep_of(world.settings) <= kFollowed * stir.radius;
 }
 
 /// Of a large island: see step/large_islands.h.

@@ -37,8 +37,11 @@ enum class IslandWay : std::uint8_t { exact, swept, left };
 
 /// Islands of so many bodies are solved exactly however they move.
 inline constexpr std::uint32_t kVerySmall = 8;
-/// So many that joints hold together, too: sweeps open the joints of what lands on its feet.
-inline constexpr std::uint32_t kSmallAndTied = 64;
+/// So many that joints hold together without a loop, too, while its contacts slide, part and
+/// approach by no more than this share of its bodies' radius in a substep: sweeps open the joints
+/// of what lands on its feet.
+inline constexpr std::uint32_t kSmallTree = 16;
+inline constexpr double kFollowed = 0.1;
 
 class IslandChoice {
 public:
@@ -118,6 +121,8 @@ private:
                  const std::vector<BodyPair>& pairs, VelocityAt velocity_at) const;
     bool is_calm(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs) const;
+    bool is_followed(const World& world, const ContactIsland& island,
+                     const std::vector<BodyPair>& pairs) const;
     bool rests_and_misses(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const;
     void find_upset(const World& world, const ContactIsland& island,

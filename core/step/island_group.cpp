@@ -36,13 +36,17 @@ constexpr int kCloses = 8, kMostCloses = 40;
 constexpr double kClosing = 0.8;
 
 /// An island whose joints stay open by so many tolerances is given up for twice this long [s], and
-/// twice as long with each time that it fails again; a tree is tried once more before.
+/// twice as long with each time that it fails again; a tree for twice this less, so that it is
+/// tried once more at once.
 constexpr double kAjar = 100, kRest = 0.1;
 constexpr std::uint32_t kMostMisses = 8;
 
 /// Ties may be closed at other velocities, too, than those that a substep leads to: such that turn
 /// bodies about. They are known by the energy that they add, as a share of what there is.
 constexpr double kOtherRoot = 0.25;
+
+/// So many times the energy of an island may be with the impulses of the substep before.
+constexpr double kThrown = 4;
 
 /// More energy than so many times what there is did not come from what drives an island.
 constexpr double kFlung = 4;
@@ -466,6 +470,18 @@ void IslandGroup::forget_impulses() {
     for (IslandRow& row : ties_.rows()) row.impulse = 0;
 }
 
+/// Impulses of the substep before take the push of gravity back where nothing changed. What joints
+/// bore when a robot landed would throw its links about, once its feet are off the ground: such
+/// that give much more energy than there is are no start.
+void IslandGroup::forget_what_throws(const Member& m) {
+    if (m.ties.empty() || m.is_meshed || m.is_driven) return;
+    const Island island = island_of(m);
+    const double before = kinetic_energy(island.bodies, starts_of(m));
+    if (kinetic_energy(island.bodies, island.velocity) <= kThrown * before) return;
+    IslandSolver::forget(island);
+    std::copy(starts_of(m).begin(), starts_of(m).end(), island.velocity.begin());
+}
+
 /// The impulses that the substep starts from, to the velocities.
 void IslandGroup::apply_impulses() {
     std::fill(force_.begin(), force_.end(), Vector6d::Zero());
@@ -478,6 +494,7 @@ void IslandGroup::apply_impulses() {
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         velocity_[i] += response(bodies_[i], force_[i]);
+    for (std::size_t i = 0; i < count_; ++i) forget_what_throws(members_[i]);
 }
 
 Island IslandGroup::island_of(const Member& m) {
@@ -584,15 +601,6 @@ void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
         shift[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift[i] - island.velocity[i]);
 }
 
-/// What motors and springs give to velocities that go from `start` to `end` [J].
-double IslandGroup::work_of_drives(std::span<const IslandRow> rows, std::span<const Vector6d> start,
-                                   std::span<const Vector6d> end) {
-    double work = 0;
-    for (const IslandRow& row : rows)
-        if (row.drive) work += row.impulse * 0.5 * (rate_of(row, start) + rate_of(row, end));
-    return work;
-}
-
 /// Returns whether it is solved.
 bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort effort) {
     const IslandReport report =
@@ -606,14 +614,9 @@ bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort eff
 void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     const double tolerance = world.settings.joint_tolerance;
     const Island island = island_of(m);
-    // what is meshed has no motors, and limits may contradict it
-    const auto given = [&] {
-        if (m.is_meshed) return 0.0;
-        return std::max(0.0, work_of_drives(island.rows, starts_of(m), island.velocity));
-    };
     const auto gains = [&](double share = 0) {
         return !(kinetic_energy(island.bodies, island.velocity) <=
-                 (1 + share) * kinetic_energy(island.bodies, starts_of(m)) + given());
+                 (1 + share) * kinetic_energy(island.bodies, starts_of(m)));
     };
     const auto ask = [&] { m.open = ties_.ask(m.ties, island.velocity); };
     if (m.splits) {
@@ -659,7 +662,9 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     if (m.solved && !(m.open > tolerance)) return;
     const bool ajar = m.open <= kAjar * tolerance;
     m.given_up |= !ajar;
-    if ((m.is_meshed && m.solved && ajar) || !gains()) return;
+    // motors of a tree may give some
+    const double given = m.is_meshed || !ajar ? 0 : kOtherRoot;
+    if ((m.is_meshed && m.solved && ajar) || !gains(given)) return;
     m.given_up = true;
     m.is_meshed ? close_gently(solver, m) : give_way(solver, m);
 }

@@ -107,8 +107,6 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
-    static double work_of_drives(std::span<const IslandRow> rows, std::span<const Vector6d> start,
-                                 std::span<const Vector6d> end);
     bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;
     bool is_pulled_apart(const World& world, const Member& member);
@@ -127,6 +125,7 @@ private:
     double torn_from(const World& world, const Member& member, double h) const;
     double open_at_start(const Member& member);
     void forget_impulses();
+    void forget_what_throws(const Member& member);
     void apply_impulses();
     Island island_of(const Member& member);
     std::span<const Vector6d> starts_of(const Member& member) const;

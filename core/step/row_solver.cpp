@@ -32,7 +32,8 @@ constexpr std::uint32_t kShockRounds = 16;
 
 /// Iterations of each phase of an impact: these, and as many again until velocities change by no
 /// more than a share of the greatest, or that comes to so many solutions of a pair. What runs along
-/// a row takes as many as the square of its length. Joints would have to take part in that.
+/// a row takes as many as the square of its length. Joints would have to take part in that; and
+/// where friction wedges what does not bounce, iterations that are not enough only delay its rest.
 constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000;
 constexpr double kImpactSettled = 1e-5;
 
@@ -44,6 +45,7 @@ public:
           workers_(workers),
           shocks_(plan.runs(Effect::shock_propagation)),
           has_impacts_(plan.runs(Effect::impacts)),
+          has_friction_(plan.runs(Effect::friction)),
           warm_start_(settings_.warm_start && !shocks_),
           solved_ties_(world),
           impacts_(carry_momentum(settings_, plan.runs(Effect::gyroscopic))),
@@ -299,8 +301,11 @@ private:
     }
 
     void iterate_impacts(const World& world, PassSettings<Real> pass) {
-        const bool settles = world.joints.size() == 0;
-        const std::size_t most = settles ? kImpactWork / impacts_.hit_count() : 0;
+        const std::size_t hits = impacts_.hit_count();
+        const bool rubs = has_friction_ && world.contacts.restitution.empty();
+        const bool settles =
+            world.joints.size() == 0 && (!rubs || hits * hits * hits <= kImpactWork);
+        const std::size_t most = settles ? kImpactWork / hits : 0;
         for (std::size_t done = 0; done == 0 || (done < most && impacts_changed());
              done += kImpactIterations)
             workers_.run([&](std::uint32_t worker) {
@@ -331,7 +336,7 @@ private:
 
     const Settings settings_;
     Workers& workers_;
-    bool shocks_, has_impacts_;
+    bool shocks_, has_impacts_, has_friction_;
     /// Shock propagation carries each level by itself; impulses of the step before would only stand
     /// in its way.
     bool warm_start_;
