@@ -45,8 +45,9 @@ constexpr std::uint32_t kMostMisses = 8;
 /// bodies about. They are known by the energy that they add, as a share of what there is.
 constexpr double kOtherRoot = 0.25;
 
-/// So many times the energy of an island may be with the impulses of the substep before.
-constexpr double kThrown = 4;
+/// How far the impulses of the substep before may make a body turn in a substep, unless it turns
+/// half as fast without [rad].
+constexpr double kWhirl = 0.5;
 
 /// More energy than so many times what there is did not come from what drives an island.
 constexpr double kFlung = 4;
@@ -471,15 +472,20 @@ void IslandGroup::forget_impulses() {
 }
 
 /// Impulses of the substep before take the push of gravity back where nothing changed. What joints
-/// bore when a robot landed would throw its links about, once its feet are off the ground: such
-/// that give much more energy than there is are no start.
-void IslandGroup::forget_what_throws(const Member& m) {
+/// bore when a robot landed would whirl its links about, once its feet are off the ground, farther
+/// than what joints are asked for at the end of the substep means anything: such are no start.
+void IslandGroup::forget_what_whirls(const Member& m) {
     if (m.ties.empty() || m.is_meshed || m.is_driven) return;
     const Island island = island_of(m);
-    const double before = kinetic_energy(island.bodies, starts_of(m));
-    if (kinetic_energy(island.bodies, island.velocity) <= kThrown * before) return;
-    IslandSolver::forget(island);
-    std::copy(starts_of(m).begin(), starts_of(m).end(), island.velocity.begin());
+    const std::span<const Vector6d> start = starts_of(m);
+    const auto rate = [](const Vector6d& v) { return v.tail<3>().norm(); };
+    for (std::size_t i = 0; i < start.size(); ++i) {
+        const double now = rate(island.velocity[i]);
+        if (h_ * now <= kWhirl || now <= 2 * rate(start[i])) continue;
+        IslandSolver::forget(island);
+        std::copy(start.begin(), start.end(), island.velocity.begin());
+        return;
+    }
 }
 
 /// The impulses that the substep starts from, to the velocities.
@@ -494,7 +500,7 @@ void IslandGroup::apply_impulses() {
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         velocity_[i] += response(bodies_[i], force_[i]);
-    for (std::size_t i = 0; i < count_; ++i) forget_what_throws(members_[i]);
+    for (std::size_t i = 0; i < count_; ++i) forget_what_whirls(members_[i]);
 }
 
 Island IslandGroup::island_of(const Member& m) {

@@ -125,7 +125,7 @@ private:
     double torn_from(const World& world, const Member& member, double h) const;
     double open_at_start(const Member& member);
     void forget_impulses();
-    void forget_what_throws(const Member& member);
+    void forget_what_whirls(const Member& member);
     void apply_impulses();
     Island island_of(const Member& member);
     std::span<const Vector6d> starts_of(const Member& member) const;
