@@ -648,8 +648,10 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         return;
     }
     const int most = m.is_meshed ? kMostCloses : kCloses;
+    bool was_solved = false;  // before the last closing, which changes little
     for (int i = 0; i < most; ++i) {
         const double before = m.open;
+        was_solved |= m.solved && i > 0;
         m.solved = solve_system(solver, m, m.effort);
         ask();
         const bool closes = !m.is_meshed && m.open <= 0.5 * before;
@@ -665,7 +667,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     if (m.ties.empty()) return;
     if (is_pulled_apart(world, m)) return hold_torn(solver, m);
     if (m.is_meshed && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
-    if (m.solved && !(m.open > tolerance)) return;
+    if ((m.solved || (was_solved && !m.is_meshed)) && !(m.open > tolerance)) return;
     const bool ajar = m.open <= kAjar * tolerance;
     m.given_up |= !ajar;
     // motors of a tree may give some
