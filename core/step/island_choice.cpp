@@ -359,9 +359,9 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     const std::size_t jammed_before = jammed_.size();
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
+    const bool is_small_tree = is_tied && !meshed && n <= kSmallTree && !is_driven(island);
     if ((upset_.empty() || is_loose) &&
-        (n <= kVerySmall || is_calm(world, island, pairs) ||
-         (is_tied && !meshed && n <= kSmallTree && is_followed(world, island, pairs)))) {
+        (n <= kVerySmall || is_calm(world, island, pairs, is_small_tree))) {
         if (upset_.empty()) return IslandWay::exact;
         jammed_.resize(jammed_before);
         return IslandWay::swept;
@@ -475,19 +475,11 @@ IslandChoice::Stir IslandChoice::stir_of(const World& world, const ContactIsland
 }
 
 bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
-                           const std::vector<BodyPair>& pairs) const {
+                           const std::vector<BodyPair>& pairs, bool is_small_tree) const {
     const Stir stir =
         stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
-    return stir.speed <= calm_speed(world, stir.radius, stir.pull);
-}
-
-/// Whether its contacts come so little a way in a substep that those of its start will do.
-bool IslandChoice::is_followed(const World& world, const ContactIsland& island,
-                               const std::vector<BodyPair>& pairs) const {
-    if (is_driven(island)) return false;
-    const Stir stir =
-        stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
-    return stir.speed * substep_of(world.settings) <= kFollowed * stir.radius;
+    return stir.speed <= calm_speed(world, stir.radius, stir.pull) ||
+           (is_small_tree && stir.speed * substep_of(world.settings) <= kFollowed * stir.radius);
 }
 
 /// Of a large island: see step/large_islands.h.

@@ -119,10 +119,9 @@ private:
     template <class VelocityAt>
     Stir stir_of(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs, VelocityAt velocity_at) const;
+    /// Small trees are calm as long as contacts of a substep's start will do until its end.
     bool is_calm(const World& world, const ContactIsland& island,
-                 const std::vector<BodyPair>& pairs) const;
-    bool is_followed(const World& world, const ContactIsland& island,
-                     const std::vector<BodyPair>& pairs) const;
+                 const std::vector<BodyPair>& pairs, bool is_small_tree) const;
     bool rests_and_misses(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const;
     void find_upset(const World& world, const ContactIsland& island,
