@@ -159,6 +159,18 @@ inline void joint_response(T (&k)[6][6], const JointRows<T>& rows, const JointGe
     }
 }
 
+/// How far one iteration turns a body, at most [rad]. The gradient of a rotational row vanishes at a
+/// right angle, so that Eq. 6 would ask for a turn without bounds near there.
+inline constexpr double kTrustedTurn = 0.5;
+
+/// The share of changes of both bodies' velocities that turns neither farther than that: 1 but for
+/// what whips round.
+template <class T>
+inline T trusted_share(const Velocity<T>& a, const Velocity<T>& b, const T& h) {
+    const T rate = sqrt(max(dot(a.w, a.w), dot(b.w, b.w))), most = T(kTrustedTurn) / h;
+    return select_greater(rate, most, most / max(rate, most), T(1));
+}
+
 /// One iteration of Eq. 6: all rows at once. `change` is corrected; `total` is the whole velocity.
 template <class T>
 inline void solve_joint(Velocity<T>& change_a, Velocity<T>& change_b, const Velocity<T>& total_a,
@@ -172,8 +184,13 @@ inline void solve_joint(Velocity<T>& change_a, Velocity<T>& change_b, const Velo
     for (int i = 0; i < 6; ++i)
         push[i] = -(rows.c[i] / h + joint.softness[i] * lambda[i]) * joint.lock[i];
     solve_ldlt<T, 6>(k, push);
-    for (int i = 0; i < 6; ++i) lambda[i] = lambda[i] + push[i];
-    apply_rows<T>(change_a, change_b, mass_a, mass_b, rows, push);
+    const Vector3<T> none(T(0), T(0), T(0));
+    Velocity<T> a{none, none}, b{none, none};
+    apply_rows<T>(a, b, mass_a, mass_b, rows, push);
+    const T share = trusted_share<T>(a, b, h);
+    for (int i = 0; i < 6; ++i) lambda[i] = lambda[i] + push[i] * share;
+    change_a.v += a.v * share, change_a.w += a.w * share;
+    change_b.v += b.v * share, change_b.w += b.w * share;
 }
 
 }  // namespace plumb

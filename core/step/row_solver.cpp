@@ -12,6 +12,7 @@
 #include "solve/surface_contact_group.h"
 #include "step/contact_solver.h"
 #include "step/energy_bound.h"
+#include "step/joint_energy_bound.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
 #include "step/push_out_shares.h"
@@ -159,7 +160,8 @@ public:
 
     void bound_energy(const World& world, double h) override {
         const PushOut push = push_out(settings_, share_of_substep(settings_), h);
-        energy_.apply(world, *contacts_, table_.rows(), push, h);
+        if (has_impacts_) energy_.apply(world, *contacts_, table_.rows(), push, h);
+        if (joint_energy_) joint_energy_->apply(world, *contacts_, table_.rows(), push, h);
     }
 
     void solve_islands(const World& world, StepReport& report) override {
@@ -239,6 +241,7 @@ private:
     /// where the plan says so, the others by iterations.
     void make_groups(const World& world, const Plan& plan) {
         if (plan.runs(Effect::joints)) {
+            joint_energy_.emplace(world);
             const bool grows = plan.runs(Effect::joint_trees);
             const JointForest forest = grows ? find_forest(world) : JointForest();
             joints_ = add<JointSolver<Real, W>>(
@@ -353,6 +356,7 @@ private:
     Impacts impacts_;
     std::vector<Velocity<Real>> settled_;  // [row], of what collides
     EnergyBound<Real, W> energy_;
+    std::optional<JointEnergyBound<Real, W>> joint_energy_;
     IslandResiduals residuals_;
     std::vector<BodyPair> held_rows_;  // that any constraint holds together
     ContactIslands held_;              // the islands that these make

@@ -1,8 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "constraints/effective_mass.h"
 #include "step/driven_axes.h"
+#include "step/joint_geometry.h"
+#include "step/joint_state.h"
 #include "world/tie.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace plumb {
 
@@ -33,6 +40,34 @@ inline bool can_do_work(const World& world, const Tie& tie) {
         }
     });
     return can;
+}
+
+/// The most that what drives a joint can give its bodies in a substep of h [s]: a spring all that
+/// it holds, a motor its greatest impulse at the greatest speed that the axis can have by it
+/// [J]. Infinite, where nothing bounds it.
+inline double most_work(const World& world, std::uint32_t index, double h) {
+    const Joint& joint = world.joints.joints[index];
+    if (joint.compliance > 0 || joint.angular_compliance > 0)
+        return std::numeric_limits<double>::infinity();
+    double work = 0;
+    each_driven_axis(world.joints, index, [&](std::uint32_t first, std::uint32_t last) {
+        double impulse = 0, fastest = std::numeric_limits<double>::infinity();
+        const JointCoordinate q = joint_coordinate(world, index, world.joints.drives[first].axis);
+        for (std::uint32_t i = first; i < last; ++i) {
+            const JointDrive& drive = world.joints.drives[i];
+            const JointAxisSpec& spec = drive.spec;
+            if (drive.kind == DriveKind::motor) impulse = h * spec.motor.greatest;
+            if (drive.kind == DriveKind::speed) fastest = spec.greatest_speed;
+            if (drive.kind == DriveKind::spring)
+                work += 0.5 * spec.stiffness * (q.value - spec.rest) * (q.value - spec.rest);
+        }
+        if (!(impulse > 0)) return;
+        const double rate = std::abs(joint_rate(world.bodies, joint, q)),
+                     gained = impulse * row_response(q, inverse_mass(world.bodies, joint.a),
+                                                     inverse_mass(world.bodies, joint.b));
+        work += impulse * std::max(rate, std::min(rate + gained, fastest));
+    });
+    return work;
 }
 
 }  // namespace plumb
