@@ -38,6 +38,14 @@ inline Vector3<T> solve_ldlt(const Symmetric3<T>& k, const Vector3<T>& c) {
     return Vector3<T>(x0, x1, x2);
 }
 
+/// Of one that is positive definite.
+inline Symmetric3<double> inverse(const Symmetric3<double>& k) {
+    const Vector3d x = solve_ldlt<double>(k, Vector3d::UnitX()),
+                   y = solve_ldlt<double>(k, Vector3d::UnitY()),
+                   z = solve_ldlt<double>(k, Vector3d::UnitZ());
+    return {x[0], y[1], z[2], x[1], x[2], y[2]};
+}
+
 /// R diag(d) Rᵀ for the columns of R.
 template <class T>
 inline Symmetric3<T> rotated_diagonal(const Vector3<T> (&r)[3], const Vector3<T>& d) {

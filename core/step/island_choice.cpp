@@ -268,7 +268,7 @@ void IslandChoice::rule_out(const World& world) {
         const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)
                                       : load_of(world, world.links[tie.index], h);
         if (is_joint && iterated) mark(tie, kBeyond);
-        if (load.pull > kHardPull || load.turn > kFarthestTurn) mark(tie, kHard);
+        if (load.turn > kFarthestTurn || (!is_joint && load.pull > kHardPull)) mark(tie, kHard);
         if (load.turn > kFarTurn) mark(tie, kFast);
         if (rest_of(world, tie).steps > 0) mark(tie, kRests);
     }
@@ -359,7 +359,7 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     const std::size_t jammed_before = jammed_.size();
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
-    const bool is_small_tree = is_tied && !meshed && n <= kSmallTree && !is_driven(island);
+    const bool is_small_tree = is_tied && !meshed && n <= kSmallTree;
     if ((upset_.empty() || is_loose) &&
         (n <= kVerySmall || is_calm(world, island, pairs, is_small_tree))) {
         if (upset_.empty()) return IslandWay::exact;

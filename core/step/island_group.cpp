@@ -322,8 +322,12 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
     }
     h_ = h;
     ties_.begin();
-    for (std::size_t i = 0; i < count_; ++i)
+    for (std::size_t i = 0; i < count_; ++i) {
+        const Member& m = members_[i];
         ties_.begin(world, substep_time(world, h), members_[i].ties);
+        ties_.stiffen(world, h, m.ties,
+                      std::span(bodies_).subspan(m.first_body, m.last_body - m.first_body));
+    }
     if (!world.settings.warm_start) forget_impulses();
     apply_impulses();
     std::uint32_t clamped = 0;

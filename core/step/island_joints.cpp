@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_joints.h"
 
+#include "constraints/tree_stiffness.h"
 #include "step/drive_state.h"
 #include "step/driven_axes.h"
 #include "step/joint_geometry.h"
+#include "step/lever_of.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +65,11 @@ void IslandJoints::begin(const World& world, const SubstepTime& time, std::uint3
     defer_errors(m.deferred, m.old, m.geometry, time.h * world.settings.recovery_speed);
     const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
     const JointRows<double> now = joint_rows<double>(m.geometry, rest, rest, time.h);
+    m.load.setZero();
     m.first_row = static_cast<std::uint32_t>(rows.size());
     for (int k = 0; k < 6; ++k) {
         if (!(m.geometry.lock[k] > 0)) continue;
+        if (k < 3) m.load += joint.rows[k] * now.e[k];
         const Vector3d along = k < 3 ? now.e[k] : Vector3d(Vector3d::Zero());
         IslandRow& row =
             rows.emplace_back(row_of(world, joint, m.a, m.b, along, now.g_a[k], now.g_b[k]));
@@ -95,6 +99,26 @@ IslandRow IslandJoints::axis_row(const World& world, const SubstepTime& time, co
     };
     row.moving = part(m.a, m.scripted_a, q.turn_a) - part(m.b, m.scripted_b, q.turn_b);
     return row;
+}
+
+void IslandJoints::stiffen(const World& world, double h, std::uint32_t i,
+                           std::span<IslandBody> bodies) const {
+    constexpr double kTheta = 0.5;
+    const Member& m = joints_[i];
+    const Joint& joint = world.joints.joints[m.joint];
+    const auto stiffen = [&](std::uint32_t at, std::uint32_t body, const Vector3d& arm,
+                             const Vector3d& load) {
+        if (at == kImmovable) return;
+        const double share =
+            kTheta * between_0_and_1(tree_load(world, joint, body, arm, h) - 1);
+        if (!(share > 0)) return;
+        Symmetric3<double>& inertia = bodies[at].inertia;
+        inertia =
+            inertia + non_negative_part(angular_stiffness<double>(arm, load, share * h));
+        bodies[at].inverse_inertia = inverse(inertia);
+    };
+    stiffen(m.a, joint.a, m.geometry.r_a, m.load);
+    stiffen(m.b, joint.b, m.geometry.r_b, -m.load);
 }
 
 double IslandJoints::open_at_start(std::uint32_t i) const {

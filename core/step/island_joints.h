@@ -2,7 +2,7 @@
 /// The joints of islands that are solved exactly: from the world's tables to rows, and back.
 ///
 /// Levers are those of the start of a substep, which keeps momentum and energy (constraints/
-/// joint_lever.h). Rows are linear and joints are not: after each solution the rows are asked to
+/// joint_lever.h), but where that would swing light bodies under a heavy load ever faster. Rows are linear and joints are not: after each solution the rows are asked to
 /// close what is still open at the preview poses.
 #pragma once
 
@@ -37,6 +37,10 @@ public:
     void begin(const World& world, const SubstepTime& time, std::uint32_t i,
                std::vector<IslandRow>& rows);
 
+    /// Its load of the substep before turns with the levers of heavily loaded bodies (constraints/
+    /// joint_lever.h): what that changes of their turns acts as inertia about them.
+    void stiffen(const World& world, double h, std::uint32_t i, std::span<IslandBody> bodies) const;
+
     /// How far it was open then, where it does not give [m], [rad].
     double open_at_start(std::uint32_t i) const;
 
@@ -66,6 +70,7 @@ private:
         std::uint32_t first_row = 0, first_axis_row = 0;  ///< those it takes away, then its axes
         Velocity<double> scripted_a, scripted_b;          ///< of what is immovable
         JointGeometry<double> geometry;
+        Vector3d load;       ///< what it bore in the substep before, on a [N s]
         double old[6];       ///< errors at the start, where it does not give [m], [rad]
         double deferred[6];  ///< what is left of them for later [m], [rad]
     };

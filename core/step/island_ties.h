@@ -60,6 +60,13 @@ public:
     /// Rows at the start of the substep, with the impulses of the one before.
     void begin(const World& world, const SubstepTime& time, IslandTieRange& range);
 
+    /// What loads of the substep before add to the inertia of the island's bodies.
+    void stiffen(const World& world, double h, const IslandTieRange& range,
+                 std::span<IslandBody> bodies) const {
+        for (std::uint32_t i = range.joints.first; i < range.joints.last; ++i)
+            joints_.stiffen(world, h, i, bodies);
+    }
+
     /// How far its worst joint was open then [m], [rad].
     double open_at_start(const IslandTieRange& range) const;
 
