@@ -221,14 +221,16 @@ void IslandChoice::find_ties(const World& world) {
     }
 }
 
-/// Moves the joints behind the others that close loops; returns where they begin.
+/// Moves the joints behind the others that close loops, or that hold nothing but by what drives
+/// them, as ropes do, which are no part of trees; returns where they begin.
 std::size_t IslandChoice::move_loops_back(const World& world) {
     tied_.resize(static_cast<std::size_t>(world.dynamic_count) + 1);
     std::iota(tied_.begin(), tied_.end(), std::size_t{0});
     loops_.clear();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < ties_.size(); ++i) {
-        if (closes_loop(tied_rows_[i])) {
+        const Joint& joint = world.joints.joints[ties_[i].index];
+        if (joint.locked == decltype(joint.locked){} || closes_loop(tied_rows_[i])) {
             loops_.emplace_back(ties_[i], tied_rows_[i]);
             continue;
         }

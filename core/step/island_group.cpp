@@ -673,7 +673,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     if (m.is_meshed && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
     if ((m.solved || (was_solved && !m.is_meshed)) && !(m.open > tolerance)) return;
     const bool ajar = m.open <= kAjar * tolerance;
-    m.given_up |= !ajar;
+    m.given_up |= !ajar && (m.is_meshed || m.is_driven);
     // motors of a tree may give some
     const double given = m.is_meshed || !ajar ? 0 : kOtherRoot;
     if ((m.is_meshed && m.solved && ajar) || !gains(given)) return;
