@@ -45,6 +45,15 @@ inline double smaller_radius(const Bodies& b, const Contact& c) {
     return radius;
 }
 
+/// Iterations converge well enough where masses are not so many times each other.
+inline constexpr double kUneven = 5;
+
+/// Whether one of two bodies is so much heavier than the other.
+inline bool is_uneven(const Bodies& b, const Contact& c) {
+    const double lighter = std::min(b.mass[c.a], b.mass[c.b]);
+    return lighter > 0 && std::max(b.mass[c.a], b.mass[c.b]) > kUneven * lighter;
+}
+
 /// Share of Settings::recovery_speed at which a contact's overlap is pushed out at the most. Bodies
 /// keep that speed when they part: in a crushed heap it adds up from layer to layer, and what is
 /// thrown comes down askew and is wedged. So gravity takes it back within a small share of their

@@ -109,8 +109,7 @@ private:
         const Contact& c = world.contacts.found[pair.first];
         if (bodies.motion[c.a] == Motion::kinematic || bodies.motion[c.b] == Motion::kinematic)
             return true;
-        const double a = bodies.mass[c.a], b = bodies.mass[c.b];
-        return std::min(a, b) > 0 && std::max(a, b) > kUneven * std::min(a, b);
+        return plumb::is_uneven(bodies, c);
     }
 
     bool is_watched(const ContactIsland& island) const {
@@ -157,9 +156,6 @@ private:
         }
         return std::max(0.0, energy);
     }
-
-    /// Iterations converge well enough where masses are not so many times each other.
-    static constexpr double kUneven = 5;
 
     ContactIslands islands_;
     bool watches_ = false, found_ = false;

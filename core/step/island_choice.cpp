@@ -361,10 +361,10 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     const std::size_t jammed_before = jammed_.size();
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
-    const bool is_small_tree = is_tied && !meshed && n <= kSmallTree;
+    const bool is_hard = is_tied ? !meshed && n <= kSmallTree : is_hard_heap(world, island, pairs);
     if ((upset_.empty() || is_loose) &&
-        (n <= kVerySmall || is_calm(world, island, pairs, is_small_tree))) {
-        if (upset_.empty()) return IslandWay::exact;
+        (n <= kVerySmall || is_calm(world, island, pairs, is_hard))) {
+        if (upset_.empty() || (is_loose && is_hard)) return IslandWay::exact;
         jammed_.resize(jammed_before);
         return IslandWay::swept;
     }
@@ -476,12 +476,22 @@ IslandChoice::Stir IslandChoice::stir_of(const World& world, const ContactIsland
     return stir;
 }
 
+bool IslandChoice::is_hard_heap(const World& world, const ContactIsland& island,
+                                const std::vector<BodyPair>& pairs) const {
+    if (island.last_body - island.first_body > kSmallHeap) return false;
+    const auto first = found_.pairs().begin();
+    return std::any_of(
+        first + island.first_pair, first + island.last_pair, [&](std::uint32_t i) {
+            return plumb::is_uneven(world.bodies, world.contacts.found[pairs[i].first]);
+        });
+}
+
 bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
-                           const std::vector<BodyPair>& pairs, bool is_small_tree) const {
+                           const std::vector<BodyPair>& pairs, bool is_hard) const {
     const Stir stir =
         stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
     return stir.speed <= calm_speed(world, stir.radius, stir.pull) ||
-           (is_small_tree && stir.speed * substep_of(world.settings) <= kFollowed * stir.radius);
+           (is_hard && stir.speed * substep_of(world.settings) <= kFollowed * stir.radius);
 }
 
 /// Of a large island: see step/large_islands.h.

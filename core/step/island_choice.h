@@ -37,10 +37,11 @@ enum class IslandWay : std::uint8_t { exact, swept, left };
 
 /// Islands of so many bodies are solved exactly however they move.
 inline constexpr std::uint32_t kVerySmall = 8;
-/// So many that joints hold together without a loop, too, while its contacts slide, part and
-/// approach by no more than this share of its bodies' radius in a substep: sweeps open the joints
-/// of what lands on its feet.
-inline constexpr std::uint32_t kSmallTree = 16;
+/// So many that joints hold together without a loop, and so many of which one is much heavier than
+/// another that it touches, too, while contacts slide, part and approach by no more than this share
+/// of their radius in a substep: sweeps open the joints of what lands on its feet, and let heavy
+/// bodies sink into light ones.
+inline constexpr std::uint32_t kSmallTree = 16, kSmallHeap = 64;
 inline constexpr double kFollowed = 0.1;
 
 class IslandChoice {
@@ -53,6 +54,10 @@ public:
 
     /// A tie of the islands.
     const Tie& tie(std::uint32_t i) const { return ties_[i]; }
+
+    /// Whether it is small, and a body is much heavier than another that it touches.
+    bool is_hard_heap(const World& world, const ContactIsland& island,
+                      const std::vector<BodyPair>& pairs) const;
 
     IslandWay way_of(const World& world, const ContactIsland& island,
                      const std::vector<BodyPair>& pairs);
@@ -119,9 +124,10 @@ private:
     template <class VelocityAt>
     Stir stir_of(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs, VelocityAt velocity_at) const;
-    /// Small trees are calm as long as contacts of a substep's start will do until its end.
+    /// `is_hard`: what sweeps would not hold is calm as long as contacts of a substep's start will
+    /// do until its end.
     bool is_calm(const World& world, const ContactIsland& island,
-                 const std::vector<BodyPair>& pairs, bool is_small_tree) const;
+                 const std::vector<BodyPair>& pairs, bool is_hard) const;
     bool rests_and_misses(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const;
     void find_upset(const World& world, const ContactIsland& island,
