@@ -362,9 +362,10 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
     const bool is_hard = is_tied ? !meshed && n <= kSmallTree : is_hard_heap(world, island, pairs);
-    if ((upset_.empty() || is_loose) &&
+    const bool is_held = upset_.empty() || (is_hard && !is_driven(island));
+    if ((is_held || is_loose) &&
         (n <= kVerySmall || is_calm(world, island, pairs, is_hard))) {
-        if (upset_.empty() || (is_loose && is_hard)) return IslandWay::exact;
+        if (is_held) return IslandWay::exact;
         jammed_.resize(jammed_before);
         return IslandWay::swept;
     }
