@@ -42,7 +42,7 @@ inline constexpr std::uint32_t kVerySmall = 8;
 /// of their radius in a substep: sweeps open the joints of what lands on its feet, and let heavy
 /// bodies sink into light ones.
 inline constexpr std::uint32_t kSmallTree = 16, kSmallHeap = 64;
-inline constexpr double kFollowed = 0.1;
+inline constexpr double kFollowed = 0.5;
 
 class IslandChoice {
 public:
