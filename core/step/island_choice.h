@@ -41,8 +41,8 @@ inline constexpr std::uint32_t kVerySmall = 8;
 /// another that it touches, too, while contacts slide, part and approach by no more than this share
 /// of their radius in a substep: sweeps open the joints of what lands on its feet, and let heavy
 /// bodies sink into light ones.
-inline constexpr std::uint32_t kSmallTree = 16, kSmallHeap = 64;
-inline constexpr double kFollowed = 0.5;
+inline constexpr std::uint32_t kSmallTree = 64, kSmallHeap = 64;
+inline constexpr double kFollowed = 2;
 
 class IslandChoice {
 public:
