@@ -361,10 +361,9 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     const std::size_t jammed_before = jammed_.size();
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
-    const bool is_hard = is_tied ? !meshed && n <= kSmallTree : is_hard_heap(world, island, pairs);
-    const bool is_held = upset_.empty() || (is_hard && !is_driven(island));
-    if ((is_held || is_loose) &&
-        (n <= kVerySmall || is_calm(world, island, pairs, is_hard))) {
+    const bool hard = is_hard(world, island, pairs);
+    const bool is_held = upset_.empty() || (hard && !is_driven(island));
+    if ((is_held || is_loose) && (n <= kVerySmall || is_calm(world, island, pairs, hard))) {
         if (is_held) return IslandWay::exact;
         jammed_.resize(jammed_before);
         return IslandWay::swept;
@@ -477,22 +476,24 @@ IslandChoice::Stir IslandChoice::stir_of(const World& world, const ContactIsland
     return stir;
 }
 
-bool IslandChoice::is_hard_heap(const World& world, const ContactIsland& island,
-                                const std::vector<BodyPair>& pairs) const {
-    if (island.last_body - island.first_body > kSmallHeap) return false;
+bool IslandChoice::is_hard(const World& world, const ContactIsland& island,
+                           const std::vector<BodyPair>& pairs) const {
+    const std::uint32_t n = island.last_body - island.first_body,
+                        ties = island.last_tie - island.first_tie;
+    if (n > kMostHard) return false;
+    if (ties > 0) return !is_meshed(island) && (n <= kFewHard || 2 * ties >= n);
     const auto first = found_.pairs().begin();
-    return std::any_of(
-        first + island.first_pair, first + island.last_pair, [&](std::uint32_t i) {
-            return plumb::is_uneven(world.bodies, world.contacts.found[pairs[i].first]);
-        });
+    return std::any_of(first + island.first_pair, first + island.last_pair, [&](std::uint32_t i) {
+        return is_uneven(world.bodies, world.contacts.found[pairs[i].first]);
+    });
 }
 
 bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
-                           const std::vector<BodyPair>& pairs, bool is_hard) const {
+                           const std::vector<BodyPair>& pairs, bool hard) const {
     const Stir stir =
         stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
     return stir.speed <= calm_speed(world, stir.radius, stir.pull) ||
-           (is_hard && stir.speed * substep_of(world.settings) <= kFollowed * stir.radius);
+           (hard && stir.speed * substep_of(world.settings) <= kFollowed * stir.radius);
 }
 
 /// Of a large island: see step/large_islands.h.

@@ -37,11 +37,12 @@ enum class IslandWay : std::uint8_t { exact, swept, left };
 
 /// Islands of so many bodies are solved exactly however they move.
 inline constexpr std::uint32_t kVerySmall = 8;
-/// So many that joints hold together without a loop, and so many of which one is much heavier than
-/// another that it touches, too, while contacts slide, part and approach by no more than this share
-/// of their radius in a substep: sweeps open the joints of what lands on its feet, and let heavy
-/// bodies sink into light ones.
-inline constexpr std::uint32_t kSmallTree = 64, kSmallHeap = 64;
+/// What sweeps do not hold, too, up to so many bodies: robots that land on their feet, whose joints
+/// they open, and heavy bodies on light ones, into which they sink. Of more than a few bodies, half
+/// must be jointed: a heap that a chain hits is no robot.
+inline constexpr std::uint32_t kMostHard = 64, kFewHard = 16;
+/// While contacts slide, part and approach by no more than so many radii in a substep: after that,
+/// those of its start are not those of its end.
 inline constexpr double kFollowed = 2;
 
 class IslandChoice {
@@ -55,9 +56,9 @@ public:
     /// A tie of the islands.
     const Tie& tie(std::uint32_t i) const { return ties_[i]; }
 
-    /// Whether it is small, and a body is much heavier than another that it touches.
-    bool is_hard_heap(const World& world, const ContactIsland& island,
-                      const std::vector<BodyPair>& pairs) const;
+    /// Whether it is small, and sweeps would not hold it: see kMostHard.
+    bool is_hard(const World& world, const ContactIsland& island,
+                 const std::vector<BodyPair>& pairs) const;
 
     IslandWay way_of(const World& world, const ContactIsland& island,
                      const std::vector<BodyPair>& pairs);
@@ -124,10 +125,9 @@ private:
     template <class VelocityAt>
     Stir stir_of(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs, VelocityAt velocity_at) const;
-    /// `is_hard`: what sweeps would not hold is calm as long as contacts of a substep's start will
-    /// do until its end.
+    /// What is `hard` is calm as long as contacts of a substep's start will do until its end.
     bool is_calm(const World& world, const ContactIsland& island,
-                 const std::vector<BodyPair>& pairs, bool is_hard) const;
+                 const std::vector<BodyPair>& pairs, bool hard) const;
     bool rests_and_misses(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const;
     void find_upset(const World& world, const ContactIsland& island,

@@ -164,7 +164,7 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     ties_.begin_island(member.ties);
     member.given_up = false;
     member.may_be_disputed =
-        choice_.is_loose_heap(island) && !choice_.is_hard_heap(world, island, pairs);
+        choice_.is_loose_heap(island) && !choice_.is_hard(world, island, pairs);
     member.is_driven = choice_.is_driven(island);
     member.gains_nothing = !member.is_driven;
     member.is_meshed = choice_.is_meshed(island) && !member.is_driven;

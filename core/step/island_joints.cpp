@@ -109,12 +109,10 @@ void IslandJoints::stiffen(const World& world, double h, std::uint32_t i,
     const auto stiffen = [&](std::uint32_t at, std::uint32_t body, const Vector3d& arm,
                              const Vector3d& load) {
         if (at == kImmovable) return;
-        const double share =
-            kTheta * between_0_and_1(tree_load(world, joint, body, arm, h) - 1);
+        const double share = kTheta * between_0_and_1(tree_load(world, joint, body, arm, h) - 1);
         if (!(share > 0)) return;
         Symmetric3<double>& inertia = bodies[at].inertia;
-        inertia =
-            inertia + non_negative_part(angular_stiffness<double>(arm, load, share * h));
+        inertia = inertia + non_negative_part(angular_stiffness<double>(arm, load, share * h));
         bodies[at].inverse_inertia = inverse(inertia);
     };
     stiffen(m.a, joint.a, m.geometry.r_a, m.load);

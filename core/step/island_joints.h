@@ -2,8 +2,9 @@
 /// The joints of islands that are solved exactly: from the world's tables to rows, and back.
 ///
 /// Levers are those of the start of a substep, which keeps momentum and energy (constraints/
-/// joint_lever.h), but where that would swing light bodies under a heavy load ever faster. Rows are linear and joints are not: after each solution the rows are asked to
-/// close what is still open at the preview poses.
+/// joint_lever.h), but where that would swing light bodies under a heavy load ever faster. Rows are
+/// linear and joints are not: after each solution the rows are asked to close what is still open at
+/// the preview poses.
 #pragma once
 
 #include "constraints/axis_drive.h"

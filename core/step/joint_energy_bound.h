@@ -118,8 +118,8 @@ private:
             for (const std::uint32_t body : {joint.a, joint.b}) {
                 if (is_moved) exclude(world, body);
                 if (body == kNoIndex) continue;
-                const double open = std::max(
-                    joint_gap(b, joint), b.bounding_radius[body] * joint_turn_gap(b, joint));
+                const double open = std::max(joint_gap(b, joint),
+                                             b.bounding_radius[body] * joint_turn_gap(b, joint));
                 grant(world, body, std::min(open / h, recovery));
                 if (Energy* energy = energy_of(world, body)) energy->granted += work;
             }
