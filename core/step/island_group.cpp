@@ -163,9 +163,10 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.first_point = static_cast<std::uint32_t>(points_.size());
     ties_.begin_island(member.ties);
     member.given_up = false;
-    member.may_be_disputed =
-        choice_.is_loose_heap(island) && !choice_.is_hard(world, island, pairs);
+    const bool hard = choice_.is_hard(world, island, pairs);
+    member.may_be_disputed = choice_.is_loose_heap(island) && !hard;
     member.is_driven = choice_.is_driven(island);
+    member.may_give_up = member.is_driven || !hard;
     member.gains_nothing = !member.is_driven;
     member.is_meshed = choice_.is_meshed(island) && !member.is_driven;
     member.flies = choice_.flies(world, island, pairs);
@@ -674,7 +675,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
     if (m.is_meshed && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
     if ((m.solved || (was_solved && !m.is_meshed)) && !(m.open > tolerance)) return;
     const bool ajar = m.open <= kAjar * tolerance;
-    m.given_up |= !ajar && (m.is_meshed || m.is_driven);
+    m.given_up |= !ajar && m.may_give_up;
     // motors of a tree may give some
     const double given = m.is_meshed || !ajar ? 0 : kOtherRoot;
     if ((m.is_meshed && m.solved && ajar) || !gains(given)) return;

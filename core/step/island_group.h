@@ -73,6 +73,7 @@ private:
         BlockCholesky system;
         bool is_large;  // beyond Settings::exact_islands
         bool may_be_disputed;
+        bool may_give_up;       // its joints, where they stay open: sweeps do no worse
         bool is_meshed;         // by ties that others only iterate, and nothing drives it
         bool is_driven;         // kinematic bodies move it
         bool gains_nothing;     // no lid, motor or spring does work on it
