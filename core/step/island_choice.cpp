@@ -169,7 +169,10 @@ const ContactIslands& IslandChoice::find(const World& world, const std::vector<B
 
 void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& pairs) {
     driven_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
-    if (world.kinematic_count == 0) return;
+    boundless_.clear();
+    for (const JointDrive& drive : world.joints.drives)
+        if (is_boundless(world, drive)) boundless_.push_back(drive.joint);
+    if (world.kinematic_count == 0 && boundless_.empty()) return;
     const Bodies& b = world.bodies;
     const auto moves = [&](std::uint32_t body) {
         return body != kNoIndex && b.motion[body] == Motion::kinematic &&
@@ -180,7 +183,8 @@ void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& 
         return moves(c.a) || moves(c.b);
     };
     const auto pulls = [&](std::uint32_t i) {
-        bool any = false;
+        bool any = ties_[i].kind == TieKind::joint &&
+                   std::binary_search(boundless_.begin(), boundless_.end(), ties_[i].index);
         each_body(world, ties_[i], [&](std::uint32_t body) { any |= moves(body); });
         return any;
     };
@@ -274,8 +278,6 @@ void IslandChoice::rule_out(const World& world) {
         if (load.turn > kFarTurn) mark(tie, kFast);
         if (rest_of(world, tie).steps > 0) mark(tie, kRests);
     }
-    for (const JointDrive& drive : world.joints.drives)
-        if (is_boundless(world, drive)) mark({TieKind::joint, drive.joint}, kBeyond);
 }
 
 void IslandChoice::put(const World& world, std::uint32_t body, std::uint8_t obstacle) {

@@ -137,11 +137,12 @@ private:
                      const std::vector<BodyPair>& pairs);
 
     ContactIslands found_;
-    double stuck_share_ = 1;           ///< of an overlap, from which it counts as left
-    std::vector<Tie> ties_;            // joints, those that close loops, links, couplings
-    std::vector<BodyPair> tied_rows_;  // [tie]
-    std::size_t first_seed_ = 0;       // of ties_: those from it on need nothing that touches
-    bool has_seeds_ = true;            // as far as is known
+    double stuck_share_ = 1;                ///< of an overlap, from which it counts as left
+    std::vector<Tie> ties_;                 // joints, those that close loops, links, couplings
+    std::vector<BodyPair> tied_rows_;       // [tie]
+    std::vector<std::uint32_t> boundless_;  // joints whose motors nothing can stop
+    std::size_t first_seed_ = 0;            // of ties_: those from it on need nothing that touches
+    bool has_seeds_ = true;                 // as far as is known
     std::vector<std::pair<Tie, BodyPair>> loops_;
     std::vector<std::size_t> tied_;        // [dynamic row, then the ground] see closes_loop
     std::vector<std::uint8_t> obstacles_;  // [dynamic row] bits, see rule_out
