@@ -35,11 +35,14 @@ constexpr double kDeep = 0.02;
 constexpr double kJam = 0.0025, kStuck = 0.25;
 
 /// What rests has been pulled on for a substep already; what is hardly faster counts as resting.
-constexpr double kPulled = 1.05;
+constexpr double kPulledOn = 1.05;
 
 /// How far joints may turn within a substep [rad], also where others are worse at it, and the
 /// square of h ω of what they pull.
 constexpr double kFarTurn = 0.2, kFarthestTurn = 1, kHardPull = 2;
+
+/// What hangs under a hard pull is at rest where its joints turn by no more than this [rad].
+constexpr double kRestingTurn = 0.005;
 
 /// A motor is boundless that lifts so many times the weight of the bodies that it drives.
 constexpr double kBoundless = 3e4;
@@ -275,6 +278,7 @@ void IslandChoice::rule_out(const World& world) {
                                       : load_of(world, world.links[tie.index], h);
         if (is_joint && iterated) mark(tie, kBeyond);
         if (load.turn > kFarthestTurn || (!is_joint && load.pull > kHardPull)) mark(tie, kHard);
+        if (load.pull > kHardPull) mark(tie, load.turn > kRestingTurn ? kHard : kPulled);
         if (load.turn > kFarTurn) mark(tie, kFast);
         if (rest_of(world, tie).steps > 0) mark(tie, kRests);
     }
@@ -344,8 +348,10 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     if (n == 1 && !is_tied &&
         !is_slow(world, world.contacts.found[pairs[found_.pairs()[island.first_pair]].first]))
         return IslandWay::left;
-    const std::uint8_t obstacles = obstacles_of(island);
     const bool meshed = is_meshed(island);
+    std::uint8_t obstacles = obstacles_of(island);
+    // what hangs at rest has known loads, with which its levers turn
+    if (!meshed && !is_driven(island)) obstacles &= ~kPulled;
     upset_.clear();
     if ((obstacles & kBeyond) || (meshed ? can_do_work(world, island) : obstacles != 0)) {
         if (is_tied && !meshed) leave(world, island, pairs);
@@ -356,7 +362,7 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         leave(world, island, pairs);
         return IslandWay::left;
     }
-    if ((obstacles & kHard) || ((obstacles & kRests) && !is_driven(island)) ||
+    if ((obstacles & (kHard | kPulled)) || ((obstacles & kRests) && !is_driven(island)) ||
         (meshed && is_driven(island) && is_torn(world, island)))
         return IslandWay::swept;
     if (n <= kVerySmall && flies(world, island, pairs)) return IslandWay::exact;
@@ -364,7 +370,7 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
     find_upset(world, island, pairs);
     const bool is_loose = is_loose_heap(island);
     const bool hard = is_hard(world, island, pairs);
-    const bool is_held = upset_.empty() || (hard && !is_driven(island));
+    const bool is_held = upset_.empty() || (hard && is_tied && !is_driven(island));
     if ((is_held || is_loose) && (n <= kVerySmall || is_calm(world, island, pairs, hard))) {
         if (is_held) return IslandWay::exact;
         jammed_.resize(jammed_before);
@@ -495,7 +501,9 @@ bool IslandChoice::is_calm(const World& world, const ContactIsland& island,
     const Stir stir =
         stir_of(world, island, pairs, [&](std::uint32_t k) { return relative_velocity(world, k); });
     return stir.speed <= calm_speed(world, stir.radius, stir.pull) ||
-           (hard && stir.speed * substep_of(world.settings) <= kFollowed * stir.radius);
+           (hard &&
+            stir.speed * substep_of(world.settings) <=
+                (island.first_tie < island.last_tie ? kTreeFollowed : kHeapFollowed) * stir.radius);
 }
 
 /// Of a large island: see step/large_islands.h.
@@ -531,7 +539,7 @@ bool IslandChoice::goes_on(const World& world, std::uint32_t contact) const {
         pull = std::max(pull, pull_on(world, body));
     }
     const double fallen = pull * substep_of(world.settings);
-    return relative_velocity(world, contact).norm() <= kPulled * fallen;
+    return relative_velocity(world, contact).norm() <= kPulledOn * fallen;
 }
 
 bool IslandChoice::is_stuck(const ContactMemory& before, double overlap) const {

@@ -41,9 +41,9 @@ inline constexpr std::uint32_t kVerySmall = 8;
 /// they open, and heavy bodies on light ones, into which they sink. Of more than a few bodies, half
 /// must be jointed: a heap that a chain hits is no robot.
 inline constexpr std::uint32_t kMostHard = 64, kFewHard = 16;
-/// While contacts slide, part and approach by no more than so many radii in a substep: after that,
-/// those of its start are not those of its end.
-inline constexpr double kFollowed = 2;
+/// While contacts slide, part and approach by no more than so many radii in a substep. Joints that
+/// are opened cost more than contacts that are late; a heap that is stirred is swept as others are.
+inline constexpr double kTreeFollowed = 2, kHeapFollowed = 0.1;
 
 class IslandChoice {
 public:
@@ -108,7 +108,7 @@ private:
     bool closes_loop(const BodyPair& joint);
     // What keeps an island from being solved exactly: what is beyond its solver, what turns far
     // within a substep, and what could not be solved a while ago.
-    static constexpr std::uint8_t kBeyond = 1, kFast = 2, kHard = 4, kRests = 8;
+    static constexpr std::uint8_t kBeyond = 1, kFast = 2, kHard = 4, kRests = 8, kPulled = 16;
     void rule_out(const World& world);
     void put(const World& world, std::uint32_t body, std::uint8_t obstacle);
     std::uint8_t obstacles_of(const ContactIsland& island) const;

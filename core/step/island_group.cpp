@@ -163,10 +163,9 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.first_point = static_cast<std::uint32_t>(points_.size());
     ties_.begin_island(member.ties);
     member.given_up = false;
-    const bool hard = choice_.is_hard(world, island, pairs);
-    member.may_be_disputed = choice_.is_loose_heap(island) && !hard;
+    member.may_be_disputed = choice_.is_loose_heap(island);
     member.is_driven = choice_.is_driven(island);
-    member.may_give_up = member.is_driven || !hard;
+    member.may_give_up = member.is_driven || !choice_.is_hard(world, island, pairs);
     member.gains_nothing = !member.is_driven;
     member.is_meshed = choice_.is_meshed(island) && !member.is_driven;
     member.flies = choice_.flies(world, island, pairs);
@@ -327,8 +326,9 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];
         ties_.begin(world, substep_time(world, h), members_[i].ties);
-        ties_.stiffen(world, h, m.ties,
-                      std::span(bodies_).subspan(m.first_body, m.last_body - m.first_body));
+        if (!m.is_meshed && !m.is_driven)
+            ties_.stiffen(world, h, m.ties,
+                          std::span(bodies_).subspan(m.first_body, m.last_body - m.first_body));
     }
     if (!world.settings.warm_start) forget_impulses();
     apply_impulses();

@@ -34,6 +34,8 @@ public:
             body_of_[static_cast<std::size_t>(world.bodies.row[i])] = i;
             if (joined[i]) joined_.push_back(i);
         }
+        ties_.reserve(world.joints.size() + world.links.size());
+        energies_.reserve(body_of_.size());
     }
 
     /// After the passes of a substep of h [s]; bodies: their rows.
@@ -55,7 +57,7 @@ private:
     static constexpr double kWhirl = 0.5;
     /// A share of its energy that what swings quickly may gain in a substep: bodies move along
     /// chords.
-    static constexpr double kSwings = 0.25;
+    static constexpr double kSwings = 0.1;
 
     /// Of an island [J]. With a share s of the changes of the substep it has at_start + linear s +
     /// square s².
@@ -66,8 +68,9 @@ private:
 
         /// The greatest share of all changes with which it is no more than may be.
         double share() const {
-            if (is_driven || !(linear + square > kSwings * at_start + granted)) return 1;
-            const double root = std::sqrt(linear * linear + 4 * square * granted);
+            const double most = kSwings * at_start + granted;
+            if (is_driven || !(linear + square > most)) return 1;
+            const double root = std::sqrt(linear * linear + 4 * square * most);
             return std::clamp((root - linear) / (2 * square), 0.0, 1.0);
         }
     };

@@ -18,6 +18,7 @@
 #include "step/push_out_shares.h"
 
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,7 +36,7 @@ constexpr std::uint32_t kShockRounds = 16;
 /// more than a share of the greatest, or that comes to so many solutions of a pair. What runs along
 /// a row takes as many as the square of its length. Joints would have to take part in that; and
 /// where friction wedges what does not bounce, iterations that are not enough only delay its rest.
-constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000;
+constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000, kImpactLook = 500;
 constexpr double kImpactSettled = 1e-5;
 
 template <class Real, int W>
@@ -160,8 +161,11 @@ public:
 
     void bound_energy(const World& world, double h) override {
         const PushOut push = push_out(settings_, share_of_substep(settings_), h);
-        if (has_impacts_) energy_.apply(world, *contacts_, table_.rows(), push, h);
-        if (joint_energy_) joint_energy_->apply(world, *contacts_, table_.rows(), push, h);
+        energy_.apply(world, *contacts_, table_.rows(), push, h);
+    }
+    void bound_joint_energy(const World& world, double h) override {
+        const PushOut push = push_out(settings_, share_of_substep(settings_), h);
+        joint_energy_->apply(world, *contacts_, table_.rows(), push, h);
     }
 
     void solve_islands(const World& world, StepReport& report) override {
@@ -309,7 +313,8 @@ private:
         const bool settles =
             world.joints.size() == 0 && (!rubs || hits * hits * hits <= kImpactWork);
         const std::size_t most = settles ? kImpactWork / hits : 0;
-        for (std::size_t done = 0; done == 0 || (done < most && impacts_changed());
+        impact_change_ = std::numeric_limits<Real>::infinity();
+        for (std::size_t done = 0; done == 0 || (done < most && impacts_go_on(done));
              done += kImpactIterations)
             workers_.run([&](std::uint32_t worker) {
                 PassSettings<Real> mine = pass;
@@ -320,8 +325,9 @@ private:
             });
     }
 
-    /// Whether the velocities of what collides have changed since the last call.
-    bool impacts_changed() {
+    /// Whether the velocities of what collides have changed since the last call, and from one look
+    /// at that to another by less: what moving bodies jam never settles.
+    bool impacts_go_on(std::size_t done) {
         Real change = 0, greatest = 0;
         impacts_.each_row([&](std::int32_t row) {
             const Velocity<Real> now = velocity_in(table_.rows().change, row);
@@ -330,7 +336,9 @@ private:
             greatest = std::max(greatest, now.v.squaredNorm());
             before = now;
         });
-        return change > static_cast<Real>(kImpactSettled * kImpactSettled) * greatest;
+        if (!(change > static_cast<Real>(kImpactSettled * kImpactSettled) * greatest)) return false;
+        if (done % kImpactLook != 0) return true;
+        return change < std::exchange(impact_change_, change) / 4;
     }
 
     bool forwards(std::uint32_t iteration) const {
@@ -355,6 +363,7 @@ private:
     std::optional<IslandGroup> islands_;
     Impacts impacts_;
     std::vector<Velocity<Real>> settled_;  // [row], of what collides
+    Real impact_change_ = 0;               // of their velocities when last looked at, squared
     EnergyBound<Real, W> energy_;
     std::optional<JointEnergyBound<Real, W>> joint_energy_;
     IslandResiduals residuals_;

@@ -92,8 +92,10 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
               [&] { report.clamped_recoveries += solver.begin_substep(world, h, ledger); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
         timed(Stage::positions, [&] { solver.solve_positions(report, ledger); });
-        if (plan.runs(Effect::impacts) || plan.runs(Effect::joints))
-            timed(Stage::positions, [&] { solver.bound_energy(world, h); });
+        if (plan.runs(Effect::impacts))
+            timed(Stage::impacts, [&] { solver.bound_energy(world, h); });
+        if (plan.runs(Effect::joints))
+            timed(Stage::joints, [&] { solver.bound_joint_energy(world, h); });
         if (plan.runs(Effect::exact_islands))
             timed(Stage::islands, [&] { solver.solve_islands(world, report); });
         if (plan.runs(Effect::shock_propagation))

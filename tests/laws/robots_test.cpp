@@ -104,6 +104,33 @@ TEST_P(RobotLaws, JointsHoldAsItLandsOnItsFeet) {
     }
 }
 
+/// Thrown about without motors, so that its links come by up to 5 cm in a substep and it tumbles:
+/// joints stay closed, and it comes to rest.
+TEST_P(RobotLaws, LimpJointsHoldAsItTumbles) {
+    Random random(22);
+    for (int draw = 0; draw < 8; ++draw) {
+        UrdfOptions options = standing();
+        options.hold = false;
+        options.placement.position.y() = random.number(0.3, 1.2);
+        options.placement.rotation = random.rotation();
+        Scene s = read_urdf(kQuadruped, options);
+        s.settings.precision = std::get<1>(GetParam());
+        s.settings.dt = draw == 0 ? 0.005 : random.number(0.003, 0.007);
+        s.settings.substeps = draw == 0 ? 1 : 1 + random.below(2);
+        SCOPED_TRACE(testing::Message()
+                     << "draw " << draw << ", " << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        double worst = 0;
+        while (simulation.time() < 4) {
+            ASSERT_TRUE(simulation.step().finite);
+            worst = std::max(worst, worst_joint(simulation));
+        }
+        EXPECT_LE(worst, 1e-3);
+        EXPECT_LE(worst_joint(simulation), 1e-5);
+        EXPECT_LE(fastest_point(simulation.world()), 1e-2);
+    }
+}
+
 /// The coordinates of its joints [rad], [m].
 std::vector<double> coordinates(const World& world) {
     std::vector<double> q;

@@ -69,6 +69,12 @@ inline double fastest_point(const World& world) {
     return most;
 }
 
+/// How far the worst joint is open [m], [rad].
+inline double widest_joint(const World& world) {
+    const std::vector<double> errors = joint_errors(world);
+    return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
+}
+
 /// How anything moves: the fastest point [m/s], and the longest way of any body [m].
 struct Motions {
     double fastest = 0, farthest = 0;
