@@ -106,6 +106,13 @@ void each_number_of_particles(Io& io, W& world) {
         io(link.island_rest.steps), io(link.island_rest.misses);
     }
     for (auto& d : world.deformables) each_number_of_list(io, d.torn);
+    io.count(world.surface_contacts);
+    for (auto& c : world.surface_contacts) {
+        io(c.point.particle), io(c.point.body), vector(io, c.point.position);
+        for (auto& corner : c.triangle) io(corner);
+        for (auto& weight : c.weights) io(weight);
+        vector(io, c.normal), io(c.distance), io(c.friction), io(c.side);
+    }
 }
 
 template <class Io, class W>
