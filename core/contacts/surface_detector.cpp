@@ -22,17 +22,12 @@ constexpr double kFaceOn = 0.99;
 /// Below this cosine nobody can tell on which side of a sharp fold a point is.
 constexpr double kEdgeOn = 0.1;
 
-double speed_of(const World& world, const WorldPoint& p) {
-    if (p.particle != kNoIndex) return world.particles.velocity[p.particle].norm();
-    return world.bodies.velocity[p.body].norm() +
-           world.bodies.angular_velocity[p.body].norm() * p.position.norm();
-}
-
 }  // namespace
 
 SurfaceDetector::SurfaceDetector(const World& world) {
     for (std::uint32_t i = 0; i < world.deformables.size(); ++i) {
         const Deformable& d = world.deformables[i];
+        filters_.push_back({d.spec.group, d.spec.mask});
         closed_.push_back(d.spec.kind == DeformableKind::balloon ||
                           d.spec.kind == DeformableKind::solid);
         const std::size_t first = triangles_.size();
@@ -90,16 +85,23 @@ void SurfaceDetector::add_probes(const World& world) {
     }
 }
 
+double SurfaceDetector::speed_of(const World& world, const WorldPoint& p) const {
+    if (p.particle != kNoIndex) return speed_[p.particle];
+    return world.bodies.velocity[p.body].norm() +
+           world.bodies.angular_velocity[p.body].norm() * p.position.norm();
+}
+
 void SurfaceDetector::detect(World& world, double dt) {
     before_.swap(world.surface_contacts);
     world.surface_contacts.clear();
     next_known_ = 0;
     if (triangles_.empty()) return;
     const Particles& p = world.particles;
+    speed_.resize(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) speed_[i] = p.velocity[i].norm();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto& [a, b, c] = triangles_[i].corners;
-        const double fastest =
-            std::max({p.velocity[a].norm(), p.velocity[b].norm(), p.velocity[c].norm()});
+        const double fastest = std::max({speed_[a], speed_[b], speed_[c]});
         const double grown = p.radius[a] + world.settings.margin + fastest * dt;
         const Vector3d by = Vector3d::Constant(std::isfinite(grown) ? grown : 0);
         low_[i] = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]) - by;
@@ -118,7 +120,6 @@ void SurfaceDetector::detect(World& world, double dt) {
 
 void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
     const Particles& p = world.particles;
-    const Known known = known_of(probe);
     const Vector3d place = place_of(world, probe.point);
     const double slack = probe.radius + speed_of(world, probe.point) * dt;
     const Vector3d low = place - Vector3d::Constant(slack),
@@ -131,7 +132,7 @@ void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
         if ((high.array() < low_[i].array()).any() || (low.array() > high_[i].array()).any())
             return;
         const Triangle& t = triangles_[i];
-        if (!may_meet(world, probe, t)) return;
+        if (!may_meet(world, probe, t)) return;  // of most that are left the point is a corner
         const Vector3d corners[3] = {p.position[t.corners[0]], p.position[t.corners[1]],
                                      p.position[t.corners[2]]};
         const auto w = nearest_weights(place, corners[0], corners[1], corners[2]);
@@ -143,7 +144,11 @@ void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
             distance > 1e-9 ? apart.dot(face) / (distance * std::max(face.norm(), 1e-300)) : 1;
         near_.push_back({i, w, apart, distance, facing});
     });
-    for (Near& n : near_) find_side(world, probe, known, n, dt);
+    if (near_.empty()) return;
+    if (probe.point.particle == kNoIndex || world.deformables.size() > 1) {
+        const Known known = known_of(probe);
+        for (Near& n : near_) find_side(world, probe, known, n, dt);
+    }
     keep_nearest(world, probe);
 }
 
@@ -156,10 +161,17 @@ SurfaceDetector::Known SurfaceDetector::known_of(const Probe& probe) {
     while (next_known_ < size && owner(before_[next_known_].point) < owner(probe.point))
         ++next_known_;
     Known known{next_known_, next_known_};
-    while (known.last < size && owner(before_[known.last].point) == owner(probe.point) &&
-           before_[known.last].point.position == probe.point.position)
-        ++known.last;
-    next_known_ = known.last;
+    const auto is_owner = [&](std::uint32_t i) {
+        return i < size && owner(before_[i].point) == owner(probe.point);
+    };
+    const auto is_it = [&](std::uint32_t i) {
+        return is_owner(i) && before_[i].point.position == probe.point.position;
+    };
+    // those before it were of points that are near nothing now
+    while (is_owner(known.first) && !is_it(known.first)) ++known.first;
+    known.last = known.first;
+    while (is_it(known.last)) ++known.last;
+    if (known.last > known.first) next_known_ = known.last;
     return known;
 }
 
@@ -172,8 +184,7 @@ void SurfaceDetector::find_side(const World& world, const Probe& probe, const Kn
     const Triangle& t = triangles_[n.triangle];
     if (closed_[t.deformable] || probe.deformable == t.deformable) return;
     double most = 0;  // how far the two may have moved along each other
-    for (const std::uint32_t corner : t.corners)
-        most = std::max(most, world.particles.velocity[corner].norm());
+    for (const std::uint32_t corner : t.corners) most = std::max(most, speed_[corner]);
     most = (most + speed_of(world, probe.point)) * dt;
     const Deformable& d = world.deformables[t.deformable];
     const auto at_rest = [&](const auto& corners, const auto& weights) {
@@ -208,16 +219,16 @@ void SurfaceDetector::find_side(const World& world, const Probe& probe, const Kn
     n.is_beyond = side != 0 && now == -side;
 }
 
-bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) {
-    const DeformableSpec& spec = world.deformables[t.deformable].spec;
-    const auto meets = [&](std::uint32_t group, std::uint32_t mask) {
-        return (group & spec.mask) != 0 && (spec.group & mask) != 0;
-    };
-    if (probe.deformable == kNoIndex)
-        return meets(world.bodies.group[probe.point.body], world.bodies.mask[probe.point.body]);
-    const DeformableSpec& other = world.deformables[probe.deformable].spec;
-    return meets(other.group, other.mask) &&
-           std::find(t.corners.begin(), t.corners.end(), probe.point.particle) == t.corners.end();
+bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) const {
+    if (probe.point.particle != kNoIndex &&
+        (t.corners[0] == probe.point.particle || t.corners[1] == probe.point.particle ||
+         t.corners[2] == probe.point.particle))
+        return false;
+    const Filter& surface = filters_[t.deformable];
+    const Filter other = probe.deformable != kNoIndex ? filters_[probe.deformable]
+                                                      : Filter{world.bodies.group[probe.point.body],
+                                                               world.bodies.mask[probe.point.body]};
+    return (other.group & surface.mask) != 0 && (surface.group & other.mask) != 0;
 }
 
 /// Of each surface the nearest triangle, and the next that the point faces from another side.

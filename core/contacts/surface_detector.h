@@ -41,6 +41,10 @@ private:
         std::int8_t side = 0;    ///< of an open surface on which the point belongs
         bool is_beyond = false;  ///< it is on the other one
     };
+    /// As of DeformableSpec.
+    struct Filter {
+        std::uint32_t group, mask;
+    };
     /// What the step before knew of a probe.
     struct Known {
         std::uint32_t first = 0, last = 0;  ///< in before_
@@ -52,7 +56,8 @@ private:
     Known known_of(const Probe& probe);
     void find_side(const World& world, const Probe& probe, const Known& known, Near& near,
                    double dt) const;
-    static bool may_meet(const World& world, const Probe& probe, const Triangle& triangle);
+    bool may_meet(const World& world, const Probe& probe, const Triangle& triangle) const;
+    double speed_of(const World& world, const WorldPoint& point) const;  ///< [m/s]
     void keep_nearest(World& world, const Probe& probe);
     /// Whether it became a contact.
     bool add(World& world, const Probe& probe, const Near& near);
@@ -60,6 +65,8 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<Probe> probes_;
     std::vector<std::uint8_t> closed_;  ///< [deformable] whether its surface has an inside
+    std::vector<Filter> filters_;       ///< [deformable]
+    std::vector<double> speed_;         ///< [particle] [m/s]
     BoxGrid grid_;
     std::vector<Vector3d> low_, high_;                                         ///< [triangle]
     Vector3d bounds_low_ = Vector3d::Zero(), bounds_high_ = Vector3d::Zero();  ///< of all

@@ -25,18 +25,25 @@ void BoxGrid::build(const std::vector<Vector3d>& low, const std::vector<Vector3d
     large_.clear();
     is_large_.assign(n, 0);
     first_.assign(buckets + 1, 0);
-    seen_.assign(n, 0);
-    stamp_ = 0;
+    if (seen_.size() != n) seen_.assign(n, 0), stamp_ = 0;
     for (std::uint32_t i = 0; i < n; ++i)
         if (!each_cell(low[i], high[i], [&](std::uint32_t b) { ++first_[b + 1]; }))
             large_.push_back(i), is_large_[i] = 1;
     for (std::uint32_t b = 0; b < buckets; ++b) first_[b + 1] += first_[b];
-    if (boxes_.capacity() < first_[buckets]) boxes_.reserve(2 * std::size_t(first_[buckets]));
+    if (boxes_.capacity() < first_[buckets]) {
+        boxes_.reserve(2 * std::size_t(first_[buckets]));
+        bounds_.reserve(2 * std::size_t(first_[buckets]));
+    }
     large_.reserve(n);
-    boxes_.resize(first_[buckets]);
+    boxes_.resize(first_[buckets]), bounds_.resize(first_[buckets]);
     // each bucket's end moves down to its beginning while it fills
-    for (std::uint32_t i = n; i-- > 0;)
-        each_cell(low[i], high[i], [&](std::uint32_t b) { boxes_[--first_[b + 1]] = i; });
+    for (std::uint32_t i = n; i-- > 0;) {
+        const Bounds bounds = bounds_of(low[i], high[i]);
+        each_cell(low[i], high[i], [&](std::uint32_t b) {
+            const std::uint32_t place = --first_[b + 1];
+            boxes_[place] = i, bounds_[place] = bounds;
+        });
+    }
     for (std::uint32_t b = 0; b < buckets; ++b) first_[b] = first_[b + 1];
     first_[buckets] = static_cast<std::uint32_t>(boxes_.size());
 }
