@@ -129,10 +129,10 @@ void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
         return;
     near_.clear();
     grid_.each_near(low, high, [&](std::uint32_t i) {
+        const Triangle& t = triangles_[i];
+        if (!may_meet(world, probe, t)) return;  // of most that are near the point is a corner
         if ((high.array() < low_[i].array()).any() || (low.array() > high_[i].array()).any())
             return;
-        const Triangle& t = triangles_[i];
-        if (!may_meet(world, probe, t)) return;  // of most that are left the point is a corner
         const Vector3d corners[3] = {p.position[t.corners[0]], p.position[t.corners[1]],
                                      p.position[t.corners[2]]};
         const auto w = nearest_weights(place, corners[0], corners[1], corners[2]);

@@ -102,7 +102,9 @@ private:
     std::uint32_t mask_ = 0;
     std::uint64_t stamp_ = 0;
     std::vector<std::uint32_t> first_, boxes_, large_;
-    std::vector<Bounds> bounds_;  ///< of boxes_
+    std::vector<Bounds> bounds_;        ///< of boxes_
+    std::vector<std::uint32_t> cells_;  ///< buckets, box by box, which end at
+    std::vector<std::uint32_t> ends_;   ///< [box]
     std::vector<std::uint8_t> is_large_;
     std::vector<std::uint64_t> seen_;
 };
