@@ -118,6 +118,20 @@ TEST(Cloth, DepthsInTheTorus) {
     for (const Vector& corner : ring.corners()) EXPECT_NEAR(ring.depth(corner), 0, 1e-12);
 }
 
+/// On which side corners belong is part of a saved state.
+TEST(Cloth, GoesOnAsItWasSaved) {
+    const Scene scene =
+        read_scene(std::filesystem::path(PLUMB_TEST_ROOT) / "samples/scenes/cloth.json");
+    Simulation one(scene, colliders(), "ode"), other(scene, colliders(), "ode");
+    run_for(one, 0.6);
+    const auto& contacts = one.world().surface_contacts;
+    EXPECT_TRUE(std::any_of(contacts.begin(), contacts.end(),
+                            [](const SurfaceContact& c) { return c.side != 0; }));
+    other.restore(one.save());
+    run_for(one, 0.2), run_for(other, 0.2);
+    EXPECT_EQ(state_hash(one.world()), state_hash(other.world()));
+}
+
 /// What came of a run.
 struct Fall {
     double deepest = 0;           ///< of a particle's middle in a torus, all along [m]
