@@ -19,25 +19,43 @@ constexpr double kSameSide = 0.7;
 constexpr std::size_t kUsuallyNear = 1024;
 /// From this cosine on, a point faces a triangle and not only its rim.
 constexpr double kFaceOn = 0.99;
-
-double speed_of(const World& world, const WorldPoint& p) {
-    if (p.particle != kNoIndex) return world.particles.velocity[p.particle].norm();
-    return world.bodies.velocity[p.body].norm() +
-           world.bodies.angular_velocity[p.body].norm() * p.position.norm();
-}
+/// Below this cosine nobody can tell on which side of a sharp fold a point is.
+constexpr double kEdgeOn = 0.1;
 
 }  // namespace
 
 SurfaceDetector::SurfaceDetector(const World& world) {
     for (std::uint32_t i = 0; i < world.deformables.size(); ++i) {
         const Deformable& d = world.deformables[i];
+        filters_.push_back({d.spec.group, d.spec.mask});
         closed_.push_back(d.spec.kind == DeformableKind::balloon ||
                           d.spec.kind == DeformableKind::solid);
+        const std::size_t first = triangles_.size();
         for (const auto& t : d.spec.triangles)
-            triangles_.push_back({{d.first + t[0], d.first + t[1], d.first + t[2]}, i});
+            triangles_.push_back({{d.first + t[0], d.first + t[1], d.first + t[2]}, i, {}, {}});
+        find_rims(d, first);
     }
     if (!triangles_.empty()) add_probes(world);
     low_.resize(triangles_.size()), high_.resize(triangles_.size());
+}
+
+void SurfaceDetector::find_rims(const Deformable& d, std::size_t first) {
+    std::vector<std::array<std::uint32_t, 2>> edges;
+    for (const auto& t : d.spec.triangles)
+        for (int k = 0; k < 3; ++k) edges.push_back({t[(k + 1) % 3], t[(k + 2) % 3]});
+    std::sort(edges.begin(), edges.end());
+    std::vector<std::uint8_t> on_rim(d.count, 0);
+    for (std::size_t i = 0; i < d.spec.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k) {
+            const auto& t = d.spec.triangles[i];
+            const std::array<std::uint32_t, 2> back{t[(k + 2) % 3], t[(k + 1) % 3]};
+            if (std::binary_search(edges.begin(), edges.end(), back)) continue;
+            triangles_[first + i].rim[k] = true;
+            on_rim[back[0]] = on_rim[back[1]] = 1;
+        }
+    for (std::size_t i = 0; i < d.spec.triangles.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            triangles_[first + i].on_rim[k] = on_rim[d.spec.triangles[i][k]] != 0;
 }
 
 void SurfaceDetector::add_probes(const World& world) {
@@ -67,14 +85,23 @@ void SurfaceDetector::add_probes(const World& world) {
     }
 }
 
+double SurfaceDetector::speed_of(const World& world, const WorldPoint& p) const {
+    if (p.particle != kNoIndex) return speed_[p.particle];
+    return world.bodies.velocity[p.body].norm() +
+           world.bodies.angular_velocity[p.body].norm() * p.position.norm();
+}
+
 void SurfaceDetector::detect(World& world, double dt) {
+    before_.swap(world.surface_contacts);
     world.surface_contacts.clear();
+    next_known_ = 0;
     if (triangles_.empty()) return;
     const Particles& p = world.particles;
+    speed_.resize(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) speed_[i] = p.velocity[i].norm();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
         const auto& [a, b, c] = triangles_[i].corners;
-        const double fastest =
-            std::max({p.velocity[a].norm(), p.velocity[b].norm(), p.velocity[c].norm()});
+        const double fastest = std::max({speed_[a], speed_[b], speed_[c]});
         const double grown = p.radius[a] + world.settings.margin + fastest * dt;
         const Vector3d by = Vector3d::Constant(std::isfinite(grown) ? grown : 0);
         low_[i] = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]) - by;
@@ -102,10 +129,10 @@ void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
         return;
     near_.clear();
     grid_.each_near(low, high, [&](std::uint32_t i) {
+        const Triangle& t = triangles_[i];
+        if (!may_meet(world, probe, t)) return;  // of most that are near the point is a corner
         if ((high.array() < low_[i].array()).any() || (low.array() > high_[i].array()).any())
             return;
-        const Triangle& t = triangles_[i];
-        if (!may_meet(world, probe, t)) return;
         const Vector3d corners[3] = {p.position[t.corners[0]], p.position[t.corners[1]],
                                      p.position[t.corners[2]]};
         const auto w = nearest_weights(place, corners[0], corners[1], corners[2]);
@@ -117,19 +144,91 @@ void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
             distance > 1e-9 ? apart.dot(face) / (distance * std::max(face.norm(), 1e-300)) : 1;
         near_.push_back({i, w, apart, distance, facing});
     });
+    if (near_.empty()) return;
+    if (probe.point.particle == kNoIndex || world.deformables.size() > 1) {
+        const Known known = known_of(probe);
+        for (Near& n : near_) find_side(world, probe, known, n, dt);
+    }
     keep_nearest(world, probe);
 }
 
-bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) {
-    const DeformableSpec& spec = world.deformables[t.deformable].spec;
-    const auto meets = [&](std::uint32_t group, std::uint32_t mask) {
-        return (group & spec.mask) != 0 && (spec.group & mask) != 0;
+/// Probes are looked at in the order in which the step before left its contacts.
+SurfaceDetector::Known SurfaceDetector::known_of(const Probe& probe) {
+    const auto owner = [](const WorldPoint& p) {
+        return p.particle != kNoIndex ? std::pair(0u, p.particle) : std::pair(1u, p.body);
     };
-    if (probe.deformable == kNoIndex)
-        return meets(world.bodies.group[probe.point.body], world.bodies.mask[probe.point.body]);
-    const DeformableSpec& other = world.deformables[probe.deformable].spec;
-    return meets(other.group, other.mask) &&
-           std::find(t.corners.begin(), t.corners.end(), probe.point.particle) == t.corners.end();
+    const auto size = static_cast<std::uint32_t>(before_.size());
+    while (next_known_ < size && owner(before_[next_known_].point) < owner(probe.point))
+        ++next_known_;
+    Known known{next_known_, next_known_};
+    const auto is_owner = [&](std::uint32_t i) {
+        return i < size && owner(before_[i].point) == owner(probe.point);
+    };
+    const auto is_it = [&](std::uint32_t i) {
+        return is_owner(i) && before_[i].point.position == probe.point.position;
+    };
+    // those before it were of points that are near nothing now
+    while (is_owner(known.first) && !is_it(known.first)) ++known.first;
+    known.last = known.first;
+    while (is_it(known.last)) ++known.last;
+    if (known.last > known.first) next_known_ = known.last;
+    return known;
+}
+
+/// Contacts give way by a little at few iterations, and what a sheet's thickness does not stop
+/// would be on its other side for good. So a point belongs on the side of the sheet on which it was
+/// first seen, for as long as it is seen beside the same part of it, unless it may have come round
+/// the rim. Points of the sheet itself do not: folds that have crossed would hold each other fast.
+void SurfaceDetector::find_side(const World& world, const Probe& probe, const Known& known, Near& n,
+                                double dt) const {
+    const Triangle& t = triangles_[n.triangle];
+    if (closed_[t.deformable] || probe.deformable == t.deformable) return;
+    double most = 0;  // how far the two may have moved along each other
+    for (const std::uint32_t corner : t.corners) most = std::max(most, speed_[corner]);
+    most = (most + speed_of(world, probe.point)) * dt;
+    const Deformable& d = world.deformables[t.deformable];
+    const auto at_rest = [&](const auto& corners, const auto& weights) {
+        Vector3d sum = Vector3d::Zero();
+        for (int k = 0; k < 3; ++k) sum += weights[k] * d.spec.points[corners[k] - d.first];
+        return sum;
+    };
+    const Vector3d here = at_rest(t.corners, n.weights);
+    double nearest =
+        most +
+        (d.spec.points[t.corners[1] - d.first] - d.spec.points[t.corners[0] - d.first]).norm();
+    std::int8_t side = 0;
+    for (std::uint32_t i = known.first; i < known.last; ++i) {
+        const SurfaceContact& c = before_[i];
+        if (c.side == 0 || c.triangle[0] < d.first || c.triangle[0] >= d.first + d.count) continue;
+        const double way = (at_rest(c.triangle, c.weights) - here).norm();
+        if (way < nearest) nearest = way, side = c.side;
+    }
+    bool at_rim = false;
+    for (int k = 0; k < 3; ++k) {
+        const Vector3d a = world.particles.position[t.corners[(k + 1) % 3]],
+                       b = world.particles.position[t.corners[(k + 2) % 3]],
+                       c = world.particles.position[t.corners[k]];
+        const Vector3d edge = b - a;
+        const double height = edge.cross(c - a).norm() / std::max(edge.norm(), 1e-300);
+        if (t.rim[k] && n.weights[k] * height <= most) at_rim = true;
+        if (t.on_rim[k] && n.weights[k] == 1) at_rim = true;
+    }
+    const std::int8_t now = n.facing > kEdgeOn ? 1 : n.facing < -kEdgeOn ? -1 : 0;
+    if (at_rim || side == 0) side = std::abs(n.facing) >= kFaceOn ? now : 0;
+    n.side = side;
+    n.is_beyond = side != 0 && now == -side;
+}
+
+bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) const {
+    if (probe.point.particle != kNoIndex &&
+        (t.corners[0] == probe.point.particle || t.corners[1] == probe.point.particle ||
+         t.corners[2] == probe.point.particle))
+        return false;
+    const Filter& surface = filters_[t.deformable];
+    const Filter other = probe.deformable != kNoIndex ? filters_[probe.deformable]
+                                                      : Filter{world.bodies.group[probe.point.body],
+                                                               world.bodies.mask[probe.point.body]};
+    return (other.group & surface.mask) != 0 && (surface.group & other.mask) != 0;
 }
 
 /// Of each surface the nearest triangle, and the next that the point faces from another side.
@@ -150,9 +249,12 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
         for (std::size_t i = first; i < last && near_[i].distance <= same; ++i)
             if (std::abs(near_[i].facing) > std::abs(near_[best].facing)) best = i;
         if (!add(world, probe, near_[best])) continue;
-        const Vector3d direction = near_[best].apart;
+        const auto out_of = [](const Near& n) {
+            return n.is_beyond ? Vector3d(-n.apart) : n.apart;
+        };
+        const Vector3d direction = out_of(near_[best]);
         for (std::size_t i = first; i < last; ++i) {
-            const Vector3d& other = near_[i].apart;
+            const Vector3d other = out_of(near_[i]);
             if (std::abs(near_[i].facing) < kFaceOn ||
                 other.dot(direction) > kSameSide * other.norm() * direction.norm())
                 continue;
@@ -166,7 +268,7 @@ bool SurfaceDetector::add(World& world, const Probe& probe, const Near& n) {
     const Particles& p = world.particles;
     const Triangle& t = triangles_[n.triangle];
     const bool is_own = probe.deformable == t.deformable;
-    const bool is_inside = closed_[t.deformable] && !is_own && n.facing < 0;
+    const bool is_inside = n.is_beyond || (closed_[t.deformable] && !is_own && n.facing < 0);
     const Vector3d face = (p.position[t.corners[1]] - p.position[t.corners[0]])
                               .cross(p.position[t.corners[2]] - p.position[t.corners[0]]);
     // deep inside nobody can tell where it came from
@@ -187,7 +289,7 @@ bool SurfaceDetector::add(World& world, const Probe& probe, const Near& n) {
                                        : world.bodies.material[probe.point.body];
     const double friction = world.surface_of(material, p.material[t.corners[0]]).friction;
     world.surface_contacts.push_back(
-        {probe.point, t.corners, n.weights, normal, distance, friction});
+        {probe.point, t.corners, n.weights, normal, distance, friction, n.side});
     return true;
 }
 

@@ -24,6 +24,8 @@ private:
     struct Triangle {
         std::array<std::uint32_t, 3> corners;  ///< particles
         std::uint32_t deformable;
+        std::array<bool, 3> rim;  ///< [corner] whether the edge across from it is of one triangle
+        std::array<bool, 3> on_rim;  ///< [corner] whether it is the end of such an edge
     };
     struct Probe {
         WorldPoint point;
@@ -33,14 +35,29 @@ private:
     struct Near {
         std::uint32_t triangle;
         std::array<double, 3> weights;
-        Vector3d apart;   ///< from the triangle to the point [m]
-        double distance;  ///< [m]
-        double facing;    ///< cosine between that and the triangle's normal
+        Vector3d apart;          ///< from the triangle to the point [m]
+        double distance;         ///< [m]
+        double facing;           ///< cosine between that and the triangle's normal
+        std::int8_t side = 0;    ///< of an open surface on which the point belongs
+        bool is_beyond = false;  ///< it is on the other one
+    };
+    /// As of DeformableSpec.
+    struct Filter {
+        std::uint32_t group, mask;
+    };
+    /// What the step before knew of a probe.
+    struct Known {
+        std::uint32_t first = 0, last = 0;  ///< in before_
     };
 
     void add_probes(const World& world);
+    void find_rims(const Deformable& deformable, std::size_t first);
     void look(World& world, const Probe& probe, double dt);
-    static bool may_meet(const World& world, const Probe& probe, const Triangle& triangle);
+    Known known_of(const Probe& probe);
+    void find_side(const World& world, const Probe& probe, const Known& known, Near& near,
+                   double dt) const;
+    bool may_meet(const World& world, const Probe& probe, const Triangle& triangle) const;
+    double speed_of(const World& world, const WorldPoint& point) const;  ///< [m/s]
     void keep_nearest(World& world, const Probe& probe);
     /// Whether it became a contact.
     bool add(World& world, const Probe& probe, const Near& near);
@@ -48,10 +65,14 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<Probe> probes_;
     std::vector<std::uint8_t> closed_;  ///< [deformable] whether its surface has an inside
+    std::vector<Filter> filters_;       ///< [deformable]
+    std::vector<double> speed_;         ///< [particle] [m/s]
     BoxGrid grid_;
     std::vector<Vector3d> low_, high_;                                         ///< [triangle]
     Vector3d bounds_low_ = Vector3d::Zero(), bounds_high_ = Vector3d::Zero();  ///< of all
     std::vector<Near> near_;
+    std::vector<SurfaceContact> before_;  ///< of the step before, in the order of the probes
+    std::uint32_t next_known_ = 0;        ///< in before_
 };
 
 }  // namespace plumb

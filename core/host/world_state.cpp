@@ -4,6 +4,8 @@
 #include "contacts/contact_pairs.h"
 #include "world/tears.h"
 
+#include <algorithm>
+
 namespace plumb {
 namespace {
 
@@ -106,6 +108,13 @@ void each_number_of_particles(Io& io, W& world) {
         io(link.island_rest.steps), io(link.island_rest.misses);
     }
     for (auto& d : world.deformables) each_number_of_list(io, d.torn);
+    io.count(world.surface_contacts);
+    for (auto& c : world.surface_contacts) {
+        io(c.point.particle), io(c.point.body), vector(io, c.point.position);
+        for (auto& corner : c.triangle) io(corner);
+        for (auto& weight : c.weights) io(weight);
+        vector(io, c.normal), io(c.distance), io(c.friction), io(c.side);
+    }
 }
 
 template <class Io, class W>
@@ -142,6 +151,18 @@ void drop_what_does_not_fit(ContactTable& table, std::size_t bodies) {
     kept.pairs.clear(), kept.poses.clear(), kept.rides.clear();
 }
 
+/// Whether it is between a triangle of one deformable and something else that exists.
+bool can_be(const SurfaceContact& c, const World& world) {
+    const bool has_point = c.point.particle != kNoIndex ? c.point.particle < world.particles.size()
+                                                        : c.point.body < world.bodies.size();
+    const auto has_all = [&](const Deformable& d) {
+        return std::all_of(c.triangle.begin(), c.triangle.end(), [&](std::uint32_t corner) {
+            return corner >= d.first && corner - d.first < d.count;
+        });
+    };
+    return has_point && std::any_of(world.deformables.begin(), world.deformables.end(), has_all);
+}
+
 }  // namespace
 
 void write_state(const World& world, StateWriter& to) { each_number(to, world); }
@@ -150,6 +171,8 @@ void read_state(World& world, StateReader& from) {
     each_number(from, world);
     drop_what_does_not_fit(world.contacts, world.bodies.size());
     world.contacts.list_pairs();
+    std::erase_if(world.surface_contacts,
+                  [&](const SurfaceContact& c) { return !can_be(c, world); });
     for (Deformable& d : world.deformables)
         if (d.can_tear()) leave_out_torn(d);
 }

@@ -16,15 +16,15 @@ public:
     /// Sorts boxes [low, high] into cells of a side that suits their mean extent.
     void build(const std::vector<Vector3d>& low, const std::vector<Vector3d>& high);
 
-    /// Calls visit(box) for each box that shares a cell with [low, high], and for some others, each
-    /// once.
+    /// Calls visit(box) for each box that meets [low, high], and for some others, each once.
     template <class Visit>
     void each_near(const Vector3d& low, const Vector3d& high, Visit visit) {
         for (const std::uint32_t box : large_) visit(box);
         ++stamp_;
+        const Bounds here = bounds_of(-high, -low);
         const bool few = each_cell(low, high, [&](std::uint32_t bucket) {
             for (std::uint32_t i = first_[bucket]; i < first_[bucket + 1]; ++i) {
-                if (seen_[boxes_[i]] == stamp_) continue;
+                if (apart(bounds_[i], here) || seen_[boxes_[i]] == stamp_) continue;
                 seen_[boxes_[i]] = stamp_;
                 visit(boxes_[i]);
             }
@@ -40,10 +40,42 @@ private:
     };
     Cell cell_of(const Vector3d& p) const {
         const auto at = [&](double x) {
-            return static_cast<std::int64_t>(std::floor(std::clamp(x / side_, -1e15, 1e15)));
+            const double cell = std::clamp(x / side_, -1e15, 1e15);
+            const auto whole = static_cast<std::int64_t>(cell);
+            return whole - (cell < static_cast<double>(whole));
         };
         return {at(p.x()), at(p.y()), at(p.z())};
     }
+
+    /// Lower bounds and upper ones with the other sign, in a register of floats, each a little
+    /// further out than in truth; lanes to spare are 0.
+    struct alignas(32) Bounds {
+        float at[8];
+    };
+    static Bounds bounds_of(const Vector3d& low, const Vector3d& high) {
+        constexpr float kOut = 2e-7f, kLeast = 1e-30f;  // more than a rounding
+        Bounds b{};
+        for (int k = 0; k < 3; ++k) {
+            const auto x = static_cast<float>(low[k]), y = static_cast<float>(-high[k]);
+            b.at[k] = x - std::abs(x) * kOut - kLeast;
+            b.at[4 + k] = y - std::abs(y) * kOut - kLeast;
+        }
+        return b;
+    }
+    /// Whether a box is certainly apart from another one whose bounds are told with the other sign:
+    /// where a lower bound is above the other's upper one, their sum is positive.
+    static bool apart(const Bounds& box, const Bounds& negative) {
+        using Four = float __attribute__((vector_size(16)));
+        using Pair = std::int64_t __attribute__((vector_size(16)));
+        Four a[2], b[2];
+        __builtin_memcpy(a, &box, sizeof a);
+        __builtin_memcpy(b, &negative, sizeof b);
+        const auto above = (a[0] + b[0] > Four{}) | (a[1] + b[1] > Four{});
+        Pair any;
+        __builtin_memcpy(&any, &above, sizeof any);
+        return (any[0] | any[1]) != 0;
+    }
+
     std::uint32_t bucket_of(std::int64_t x, std::int64_t y, std::int64_t z) const {
         const auto mixed = static_cast<std::uint64_t>(x) * 73856093u ^
                            static_cast<std::uint64_t>(y) * 19349663u ^
@@ -70,6 +102,9 @@ private:
     std::uint32_t mask_ = 0;
     std::uint64_t stamp_ = 0;
     std::vector<std::uint32_t> first_, boxes_, large_;
+    std::vector<Bounds> bounds_;        ///< of boxes_
+    std::vector<std::uint32_t> cells_;  ///< buckets, box by box, which end at
+    std::vector<std::uint32_t> ends_;   ///< [box]
     std::vector<std::uint8_t> is_large_;
     std::vector<std::uint64_t> seen_;
 };

@@ -92,6 +92,7 @@ private:
         Matrix3d inverse_inertia = Matrix3d::Zero();  ///< of the triangle's particles
         double gap = 0, mass = 0, friction = 0;
         double push = 0;                               ///< summed along the normal [N s]
+        bool is_idle = true;                           ///< it has never pushed
         Vector3d friction_impulse = Vector3d::Zero();  ///< summed across it [N s]
     };
 
@@ -128,6 +129,8 @@ private:
         const double left = overlap_left(row.gap, double(pass.recovery));
         const double c = row.gap + h * row.normal.dot(u) - left, d = std::min(row.gap, 0.0) - left;
         const double pushed = plumb::push(row.push, -gap_below(c, d, s) * row.mass / h, 0.0);
+        if (pushed == 0 && row.push == 0 && row.is_idle) return;  // most that may touch do not
+        row.is_idle = false;
         Vector3d impulse = pushed * row.normal;
         if (row.friction > 0) {
             const Vector3d across = u - row.normal.dot(u) * row.normal;

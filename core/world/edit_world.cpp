@@ -64,7 +64,8 @@ void forget_contacts(World& world, std::uint32_t slot) {
     c.list_pairs();
     forget_pairs(c.kept, is_of_body);
     world.particle_contacts = {};
-    world.surface_contacts.clear();
+    std::erase_if(world.surface_contacts,
+                  [slot](const SurfaceContact& x) { return x.point.body == slot; });
 }
 
 std::uint32_t insert_joint(World& world, JointDraft draft) {
