@@ -14,6 +14,7 @@
 #include "manifold/support.h"
 
 #include <mutex>
+#include <stdexcept>
 
 namespace plumb::ode {
 namespace {
@@ -33,13 +34,21 @@ Witness witness_of(const dContactGeom& c, double wider_by) {
 
 double widened(const Part& part) { return geoms_of(part).wide ? geoms_of(part).wider_by : 0; }
 
+/// ODE's points; none where it gives up, as now and then on cylinders with one axis.
+int collide_or_none(dGeomID a, dGeomID b, int most, dContactGeom* c) {
+    try {
+        return dCollide(a, b, most, c, sizeof(dContactGeom));
+    } catch (const std::runtime_error&) {
+        return 0;
+    }
+}
+
 /// ODE's deepest point; false where it has none. A round shape is asked wide, but only one of two.
 bool ask(Witness& witness, const Part& a, const Part& b) {
     const bool widen_a = geoms_of(a).wide != nullptr;
     dContactGeom c[16];
-    const int count =
-        dCollide(geoms_of(a).widest(), widen_a ? geoms_of(b).exact : geoms_of(b).widest(), 16, c,
-                 sizeof(dContactGeom));
+    const int count = collide_or_none(geoms_of(a).widest(),
+                                      widen_a ? geoms_of(b).exact : geoms_of(b).widest(), 16, c);
     if (count < 1) return false;
     int best = 0;
     for (int i = 1; i < count; ++i)

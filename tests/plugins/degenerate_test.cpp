@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Shapes at the edge of what numbers bear: tiny, huge, needles, hulls with faces in one plane or
 /// vertices twice.
+#include "dice.h"
 #include "standing.h"
+
+#include <array>
 
 namespace plumb::test {
 namespace {
@@ -40,6 +43,32 @@ TEST_P(Degenerate, TinyAndHugeShapesTouchAlike) {
                         3 * size * relative_accuracy(GetParam()));
             EXPECT_LT(deepest(contacts).normal.y, -0.9999);
         }
+}
+
+/// Cylinders of one radius on one axis, turned about it: wherever their rims meet, they meet all
+/// around.
+TEST_P(Degenerate, CylindersStandOnCylindersOfTheSameAxis) {
+    PLUMB_NEEDS_CLAIM(ShapeKind::cylinder, ShapeKind::cylinder, kPairManifold);
+    Dice dice(23);
+    World world(GetParam());
+    for (int i = 0; i < 600; ++i) {
+        const double radius = dice.between(0.02, 0.5), half = radius * dice.between(0.2, 3);
+        const double gap = std::array{-1e-3, -1e-7, 0.0, 1e-4}[i % 4] * radius;
+        const auto turned = [&] { return Q(Eigen::AngleAxisd(dice.between(-3, 3), V::UnitY())); };
+        const Q lean = i % 3 == 0 ? dice.rotation() : Q::Identity();
+        const Place a{V(0, half, 0), lean * turned()};
+        const Place b{a.x + lean * V(0, 2 * half + gap, 0), lean * turned()};
+        ASSERT_EQ(world.add(1, cylinder(radius, half), a).code, Status::ok);
+        ASSERT_EQ(world.add(2, cylinder(radius, half), b).code, Status::ok);
+        const auto& contacts = world.detect(0.01 * radius);
+        ASSERT_EQ(world.status().code, Status::ok)
+            << "pair " << i << ": " << world.status().message;
+        ASSERT_GE(contacts.size(), 3u) << "pair " << i;
+        EXPECT_NEAR(deepest(contacts).gap, gap, radius * relative_accuracy(GetParam()));
+        EXPECT_LT(v(contacts[0].normal).dot(lean * V::UnitY()), -0.9999) << "pair " << i;
+        world.collider().remove(1);
+        world.collider().remove(2);
+    }
 }
 
 TEST_P(Degenerate, NeedlesLieWhereTheyLie) {
