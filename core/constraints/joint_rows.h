@@ -159,8 +159,9 @@ inline void joint_response(T (&k)[6][6], const JointRows<T>& rows, const JointGe
     }
 }
 
-/// How far one iteration turns a body, at most [rad]. The gradient of a rotational row vanishes at
-/// a right angle, so that Eq. 6 would ask for a turn without bounds near there.
+/// How far a body may turn for rows to say anything of where it comes to [rad], and so how far one
+/// iteration turns it at most: the gradient of a rotational row vanishes at a right angle, so that
+/// Eq. 6 would ask for a turn without bounds near there.
 inline constexpr double kTrustedTurn = 0.5;
 
 /// The share of changes of both bodies' velocities that turns neither farther than that: 1 but for

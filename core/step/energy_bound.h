@@ -10,6 +10,7 @@
 #include "contacts/contact_work.h"
 #include "schedule/contact_islands.h"
 #include "step/contact_solver.h"
+#include "step/keep_share.h"
 #include "world/body_momentum.h"
 #include "world/tie.h"
 
@@ -47,15 +48,7 @@ public:
                 share = std::min(share, share_without_flinging(world.settings, [&](auto visit) {
                                      each_change(world, bodies, island, visit);
                                  }));
-            if (!(share < 1)) continue;
-            for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
-                contacts.scale_impulses(islands_.pairs()[i], share);
-            for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
-                const std::int32_t row = islands_.bodies()[i];
-                Velocity<Real> change = velocity_in(bodies.change, row);
-                change.v *= static_cast<Real>(share), change.w *= static_cast<Real>(share);
-                put_velocity(bodies.change, row, change);
-            }
+            if (share < 1) keep_share(share, islands_, island, contacts, bodies);
         }
     }
 

@@ -177,10 +177,7 @@ void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& 
         if (is_boundless(world, drive)) boundless_.push_back(drive.joint);
     if (world.kinematic_count == 0 && boundless_.empty()) return;
     const Bodies& b = world.bodies;
-    const auto moves = [&](std::uint32_t body) {
-        return body != kNoIndex && b.motion[body] == Motion::kinematic &&
-               !(b.velocity[body].isZero(0) && b.angular_velocity[body].isZero(0));
-    };
+    const auto moves = [&](std::uint32_t body) { return moves_by_itself(b, body); };
     const auto touches = [&](std::uint32_t pair) {
         const Contact& c = world.contacts.found[pairs[pair].first];
         return moves(c.a) || moves(c.b);
@@ -277,8 +274,9 @@ void IslandChoice::rule_out(const World& world) {
         const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)
                                       : load_of(world, world.links[tie.index], h);
         if (is_joint && iterated) mark(tie, kBeyond);
-        if (load.turn > kFarthestTurn || (!is_joint && load.pull > kHardPull)) mark(tie, kHard);
-        if (load.pull > kHardPull) mark(tie, load.turn > kRestingTurn ? kHard : kPulled);
+        const bool rests = is_joint && load.turn <= kRestingTurn;
+        if (load.pull > kHardPull) mark(tie, rests ? kPulled : kHard);
+        if (load.turn > kFarthestTurn) mark(tie, kHard);
         if (load.turn > kFarTurn) mark(tie, kFast);
         if (rest_of(world, tie).steps > 0) mark(tie, kRests);
     }

@@ -45,10 +45,6 @@ constexpr std::uint32_t kMostMisses = 8;
 /// bodies about. They are known by the energy that they add, as a share of what there is.
 constexpr double kOtherRoot = 0.25;
 
-/// How far the impulses of the substep before may make a body turn in a substep, unless it turns
-/// half as fast without [rad].
-constexpr double kWhirl = 0.5;
-
 /// More energy than so many times what there is did not come from what drives an island.
 constexpr double kFlung = 4;
 
@@ -479,7 +475,8 @@ void IslandGroup::forget_impulses() {
 
 /// Impulses of the substep before take the push of gravity back where nothing changed. What joints
 /// bore when a robot landed would whirl its links about, once its feet are off the ground, farther
-/// than what joints are asked for at the end of the substep means anything: such are no start.
+/// than what joints are asked for at the end of the substep means anything: such are no start,
+/// unless bodies turn more than half as fast without.
 void IslandGroup::forget_what_whirls(const Member& m) {
     if (m.ties.empty() || m.is_meshed || m.is_driven) return;
     const Island island = island_of(m);
@@ -487,7 +484,7 @@ void IslandGroup::forget_what_whirls(const Member& m) {
     const auto rate = [](const Vector6d& v) { return v.tail<3>().norm(); };
     for (std::size_t i = 0; i < start.size(); ++i) {
         const double now = rate(island.velocity[i]);
-        if (h_ * now <= kWhirl || now <= 2 * rate(start[i])) continue;
+        if (h_ * now <= kTrustedTurn || now <= 2 * rate(start[i])) continue;
         IslandSolver::forget(island);
         std::copy(start.begin(), start.end(), island.velocity.begin());
         return;

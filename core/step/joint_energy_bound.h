@@ -11,6 +11,7 @@
 #include "solve/island_residuals.h"
 #include "step/contact_solver.h"
 #include "step/joint_state.h"
+#include "step/keep_share.h"
 #include "step/tie_work.h"
 #include "world/body_momentum.h"
 #include "world/tie.h"
@@ -48,13 +49,11 @@ public:
         find_energies(world, contacts.pairs(), bodies, push_out, h);
         for (std::size_t i = 0; i < energies_.size(); ++i) {
             const double share = energies_[i].share();
-            if (share < 1) take_share(contacts, bodies, islands_.islands()[i], share);
+            if (share < 1) keep_share(share, islands_, islands_.islands()[i], contacts, bodies);
         }
     }
 
 private:
-    /// Farther than that nothing turns in a substep that iterations are made for [rad].
-    static constexpr double kWhirl = 0.5;
     /// A share of its energy that what swings quickly may gain in a substep: bodies move along
     /// chords.
     static constexpr double kSwings = 0.1;
@@ -78,7 +77,7 @@ private:
     bool any_whirls(const Bodies& b, const BodyRows<Real>& rows, double h) const {
         return std::any_of(joined_.begin(), joined_.end(), [&](std::uint32_t i) {
             const Vector3d change = change_of(b, rows, i).w;
-            return h * (b.angular_velocity[i] + change).norm() > kWhirl;
+            return h * (b.angular_velocity[i] + change).norm() > kTrustedTurn;
         });
     }
 
@@ -110,13 +109,13 @@ private:
                 overlap = std::max(overlap, -world.contacts.gap[k]);
             const double speed = std::min(push_out.share * overlap / h, recovery);
             for (const std::uint32_t body : {first.a, first.b}) grant(world, body, speed);
-            if (moves(b, first.a)) exclude(world, first.b);
-            if (moves(b, first.b)) exclude(world, first.a);
+            if (moves_by_itself(b, first.a)) exclude(world, first.b);
+            if (moves_by_itself(b, first.b)) exclude(world, first.a);
         }
         for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
             const Joint& joint = world.joints.joints[i];
             if (joint.broken) continue;
-            const bool is_moved = moves(b, joint.a) || moves(b, joint.b);
+            const bool is_moved = moves_by_itself(b, joint.a) || moves_by_itself(b, joint.b);
             const double work = most_work(world, i, h);
             for (const std::uint32_t body : {joint.a, joint.b}) {
                 if (is_moved) exclude(world, body);
@@ -149,23 +148,6 @@ private:
     /// What others move, or something drives, may gain whatever they give.
     void exclude(const World& world, std::uint32_t body) {
         if (Energy* energy = energy_of(world, body)) energy->is_driven = true;
-    }
-
-    static bool moves(const Bodies& b, std::uint32_t body) {
-        return body != kNoIndex && b.motion[body] == Motion::kinematic &&
-               !(b.velocity[body].isZero(0) && b.angular_velocity[body].isZero(0));
-    }
-
-    void take_share(ContactSolver<Real, W>& contacts, const BodyRows<Real>& bodies,
-                    const ContactIsland& island, double share) const {
-        for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
-            contacts.scale_impulses(islands_.pairs()[i], share);
-        for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
-            const std::int32_t row = islands_.bodies()[i];
-            Velocity<Real> change = velocity_in(bodies.change, row);
-            change.v *= static_cast<Real>(share), change.w *= static_cast<Real>(share);
-            put_velocity(bodies.change, row, change);
-        }
     }
 
     std::vector<std::uint32_t> body_of_;  // [dynamic row]

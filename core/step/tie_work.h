@@ -13,6 +13,12 @@
 
 namespace plumb {
 
+/// Whether a script moves a body, with whatever energy that takes.
+inline bool moves_by_itself(const Bodies& b, std::uint32_t body) {
+    return body != kNoIndex && b.motion[body] == Motion::kinematic &&
+           !(b.velocity[body].isZero(0) && b.angular_velocity[body].isZero(0));
+}
+
 /// Whether something limits a joint's axes.
 inline bool has_limits(const World& world, std::uint32_t joint) {
     bool has = false;
