@@ -45,6 +45,17 @@ inline void note_open_tree(std::vector<OpenTree>& trees, const OpenTree& tree) {
     trees.push_back(tree);
 }
 
+/// Joints and couplings that the end of a step finds open, or past a limit, so that anyone would
+/// see it: by more than 1 mm, 1 % of the size of one of their bodies, or 0.01 rad. Whatever solved
+/// them; joints that give way (compliance) may.
+struct GapingJoints {
+    std::uint32_t joints = 0, couplings = 0;        ///< how many
+    double along = 0, about = 0;                    ///< of joints, at the most [m], [rad]
+    double coupled = 0;                             ///< q_b − ratio q_a − offset [m], [rad]
+    std::uint32_t widest = ~0u, most_turned = ~0u;  ///< the joints that these are of, by index
+    std::uint32_t worst_coupling = ~0u;             ///< and the coupling
+};
+
 struct StepReport {
     std::uint32_t contacts = 0;            ///< contact points
     std::uint32_t clamped_recoveries = 0;  ///< contacts, summed over substeps, whose overlap was
@@ -58,6 +69,7 @@ struct StepReport {
     double tree_error = 0;                ///< by how much they were open at most [m], [rad]
     std::uint32_t open_joint = ~0u;       ///< a joint of the tree that was open the most
     std::vector<OpenTree> open_trees;     ///< of the last substep
+    GapingJoints gaping;                  ///< joints that anyone sees to be open
     std::uint32_t stretched_links = 0;    ///< links that the step left longer or shorter than
                                           ///< they may be, by more than 1 % of that
     double link_error = 0;                ///< by how much they were wrong at most [m]

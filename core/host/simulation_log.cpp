@@ -35,6 +35,13 @@ void Simulation::Parts::tell_step(const StepReport& report) const {
     if (report.unsolved_trees > 0)
         to->trace("step {}: {} trees of joints were left open, by {:.3g} at the most", world.steps,
                   report.unsolved_trees, report.tree_error);
+    if (report.gaping.joints > 0)
+        to->trace(
+            "step {}: {} joints are open or past a limit, by {:.3g} m and {:.3g} rad at the most",
+            world.steps, report.gaping.joints, report.gaping.along, report.gaping.about);
+    if (report.gaping.couplings > 0)
+        to->trace("step {}: {} couplings have slipped, by {:.3g} m or rad at the most", world.steps,
+                  report.gaping.couplings, report.gaping.coupled);
     if (report.stretched_links > 0)
         to->trace("step {}: {} links are too long or too short, by {:.3g} m at the most",
                   world.steps, report.stretched_links, report.link_error);

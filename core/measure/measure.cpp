@@ -2,7 +2,7 @@
 #include "measure/measure.h"
 
 #include "math/fnv1a.h"
-#include "step/joint_state.h"
+#include "step/gaping_joints.h"
 #include "world/body_momentum.h"
 #include "world/link_error.h"
 
@@ -65,15 +65,23 @@ std::vector<double> penetrations(const World& world) {
 }
 
 std::vector<double> joint_errors(const World& world) {
-    std::vector<double> errors;
-    for (const Joint& joint : world.joints.joints) errors.push_back(joint_gap(world.bodies, joint));
+    std::vector<double> errors(world.joints.size(), 0);
+    each_joint_error(world, false,
+                     [&](std::uint32_t i, const JointError& error) { errors[i] = error.along; });
     return errors;
 }
 
 std::vector<double> joint_turn_errors(const World& world) {
+    std::vector<double> errors(world.joints.size(), 0);
+    each_joint_error(world, false,
+                     [&](std::uint32_t i, const JointError& error) { errors[i] = error.about; });
+    return errors;
+}
+
+std::vector<double> coupling_errors(const World& world) {
     std::vector<double> errors;
-    for (const Joint& joint : world.joints.joints)
-        errors.push_back(joint_turn_gap(world.bodies, joint));
+    for (const JointCoupling& coupling : world.joints.couplings)
+        errors.push_back(coupling_error(world, coupling));
     return errors;
 }
 

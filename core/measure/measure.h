@@ -20,11 +20,16 @@ Vector3d angular_momentum(const World& world);  ///< about the origin [kg m²/s]
 /// detection.
 std::vector<double> penetrations(const World& world);
 
-/// How far each joint's points have parted along what it locks [m]; 0 of broken ones.
+/// How far each joint's points have parted along what it locks, or past a limit [m]; 0 of broken
+/// ones and of what gives way.
 std::vector<double> joint_errors(const World& world);
 
-/// How far each joint's bodies have turned against each other about what it locks [rad]; the same.
+/// How far each joint's bodies have turned against each other about what it locks, or past a limit
+/// [rad]; the same.
 std::vector<double> joint_turn_errors(const World& world);
+
+/// By how much each coupling's second coordinate misses what the first asks for [m], [rad].
+std::vector<double> coupling_errors(const World& world);
 
 /// How far each link's points are from where it holds them [m]; 0 of links that give way.
 std::vector<double> link_errors(const World& world);

@@ -68,9 +68,14 @@ int free_turns(const Joint& joint) {
 }
 
 JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::uint32_t axis) {
+    return joint_coordinate(world, index, axis,
+                            joint_pose(world.bodies, world.joints.joints[index]));
+}
+
+JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::uint32_t axis,
+                                 const JointPose& pose) {
     const Joint& joint = world.joints.joints[index];
-    JointCoordinate q =
-        joint_coordinate(joint.kind, free_turns(joint), joint_pose(world.bodies, joint), axis);
+    JointCoordinate q = joint_coordinate(joint.kind, free_turns(joint), pose, axis);
     if (axis == single_turn(joint))
         q.value += kWholeTurn * std::round((world.joints.turn[index] - q.value) / kWholeTurn);
     return q;

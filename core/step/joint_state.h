@@ -22,6 +22,9 @@ int free_turns(const Joint& joint);
 /// The coordinate of a joint along or about an axis that it leaves free. The angle about a single
 /// free axis is counted through whole turns.
 JointCoordinate joint_coordinate(const World& world, std::uint32_t joint, std::uint32_t axis);
+/// The same, where the joint's pose is known.
+JointCoordinate joint_coordinate(const World& world, std::uint32_t joint, std::uint32_t axis,
+                                 const JointPose& pose);
 
 /// How fast a coordinate of a joint changes [m/s], [rad/s].
 double joint_rate(const Bodies& bodies, const Joint& joint, const JointCoordinate& q);

@@ -135,11 +135,13 @@ public:
     void solve_positions(StepReport& report, Ledger& ledger) override {
         const auto active = std::count_if(groups_.begin(), groups_.end(),
                                           [](const auto& group) { return !group->empty(); });
+        trees_alone_ = false;
         if (active == 0) return;
         // trees alone are right after one iteration
         const bool alone = active == 1 && trees_ && !trees_->empty();
         const std::uint32_t iterations =
             alone ? std::min(settings_.position_iterations, 1u) : settings_.position_iterations;
+        trees_alone_ = alone && iterations > 0;
         workers_.run([this, alone, iterations, &ledger](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             pass.alone = alone;
@@ -210,6 +212,10 @@ public:
         table_.take_changes(world.bodies);
         table_.take_changes(world, world.particles);
         if (islands_) islands_->take_changes(world.bodies);
+    }
+
+    bool has_undisturbed_trees() const override {
+        return trees_alone_ && !solved_ties_.any_joint();
     }
 
     void end_substep(World& world, Ledger& ledger) override {
@@ -372,6 +378,7 @@ private:
     std::vector<std::uint32_t> levels_;
     std::uint32_t substeps_;  // since the start: each begins in the other direction
     std::uint32_t iterations_ = 0;
+    bool trees_alone_ = false;  // solved, in the last substep, and nothing else
 };
 
 template <class Real>

@@ -54,6 +54,10 @@ public:
     /// The same of each island.
     virtual const std::vector<IslandResidual>& island_residuals() const = 0;
 
+    /// Whether all joints are in trees that were solved in the last substep, and nothing else acted
+    /// on bodies.
+    virtual bool has_undisturbed_trees() const = 0;
+
     /// Once a substep and once a step, after the move: impulses, into the world's tables.
     virtual void end_substep(World& world, Ledger& ledger) = 0;
     virtual void end_step(World& world) = 0;

@@ -2,6 +2,7 @@
 #include "step/step.h"
 
 #include "contacts/bend.h"
+#include "step/gaping_joints.h"
 #include "step/substep_time.h"
 
 #include <cmath>
@@ -124,8 +125,12 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         report.finite = is_finite(world);
     });
     if (plan.runs(Effect::joints))
-        timed(Stage::joints,
-              [&] { break_joints(world, stepper.breakable, plan, proximity, report); });
+        timed(Stage::joints, [&] {
+            break_joints(world, stepper.breakable, plan, proximity, report);
+            // trees that nothing disturbs have told what they left open
+            const bool closed = report.unsolved_trees == 0 && solver.has_undisturbed_trees();
+            note_gaping_joints(world, closed, report);
+        });
     if (plan.runs(Effect::links)) timed(Stage::links, [&] { note_stretched_links(world, report); });
     if (plan.runs(Effect::tearing)) timed(Stage::tearing, [&] { tear(world, report); });
 

@@ -4,6 +4,7 @@
 
 #include "world/world.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace plumb {
@@ -64,6 +65,7 @@ struct SolvedTies {
         if (tie.kind == TieKind::joint) return joints[tie.index];
         return tie.kind == TieKind::link ? links[tie.index] : couplings[tie.index];
     }
+    bool any_joint() const { return std::find(joints.begin(), joints.end(), 1) != joints.end(); }
     void clear() {
         for (auto* column : {&joints, &links, &couplings})
             std::fill(column->begin(), column->end(), 0);
