@@ -4,7 +4,7 @@ add_executable(plumb_app app/main.cpp app/ablation.cpp app/check.cpp app/check_c
   app/compare.cpp app/cost.cpp app/comparison_json.cpp app/comparison_text.cpp
   app/contact_sources.cpp app/distinct_files.cpp
   app/effects.cpp app/energy_watch.cpp app/export.cpp
-  app/interrupt.cpp app/plugin_path.cpp app/progress.cpp app/recorder.cpp app/residual_watch.cpp app/run.cpp app/run_options.cpp app/statistics.cpp app/study_files.cpp
+  app/interrupt.cpp app/joint_watch.cpp app/plugin_path.cpp app/progress.cpp app/recorder.cpp app/residual_watch.cpp app/run.cpp app/run_options.cpp app/statistics.cpp app/study_files.cpp
   app/study_options.cpp app/summary.cpp app/tune.cpp
   app/usage.cpp)
 set_target_properties(plumb_app PROPERTIES OUTPUT_NAME plumb)

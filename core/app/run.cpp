@@ -21,6 +21,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plumb::app {
@@ -42,14 +43,16 @@ std::uint64_t steps_a_frame(const Settings& s, double frames_per_second) {
         1, static_cast<std::uint64_t>(std::lround(1 / (frames_per_second * s.dt))));
 }
 
-/// The worst violation so far, in few words.
+/// The worst violation so far, in few words; what anyone would see of joints before overlap.
 std::string worst(const Statistics& statistics) {
-    char text[80];
-    if (statistics.worst_joint() > statistics.worst_penetration())
-        std::snprintf(text, sizeof text, "joints %.3f mm apart", statistics.worst_joint() * 1e3);
-    else
-        std::snprintf(text, sizeof text, "%.3f mm deep", statistics.worst_penetration() * 1e3);
-    return text;
+    const double open = statistics.worst_joint(), deep = statistics.worst_penetration();
+    const double turned = statistics.joints().turned().worst().error,
+                 slipped = statistics.joints().slipped().worst().error;
+    std::string text;
+    if (turned > 0) text += fmt::format("joints {:.3f} rad turned, ", turned);
+    if (slipped > 0) text += fmt::format("couplings {:.3f} off, ", slipped);
+    return text + (open > deep ? fmt::format("joints {:.3f} mm apart", open * 1e3)
+                               : fmt::format("{:.3f} mm deep", deep * 1e3));
 }
 
 /// How a run came to its end, and the sentence for it where it was not the planned one.
@@ -130,11 +133,9 @@ std::string faults_in_words(const Statistics& statistics) {
     return words;
 }
 
-/// Joints that gape by more than this are worth a word [m].
-constexpr double kWide = 1e-3;
-
 /// What is worth knowing although the run went on, a sentence each.
-std::vector<std::string> warnings_of(const Simulation& simulation, const Statistics& statistics) {
+std::vector<std::string> warnings_of(const Scene& scene, const Simulation& simulation,
+                                     const Statistics& statistics) {
     std::vector<std::string> warnings;
     if (statistics.rejected_contacts > 0)
         warnings.push_back(fmt::format("collider \"{}\" gave contacts that were left out: {}",
@@ -148,16 +149,8 @@ std::vector<std::string> warnings_of(const Simulation& simulation, const Statist
             "islands that rest miss \"accuracy\" and are too large for an exact solution: they are "
             "left to the iterations; more of these, or more substeps, may help, and the residual "
             "tells");
-    if (statistics.unsolved_trees > 0)
-        warnings.push_back(fmt::format(
-            "trees of joints were left open in {} solves, by {:.3g} m or rad at the most, that of "
-            "joint {}; more substeps may help",
-            statistics.unsolved_trees, statistics.tree_error, statistics.open_joint));
-    if (statistics.worst_joint() > std::max(kWide, statistics.tree_error))
-        warnings.push_back(fmt::format(
-            "joint {} was open by {:.3g} m, more than any other; more iterations or substeps, or "
-            "\"joints\": \"tree\", may help",
-            statistics.widest_joint(), statistics.worst_joint()));
+    for (std::string& warning : statistics.joints().warnings(scene, simulation.world()))
+        warnings.push_back(std::move(warning));
     if (statistics.stretched_links > 0)
         warnings.push_back(fmt::format(
             "links were more than 1 % too long or too short at the end of {} of their steps, by "
@@ -193,7 +186,8 @@ int complete(const Run& run, Ending ending) {
     if (!recorder.failure().empty() && ending.code != kDiverged) ending.code = kCannotWrite;
     auto figures = summary(run.outputs.run.scene, run.scene, run.simulation, run.statistics);
     figures["ended"] = words_for(ending.code);
-    const std::vector<std::string> warnings = warnings_of(run.simulation, run.statistics);
+    const std::vector<std::string> warnings =
+        warnings_of(run.scene, run.simulation, run.statistics);
     for (const std::string& warning : warnings) figures["warnings"].push_back(warning);
     recorder.write_summary(figures.dump(2));
     if (!recorder.failure().empty() && ending.code != kDiverged)

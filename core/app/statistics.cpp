@@ -19,6 +19,7 @@ Sample sample_of(const World& world) {
                   penetrations(world),
                   joint_errors(world),
                   link_errors(world),
+                  joint_turn_errors(world),
                   {},
                   {},
                   {},
@@ -73,8 +74,8 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     costly_islands += report.costly_islands;
     unsolved_trees += report.unsolved_trees;
     torn += report.torn_elements;
-    if (report.tree_error > tree_error)
-        tree_error = report.tree_error, open_joint = world.joints.joints[report.open_joint].id;
+    broken += report.broken_joints;
+    tree_error = std::max(tree_error, report.tree_error);
     stretched_links += report.stretched_links;
     link_error = std::max(link_error, report.link_error);
     rejected_contacts += report.rejected_contacts;
@@ -86,10 +87,8 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
 
     for (const Contact& c : world.contacts.found)
         worst_penetration_ = std::max(worst_penetration_, -c.gap);
-    const std::vector<double> gaps = joint_errors(world);
-    for (std::size_t i = 0; i < gaps.size(); ++i)
-        if (gaps[i] > worst_joint_)
-            worst_joint_ = gaps[i], widest_joint_ = world.joints.joints[i].id;
+    for (const double gap : joint_errors(world)) worst_joint_ = std::max(worst_joint_, gap);
+    joints_.add(world, report);
     energy_.add(world, report);
     residual_.add(world, report);
     if (simulation.steps() % sample_every_ == 0) samples_.push_back(sample_of(world));

@@ -229,6 +229,8 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
                         {"max", percentile(penetration, 1)}};
     j["joint_error"] = mean_and_max(s.over_last_fifth(&Sample::joint_error));
     j["joint_error"]["of_run"] = s.worst_joint();
+    j["joint_turn_error"] = mean_and_max(s.over_last_fifth(&Sample::joint_turn_error));
+    j["open_joints"] = s.joints().json(scene, world);
     j["link_error"] = mean_and_max(s.over_last_fifth(&Sample::link_error));
     j["speed"] = speeds_json(s.over_last_fifth(&Sample::speed));
     j["speed_near"] = speeds_json(s.over_last_fifth(&Sample::near_speed));
@@ -241,6 +243,7 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
         {"mean", heights.all}, {"mean_near", heights.near}, {"lowest", heights.lowest}};
     j["fallen_through"] = fallen_through(scene, world);
     j["torn"] = s.torn;
+    j["broken"] = s.broken;
     j["clamps"] = {{"recovery", s.clamped_recoveries},
                    {"unsolved_islands", s.unsolved_islands},
                    {"costly_islands", s.costly_islands},

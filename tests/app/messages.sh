@@ -58,6 +58,41 @@ END
 grep -q "^plumb: warning: trees of joints were left open" "$work/err" || fail "nothing is said of a tree that is open"
 "$json_has" "$work/out" /warnings/0 || fail "the summary does not warn of a tree that is open"
 
+# Joints that iterations cannot hold are named, with how far, when, and how many bodies they tie: a rope that what a script
+# moves pulls further than it goes, and one wheel of two that is turned while the other is held.
+cat >"$work/pulled.json" <<'END'
+{"settings": {"joints": "iterate", "gravity": [0, 0, 0], "dt": 0.01, "duration": 1}, "bodies": [
+  {"name": "held", "shape": {"sphere": {"radius": 0.1}}},
+  {"name": "wheel", "shape": {"sphere": {"radius": 0.1}}, "position": [0, 1, 0]},
+  {"name": "puller", "motion": "kinematic", "shape": {"sphere": {"radius": 0.1}}, "position": [1, 0, 0], "velocity": [0.5, 0, 0]},
+  {"name": "turner", "motion": "kinematic", "shape": {"sphere": {"radius": 0.1}}, "position": [1, 1, 0], "angular_velocity": [0, 0, 1]}],
+ "joints": [
+  {"name": "weld", "type": "fixed", "bodies": ["held"], "anchor": [0, 0, 0]},
+  {"name": "axle", "type": "hinge", "bodies": ["held"], "anchor": [0, 0, 0], "axis": [0, 0, 1]},
+  {"name": "shaft", "type": "hinge", "bodies": ["wheel"], "anchor": [0, 1, 0], "axis": [0, 0, 1]},
+  {"name": "clutch", "type": "orientation", "bodies": ["wheel", "turner"]},
+  {"name": "rope", "type": "distance", "bodies": ["held", "puller"], "anchor": [0, 0, 0], "anchor_b": [1, 0, 0], "limits": [0, 1.1]}],
+ "couplings": [{"name": "gear", "joints": ["axle", "shaft"], "ratio": 1}]}
+END
+"$plumb" run "$work/pulled.json" --collider reference --quiet --summary - >"$work/out" 2>"$work/err" || fail "a pulled rope ends with $?"
+grep -q '^plumb: warning: joints were open, or past a limit, in .* of 100 steps: joint "rope" first, at 0.2[0-9]* s, ' "$work/err" ||
+  fail "nothing is said of a rope that is too long: $(cat "$work/err")"
+grep -q '^plumb: warning: couplings had slipped in .* of 100 steps: coupling "gear" first, at .* rad at ' "$work/err" ||
+  fail "nothing is said of a gear that slips"
+[ "$("$json_has" "$work/out" --print /open_joints/apart/first/name)" = '"rope"' ] || fail "the summary does not name the rope"
+[ "$("$json_has" "$work/out" --print /open_joints/couplings/worst/name)" = '"gear"' ] || fail "the summary does not name the gear"
+[ "$("$json_has" "$work/out" --print /open_joints/trees)" = null ] || fail "the summary tells of trees where there is none"
+"$json_has" "$work/out" /open_joints/apart/steps /open_joints/apart/worst/error /open_joints/apart/worst/time \
+  /open_joints/apart/worst/bodies /open_joints/apart/at_end/unit || fail "the summary does not tell how far a rope is too long"
+
+# A joint that is to give way does, without a word.
+cat >"$work/soft.json" <<'END'
+{"settings": {"dt": 0.01, "duration": 1}, "bodies": [{"name": "a", "shape": {"sphere": {"radius": 0.1}}, "mass": 10}],
+ "joints": [{"type": "ball", "bodies": ["a"], "anchor": [0, 0.1, 0], "compliance": 1e-3}]}
+END
+"$plumb" run "$work/soft.json" --collider reference --quiet --summary - >"$work/out" 2>"$work/err" || fail "a soft joint ends with $?"
+[ -s "$work/err" ] && fail "a joint is called open that gives way: $(cat "$work/err")"
+
 # The same without the option; all verbs have it.
 "$plumb" run "$small" --duration 0.05 --set 'forbid=["friction"]' >"$work/out" 2>"$work/err" || fail "run ends with $?"
 grep -qF "$warned" "$work/err" || fail "a run does not warn unless told"
