@@ -32,6 +32,13 @@ concept HasAxes = requires(double (&rows)[F::kRows]) {
     F::turn(rows, 1.0, 0.0);
 };
 
+/// Those whose elements can turn what they have pushed with themselves: `follow` does, and moves
+/// their points accordingly.
+template <class F>
+concept HasFollowing = requires {
+    F::kFollows;
+};
+
 /// Sizes of a formula's blocks.
 template <class F>
 struct FormulaSize {

@@ -32,6 +32,26 @@ struct Stretch {
         return T(1);
     }
 
+    /// What a taut segment has pushed turns with it, as in Membrane::follow: D = n P − push,
+    /// δe (1 − P/|e| G) = D G, with G = h Σ w.
+    static constexpr bool kFollows = true;
+    template <class T>
+    static void follow(Vector3<T> (&place)[2], Vector3<T> (&velocity)[2], Vector3<T> (&push)[1],
+                       const T (&)[kNumbers], const T (&inverse_mass)[2], const T (&impulse)[1],
+                       const T& h) {
+        const Vector3<T> e = place[1] - place[0];
+        const T k = min(impulse[0], T(0)) / max(sqrt(dot(e, e)), T(1e-12));
+        const T pulls = select_greater(T(0), impulse[0], T(1), T(0));
+        const T moved = (inverse_mass[0] + inverse_mass[1]) * h;
+        const Vector3<T> missing = e * k - push[0] * pulls;
+        const Vector3<T> yields = missing * (moved / (T(1) - k * moved));
+        const Vector3<T> more = missing + yields * k;
+        velocity[0] -= more * inverse_mass[0];
+        velocity[1] += more * inverse_mass[1];
+        push[0] += more;
+        place[1] += yields;
+    }
+
     /// A pull stiffens the segment across it.
     static Eigen::Matrix2d tension(const Vector3d (&p)[2], const double (&)[kNumbers],
                                    const double (&force)[1]) {

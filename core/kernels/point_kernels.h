@@ -12,6 +12,8 @@ using FormulaBlock = PointBlock<FormulaSize<F>, F::kPoints, Real, W>;
 
 template <class F, class Real, int W>
 using FormulaPatchBlock = PatchBlock<FormulaSize<F>, F::kPoints, Real, W>;
+template <class F, class Real, int W>
+using FormulaPushBlock = PushBlock<F::kPoints, Real, W>;
 /// Rows of eight numbers that the gradient of a formula takes at a point: two rows of C in each.
 template <class F>
 inline constexpr int kSlopeRows = (FormulaSize<F>::kRows + 1) / 2;
@@ -22,6 +24,9 @@ struct FormulaKernels {
                           std::uint32_t first, std::uint32_t last);
     Pass begin;  ///< once a substep of length h [s]: nothing pushed, and C at its start
     Pass solve;  ///< one iteration
+    /// The same where what was pushed turns with its elements; null where a formula cannot.
+    void (*follow)(FormulaBlock<F, Real, W>* blocks, FormulaPushBlock<F, Real, W>* pushes,
+                   const BodyRows<Real>& rows, Real h, std::uint32_t first, std::uint32_t last);
     /// C and its gradient at the end of the substep as things stand; null where a formula has no
     /// patches.
     void (*look)(FormulaPatchBlock<F, Real, W>* blocks, Real* slopes, const BodyRows<Real>& rows,

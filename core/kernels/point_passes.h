@@ -6,6 +6,7 @@
 #include "kernels/gather.h"
 #include "kernels/point_kernels.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace plumb::kernels {
@@ -76,6 +77,31 @@ void begin_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, 
     }
 }
 
+/// What the items of a block know and have done.
+template <class F, class Real, int W, class T = Number<Real, W>>
+struct LoadedItems {
+    using Size = FormulaSize<F>;
+    T mass[F::kPoints], numbers[Size::kNumbers], soft[Size::kCompliances], lag[Size::kRows],
+        impulse[Size::kRows];
+
+    explicit LoadedItems(const FormulaBlock<F, Real, W>& block) {
+        load_all<Real, F::kPoints, W>(mass, block.inverse_mass);
+        load_all<Real, Size::kNumbers, W>(numbers, block.numbers);
+        load_all<Real, Size::kCompliances, W>(soft, block.softness);
+        load_all<Real, Size::kRows, W>(lag, block.lag);
+        load_all<Real, Size::kRows, W>(impulse, block.impulse);
+    }
+};
+
+template <class F, class Real, int W, class T = Number<Real, W>>
+inline void store_points(FormulaBlock<F, Real, W>& block, const T (&impulse)[FormulaSize<F>::kRows],
+                         const Vector3<T> (&change)[F::kPoints], const BodyRows<Real>& rows) {
+    for (int k = 0; k < FormulaSize<F>::kRows; ++k) store(block.impulse[k], impulse[k]);
+    const Vector3<T> none(T(0), T(0), T(0));
+    for (int i = 0; i < F::kPoints; ++i)
+        write_velocities<Real, W>(rows.change, block.row[i], rows.dynamic_count, {change[i], none});
+}
+
 template <class F, class Real, int W>
 void solve_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, Real h,
                   std::uint32_t first, std::uint32_t last) {
@@ -85,31 +111,50 @@ void solve_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, 
     for (std::uint32_t b = first; b < last; ++b) {
         FormulaBlock<F, Real, W>& block = blocks[b];
         auto points = gather_points<n, Real, W>(rows, block.row, T(h), true);
-        T mass[n], numbers[Size::kNumbers], soft[Size::kCompliances], lag[Size::kRows],
-            impulse[Size::kRows];
-        load_all<Real, n, W>(mass, block.inverse_mass);
-        load_all<Real, Size::kNumbers, W>(numbers, block.numbers);
-        load_all<Real, Size::kCompliances, W>(soft, block.softness);
-        load_all<Real, Size::kRows, W>(lag, block.lag);
-        load_all<Real, Size::kRows, W>(impulse, block.impulse);
+        LoadedItems<F, Real, W> items(block);
         if constexpr (Size::kIsLinear) {
             LinearRow<T, n> row;
-            for (int i = 0; i < n; ++i) row.weight[i] = numbers[i];
+            for (int i = 0; i < n; ++i) row.weight[i] = items.numbers[i];
             T c[3];
             evaluate<F, Real, W>(c, block, points.place);
-            Vector3<T> sum(impulse[0], impulse[1], impulse[2]);
-            plumb::solve_points<T, n>(points.change, mass, row, Vector3<T>(c[0], c[1], c[2]),
-                                      Vector3<T>(lag[0], lag[1], lag[2]), soft[0], sum, T(h));
-            for (int k = 0; k < 3; ++k) impulse[k] = sum[k];
+            Vector3<T> sum(items.impulse[0], items.impulse[1], items.impulse[2]);
+            plumb::solve_points<T, n>(points.change, items.mass, row, Vector3<T>(c[0], c[1], c[2]),
+                                      Vector3<T>(items.lag[0], items.lag[1], items.lag[2]),
+                                      items.soft[0], sum, T(h));
+            for (int k = 0; k < 3; ++k) items.impulse[k] = sum[k];
         } else {
-            plumb::solve_points<T, n, Size::kRows>(
-                points.change, mass, F::rows(points.place, numbers), lag, soft, impulse, T(h));
+            plumb::solve_points<T, n, Size::kRows>(points.change, items.mass,
+                                                   F::rows(points.place, items.numbers), items.lag,
+                                                   items.soft, items.impulse, T(h));
         }
-        for (int k = 0; k < Size::kRows; ++k) store(block.impulse[k], impulse[k]);
-        const Vector3<T> none(T(0), T(0), T(0));
-        for (int i = 0; i < n; ++i)
-            write_velocities<Real, W>(rows.change, block.row[i], rows.dynamic_count,
-                                      {points.change[i], none});
+        store_points<F, Real, W>(block, items.impulse, points.change, rows);
+    }
+}
+
+template <class F, class Real, int W>
+void follow_points(FormulaBlock<F, Real, W>* blocks, FormulaPushBlock<F, Real, W>* pushes,
+                   const BodyRows<Real>& rows, Real h, std::uint32_t first, std::uint32_t last) {
+    using T = Number<Real, W>;
+    constexpr int n = F::kPoints, m = F::kRows;
+    for (std::uint32_t b = first; b < last; ++b) {
+        FormulaBlock<F, Real, W>& block = blocks[b];
+        FormulaPushBlock<F, Real, W>& pushed = pushes[b];
+        auto points = gather_points<n, Real, W>(rows, block.row, T(h), true);
+        LoadedItems<F, Real, W> items(block);
+        Vector3<T> push[n - 1];
+        for (int i = 0; i < 3 * (n - 1); ++i) push[i / 3][i % 3] = load(pushed.push[i]);
+        F::follow(points.place, points.change, push, items.numbers, items.mass, items.impulse,
+                  T(h));
+        const PointRows<T, n, m> here = F::rows(points.place, items.numbers);
+        T before[m];
+        std::copy_n(items.impulse, m, before);
+        plumb::solve_points<T, n, m>(points.change, items.mass, here, items.lag, items.soft,
+                                     items.impulse, T(h));
+        for (int i = 0; i < n - 1; ++i)
+            for (int r = 0; r < m; ++r)
+                push[i] += here.gradient[r][i + 1] * (items.impulse[r] - before[r]);
+        for (int i = 0; i < 3 * (n - 1); ++i) store(pushed.push[i], push[i / 3][i % 3]);
+        store_points<F, Real, W>(block, items.impulse, points.change, rows);
     }
 }
 
@@ -147,10 +192,11 @@ void look_at_elements(FormulaPatchBlock<F, Real, W>* blocks, Real* slopes,
 
 template <class F, class Real, int W>
 constexpr FormulaKernels<F, Real, W> kernels_of_formula() {
-    if constexpr (HasPatches<F>)
-        return {begin_points<F, Real, W>, solve_points<F, Real, W>, look_at_elements<F, Real, W>};
-    else
-        return {begin_points<F, Real, W>, solve_points<F, Real, W>, nullptr};
+    FormulaKernels<F, Real, W> kernels{begin_points<F, Real, W>, solve_points<F, Real, W>, nullptr,
+                                       nullptr};
+    if constexpr (HasFollowing<F>) kernels.follow = follow_points<F, Real, W>;
+    if constexpr (HasPatches<F>) kernels.look = look_at_elements<F, Real, W>;
+    return kernels;
 }
 
 template <class Real, int W, class... F>

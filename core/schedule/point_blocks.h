@@ -19,6 +19,12 @@ struct alignas(64) PointBlock {
     Real impulse[Size::kRows][W];          // summed over the substep
 };
 
+/// What W constraints have pushed their points but the first, which takes the opposite.
+template <int Points, class Real, int W>
+struct alignas(64) PushBlock {
+    Real push[3 * (Points - 1)][W];
+};
+
 /// Elements of patches, side by side: what a cycle takes of them, and C/h, in the axes of the patch
 /// and times `share`.
 template <class Size, int Points, class Real, int W>

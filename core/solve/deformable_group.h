@@ -6,6 +6,7 @@
 #include "solve/point_group.h"
 #include "solve/volume_group.h"
 
+#include <algorithm>
 #include <memory>
 #include <vector>
 
@@ -22,6 +23,13 @@ public:
     Stage stage() const override { return Stage::particles; }
     bool empty() const override { return groups_.empty() && volumes_.empty(); }
 
+    std::uint32_t rounds() const override {
+        std::uint32_t most = 1;
+        for (const auto& group : groups_) most = std::max(most, group->rounds());
+        return most;
+    }
+    bool moves_particles() const override { return true; }
+
     void begin(const World& world, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                double h) override {
         h_ = h;
@@ -37,7 +45,8 @@ public:
         mine.forwards = pass.iteration % 2 == 0;
         keeper_.note(rows, worker);
         for (const auto& group : groups_) group->iterate_positions(rows, mine, worker);
-        if (!volumes_.empty()) volumes_.iterate(rows, h_, pass.iteration == 0, worker);
+        if (!volumes_.empty() && pass.round + 1 == pass.rounds)
+            volumes_.iterate(rows, h_, pass.iteration == 0, worker);
         keeper_.restore(rows, worker);
     }
 

@@ -26,6 +26,7 @@ public:
 
     Stage stage() const override { return Stage::particle_contacts; }
     bool empty() const override { return pairs_.empty(); }
+    bool moves_particles() const override { return true; }
 
     void load(const World& world) override {
         const ParticleContactTable& c = world.particle_contacts;
@@ -82,7 +83,7 @@ public:
     }
     void iterate_positions(const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        iterate(kernels_.solve_positions, bodies, cold(pass, pass.iteration), worker);
+        iterate(kernels_.solve_positions, bodies, cold(pass, pass.iteration + pass.round), worker);
     }
 
     /// Calls visit(contact, RowImpulse) for all contacts, with what they bear in this substep.

@@ -41,6 +41,7 @@ public:
         Real numbers[F::kNumbers], softness[kRows];
         Real* impulse;
         const Real* lag;
+        Real* push;  ///< at its points but the first, where the formula follows
         std::ptrdiff_t stride;
     };
 
@@ -321,9 +322,22 @@ private:
                 std::copy_n(patches_[p].impulse, kRows, impulse);
                 for (int r = 0; r < kRows; ++r)
                     e.c[r] += e.share * e.share * e.element.softness[r] * impulse[r];
+                if constexpr (HasFollowing<F>) add_push(i, impulse);
                 turn_rows(impulse, e.turn.back());
                 for (int r = 0; r < kRows; ++r)
                     e.element.impulse[r * e.element.stride] += e.share * impulse[r];
+            }
+        }
+    }
+
+    /// To what an element has pushed; the impulse is in the patch's axes, as its gradients are.
+    void add_push(std::uint32_t i, const Real (&impulse)[kRows]) {
+        const Element& element = elements_[i].element;
+        for (int k = 1; k < kPoints; ++k) {
+            const CornerSlope& slope = corner_slopes_[std::size_t(i) * kPoints + k];
+            for (int x = 0; x < 3; ++x) {
+                Real& push = element.push[(3 * (k - 1) + x) * element.stride];
+                for (int r = 0; r < kRows; ++r) push += slope.row[r][x] * impulse[r];
             }
         }
     }

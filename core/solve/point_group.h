@@ -35,26 +35,43 @@ public:
     Stage stage() const override { return Stage::particles; }
     bool empty() const override { return blocks_.empty(); }
 
+    std::uint32_t rounds() const override {
+        if constexpr (HasPatches<F>) return has_patches() ? patches_->kSmoothing : 1;
+        return 1;
+    }
+
     void begin(const World&, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                double) override {
+        std::fill(pushes_.begin(), pushes_.end(), Pushes{});
         workers_.run([&](std::uint32_t worker) { iterate(kernels_.begin, rows, pass, worker); });
     }
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                            std::uint32_t worker) override {
-        int sweeps = 1;
         if constexpr (HasPatches<F>)
-            if (patches_ && !patches_->empty()) {
-                patches_->iterate(rows, pass.h, worker);
-                sweeps = patches_->kSmoothing;
+            if (has_patches()) {
+                if (pass.round == 0) patches_->iterate(rows, pass.h, worker);
+                if constexpr (HasFollowing<F>)
+                    iterate(
+                        [this](Block* blocks, const BodyRows<Real>& to, Real h, std::uint32_t first,
+                               std::uint32_t last) {
+                            kernels_.follow(blocks, pushes_.data(), to, h, first, last);
+                        },
+                        rows, pass, worker);
+                else
+                    iterate(kernels_.solve, rows, pass, worker);
+                return;
             }
-        for (int i = 0; i < sweeps; ++i) iterate(kernels_.solve, rows, pass, worker);
+        if (pass.round + 1 == pass.rounds) iterate(kernels_.solve, rows, pass, worker);
     }
 
 private:
     using Size = FormulaSize<F>;
     using Block = FormulaBlock<F, Real, W>;
     using Kernels = FormulaKernels<F, Real, W>;
+    using Pushes = FormulaPushBlock<F, Real, W>;
+
+    bool has_patches() const requires HasPatches<F> { return patches_ && !patches_->empty(); }
 
     /// One constraint, as it goes into a lane.
     struct Item {
@@ -114,6 +131,8 @@ private:
         // a lane without an item has a system that can be solved
         for (auto& softness : block.softness)
             std::fill(std::begin(softness), std::end(softness), Real(1));
+        for (auto& numbers : block.numbers)
+            std::fill(std::begin(numbers), std::end(numbers), Real(1));
         for (std::uint32_t i = first; i < last; ++i) {
             const std::uint32_t at = colouring_.order()[i], lane = i - first;
             const Item& item = items_[at];
@@ -133,6 +152,7 @@ private:
     void make_patches(const World& world) {
         using Patches = PatchSolver<F, Real, W>;
         std::vector<typename Patches::Element> elements(items_.size());
+        if constexpr (HasFollowing<F>) pushes_.resize(blocks_.size());
         auto block_at = blocks_.begin();
         each_block([&](std::uint32_t first, std::uint32_t last) {
             Block& block = *block_at++;
@@ -144,6 +164,8 @@ private:
                     element.numbers[k] = block.numbers[k][lane];
                 for (int k = 0; k < Size::kRows; ++k) element.softness[k] = block.softness[k][lane];
                 element.impulse = &block.impulse[0][lane], element.lag = &block.lag[0][lane];
+                if constexpr (HasFollowing<F>)
+                    element.push = &pushes_[std::size_t(&block - blocks_.data())].push[0][lane];
                 element.stride = W;
             }
         });
@@ -162,8 +184,9 @@ private:
     }
 
     /// Every worker takes its share of blocks that are independent, and waits for the others.
-    void iterate(typename Kernels::Pass kernel, const BodyRows<Real>& rows,
-                 const PassSettings<Real>& pass, std::uint32_t worker) {
+    template <class Kernel>
+    void iterate(Kernel kernel, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
+                 std::uint32_t worker) {
         for (std::size_t i = 0; i < ranges_.size(); ++i) {
             const BlockRange& range = ranges_[pass.forwards ? i : ranges_.size() - 1 - i];
             Range share = workers_.share(range.last - range.first, worker);
@@ -181,6 +204,7 @@ private:
     std::vector<Item> items_;
     Colouring colouring_;
     std::vector<Block> blocks_;
+    std::vector<Pushes> pushes_;  ///< [block], where what was pushed follows its elements
     std::vector<BlockRange> ranges_;
     struct None {};
     std::conditional_t<HasPatches<F>, std::optional<PatchSolver<F, Real, W>>, None> patches_;

@@ -25,6 +25,7 @@ public:
 
     Stage stage() const override { return Stage::surface_contacts; }
     bool empty() const override { return rows_.empty(); }
+    bool moves_particles() const override { return true; }
 
     void load(const World& world) override {
         rows_.reserve(world.surface_contacts.capacity());
@@ -73,7 +74,8 @@ public:
                            std::uint32_t worker) override {
         if (worker == 0)
             for (std::size_t i = 0; i < rows_.size(); ++i)
-                solve(rows, pass, rows_[pass.iteration % 2 == 0 ? i : rows_.size() - 1 - i]);
+                solve(rows, pass,
+                      rows_[(pass.iteration + pass.round) % 2 == 0 ? i : rows_.size() - 1 - i]);
         workers_.barrier();
     }
 

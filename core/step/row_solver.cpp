@@ -145,16 +145,12 @@ public:
         workers_.run([this, alone, iterations, &ledger](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
             pass.alone = alone;
+            pass.rounds = rounds_;
             for (std::uint32_t i = 0; i < iterations; ++i) {
                 pass.forwards = forwards(iterations_ + i);
                 pass.iteration = i;
-                for (const auto& group : groups_) {
-                    if (group->empty()) continue;
-                    // by the clock of the first worker alone
-                    const auto share =
-                        worker == 0 ? share_of(*group, ledger, Stage::positions) : std::nullopt;
-                    group->iterate_positions(table_.rows(), pass, worker);
-                }
+                for (pass.round = 0; pass.round < rounds_; ++pass.round)
+                    iterate_positions(pass, worker, ledger);
             }
         });
         iterations_ += settings_.position_iterations;
@@ -271,6 +267,18 @@ private:
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
         if (plan.runs(Effect::particle_contacts))
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
+        for (const auto& group : groups_) rounds_ = std::max(rounds_, group->rounds());
+    }
+
+    /// One round of an iteration.
+    void iterate_positions(const PassSettings<Real>& pass, std::uint32_t worker, Ledger& ledger) {
+        for (const auto& group : groups_) {
+            if (group->empty() || (pass.round > 0 && !group->moves_particles())) continue;
+            // by the clock of the first worker alone
+            const auto share =
+                worker == 0 ? share_of(*group, ledger, Stage::positions) : std::nullopt;
+            group->iterate_positions(table_.rows(), pass, worker);
+        }
     }
 
     bool has_residuals() const {
@@ -361,6 +369,7 @@ private:
     PassSettings<Real> pass_{};
     SolvedTies solved_ties_;
     std::vector<std::unique_ptr<Group>> groups_;  ///< in the order of an iteration
+    std::uint32_t rounds_ = 1;                    ///< of an iteration of positions
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;
     ParticleContactGroup<Real, W>* particle_contacts_ = nullptr;

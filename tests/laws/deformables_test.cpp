@@ -122,6 +122,17 @@ TEST_P(Deformables, KeepMomentumAsOneSystem) {
     }
 }
 
+/// Patch by patch, contacts and links take part in each round of an iteration.
+TEST_P(Deformables, KeepMomentumPatchByPatch) {
+    Random random(31);
+    const double bound = GetParam() == Precision::single ? 1e-5 : 1e-10;
+    for (int draw = 0; draw < 2; ++draw) {
+        Scene s = free_mix(GetParam(), false, random);
+        s.settings.multilevel = true;
+        expect_momentum_kept(s, bound, bound);
+    }
+}
+
 /// What is at rest takes no new factors, also where rounding is all that moves.
 TEST_P(Deformables, KeepTheirFactorsAtRest) {
     for (const double gravity : {0.0, -9.81}) {
@@ -295,6 +306,71 @@ TEST_P(Deformables, HangingOnesOf20RowsStretchLittleTooFarAtTheDefaultIterations
     settings.precision = GetParam();
     settings.multilevel = true;
     for (const bool is_cloth : {false, true}) expect_hookes_law(settings, is_cloth, 20, 0.25);
+}
+
+/// The greatest speed of particles in the last second of a run [m/s].
+double last_speed(Simulation& simulation, double seconds) {
+    double most = 0;
+    while (simulation.time() < seconds) {
+        EXPECT_TRUE(simulation.step().finite);
+        if (simulation.time() < seconds - 1) continue;
+        for (const Vector& v : simulation.world().particles.velocity)
+            most = std::max(most, v.norm());
+    }
+    return most;
+}
+
+/// What is taut is not thrown across itself, at one substep of five iterations either.
+TEST_P(Deformables, BlownUpBalloonsComeToRestPatchByPatch) {
+    Random random(37);
+    for (int draw = 0; draw < 8; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.gravity.setZero();
+        s.settings.multilevel = true;
+        s.settings.dt = random.number(0.003, 0.02);
+        DeformableSpec& ball = add_soft(s, balloon(0.3, 4 + random.below(6), {0, 1, 0}));
+        ball.thickness = random.number(3e-4, 1e-3), ball.mass = 1131 * ball.thickness;
+        ball.elasticity.youngs_modulus = std::pow(10, random.number(5.5, 7));
+        ball.elasticity.poissons_ratio = random.number(0.3, 0.47);
+        ball.elasticity.damping = 0.002 * random.below(2);
+        ball.volume_ratio = random.number(1.05, 1.3);
+        Simulation simulation(s, colliders(), "reference");
+        const double speed = last_speed(simulation, 4);
+        std::cout << s.settings.dt << " s: " << speed << " m/s\n";
+        EXPECT_LT(speed, 1e-3);
+    }
+}
+
+TEST_P(Deformables, RopesUnderALoadMoveWithItPatchByPatch) {
+    Random random(41);
+    for (int draw = 0; draw < 8; ++draw) {
+        Scene s;
+        s.settings.precision = GetParam();
+        s.settings.multilevel = true;
+        s.settings.dt = random.number(0.003, 0.02);
+        const std::uint32_t segments = 10 + random.below(30);
+        DeformableSpec& string = add_soft(s, rope({0, 3, 0}, {1.2, 1.4, 0}, segments));
+        string.thickness = 0.01, string.mass = random.number(0.1, 0.3);
+        string.elasticity.youngs_modulus = 1e10;
+        hold(s, 0, {0});
+        BodySpec& crate = add_body(s, box(0.15, 0.15, 0.15), {1.2, 1.25, 0});
+        const double ratio = std::pow(10, random.number(0, 2));
+        crate.mass = *string.mass * ratio;
+        hold(s, 0, {segments}, 0);
+        Simulation simulation(s, colliders(), "reference");
+        run_for(simulation, 5);
+        double body = 0, particle = 0;
+        while (simulation.time() < 7) {
+            EXPECT_TRUE(simulation.step().finite);
+            body = std::max(body, fastest_point(simulation.world()));
+            for (const Vector& v : simulation.world().particles.velocity)
+                particle = std::max(particle, v.norm());
+        }
+        std::cout << s.settings.dt << " s, " << segments << " segments, load " << ratio
+                  << ": crate " << body << ", string " << particle << " m/s\n";
+        EXPECT_LT(particle, 1.2 * body + 0.05);
+    }
 }
 
 double volume(const World& world, std::uint32_t deformable) {

@@ -254,13 +254,14 @@ class ClothOn : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(, ClothOn, testing::Values("fcl", "bullet", "ode"),
                          [](const auto& test) { return std::string(test.param); });
 
-/// What passed through as a whole would lie on the ground. At five iterations the taut sheet
-/// trembles where its corners hold it, which shakes single corners of tori through it for a while;
-/// speeds and ways at rest are told, and not yet small enough to be held to anything.
+/// What passed through as a whole would lie on the ground. After 18 s the tori still swing with the
+/// sheet, which has little damping; its particles follow, and are not shaken on top of that.
 TEST_P(ClothOn, HoldsTenTori) {
     const Fall f = fall(GetParam(), true);
     EXPECT_LT(f.deepest, kRadius);
-    EXPECT_LE(f.rest_beyond, kCorners / 200);
+    EXPECT_LE(f.most_beyond, kCorners / 200);
+    EXPECT_LE(f.rest_beyond, kCorners / 500);
+    EXPECT_LT(f.tremble, 0.01);
     EXPECT_GT(f.lowest, 0.5);
 }
 
