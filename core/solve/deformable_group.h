@@ -2,6 +2,7 @@
 /// All that holds deformables together: the constraints of each formula, and volumes.
 #pragma once
 
+#include "solve/joined_bodies.h"
 #include "solve/momentum_keeper.h"
 #include "solve/point_group.h"
 #include "solve/volume_group.h"
@@ -16,7 +17,10 @@ template <class Real, int W>
 class DeformableGroup final : public ConstraintGroup<Real> {
 public:
     DeformableGroup(const World& world, Workers& workers)
-        : keeper_(world, workers), volumes_(world, workers) {
+        : workers_(workers),
+          bodies_(world, world.settings.multilevel),
+          keeper_(world, bodies_.mass(), workers),
+          volumes_(world, bodies_.mass(), workers) {
         add(Formulas(), world, workers);
     }
 
@@ -33,6 +37,7 @@ public:
     void begin(const World& world, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                double h) override {
         h_ = h;
+        bodies_.begin(world);
         keeper_.begin(world);
         for (const auto& group : groups_) group->begin(world, rows, pass, h);
     }
@@ -43,12 +48,18 @@ public:
         // next
         PassSettings<Real> mine = pass;
         mine.forwards = pass.iteration % 2 == 0;
+        if (worker == 0) bodies_.note(rows);
         keeper_.note(rows, worker);
         for (const auto& group : groups_) group->iterate_positions(rows, mine, worker);
         if (!volumes_.empty() && pass.round + 1 == pass.rounds)
             volumes_.iterate(rows, h_, pass.iteration == 0, worker);
         keeper_.restore(rows, worker);
+        if (worker == 0) bodies_.give(rows);
+        workers_.barrier();
     }
+
+    /// Those that share in what deforms.
+    const JoinedBodies<Real>& bodies() const { return bodies_; }
 
 private:
     template <class... F>
@@ -57,10 +68,12 @@ private:
     }
     template <class F>
     void add_formula(const World& world, Workers& workers) {
-        auto group = std::make_unique<PointGroup<F, Real, W>>(world, workers);
+        auto group = std::make_unique<PointGroup<F, Real, W>>(world, bodies_.mass(), workers);
         if (!group->empty()) groups_.push_back(std::move(group));
     }
 
+    Workers& workers_;
+    JoinedBodies<Real> bodies_;
     MomentumKeeper<Real> keeper_;
     std::vector<std::unique_ptr<ConstraintGroup<Real>>> groups_;
     VolumeGroup<Real> volumes_;

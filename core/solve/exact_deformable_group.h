@@ -17,7 +17,10 @@ template <class Real>
 class ExactDeformableGroup final : public ConstraintGroup<Real> {
 public:
     ExactDeformableGroup(const World& world, Workers& workers)
-        : workers_(workers), system_(world), keeper_(world, workers) {
+        : workers_(workers),
+          system_(world),
+          mass_(world.particles),
+          keeper_(world, mass_, workers) {
         velocity_.resize(world.particles.size());
         before_.resize(velocity_.size());
     }
@@ -60,6 +63,7 @@ private:
 
     Workers& workers_;
     ElasticSystem system_;
+    ParticleMass mass_;
     MomentumKeeper<Real> keeper_;
     std::vector<Vector3d> velocity_, before_;  ///< [particle] [m/s]
     std::int32_t first_row_ = 0;

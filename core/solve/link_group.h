@@ -7,6 +7,7 @@
 #include "math/rotation.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/joined_bodies.h"
 #include "solve/linked_point.h"
 #include "solve/particle_rows.h"
 
@@ -18,9 +19,11 @@ namespace plumb {
 template <class Real>
 class LinkGroup final : public ConstraintGroup<Real> {
 public:
-    /// `in_island` [link]: 1 where an exact island solves it in this step.
-    LinkGroup(const World& world, const std::vector<std::uint8_t>& in_island, Workers& workers)
-        : in_island_(in_island), workers_(workers) {
+    /// `in_island` [link]: 1 where an exact island solves it in this step; `bodies`: null, or what
+    /// also passes impulses on between particles and bodies that are joined.
+    LinkGroup(const World& world, const std::vector<std::uint8_t>& in_island,
+              const JoinedBodies<Real>* bodies, Workers& workers)
+        : in_island_(in_island), bodies_(bodies), workers_(workers) {
         all_.reserve(world.links.size()), rows_.reserve(world.links.size());
         for (std::uint32_t i = 0; i < world.links.size(); ++i) {
             const Link& link = world.links[i];
@@ -62,7 +65,10 @@ public:
     }
 
     void end_substep(World& world) override {
-        for (const Row& row : rows_) world.links[row.index].impulse = row.impulse;
+        for (const Row& row : rows_) {
+            Vector3d& impulse = world.links[row.index].impulse = row.impulse;
+            if (bodies_) impulse += bodies_->impulse(row.index);
+        }
     }
 
 private:
@@ -143,6 +149,7 @@ private:
     }
 
     const std::vector<std::uint8_t>& in_island_;
+    const JoinedBodies<Real>* bodies_;
     Workers& workers_;
     std::vector<Row> all_, rows_;  // rows_: of those that no island solves
     double h_ = 0;

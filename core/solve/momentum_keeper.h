@@ -10,6 +10,7 @@
 
 #include "math/types.h"
 #include "schedule/workers.h"
+#include "solve/joined_bodies.h"
 #include "solve/particle_rows.h"
 #include "world/world.h"
 
@@ -24,8 +25,10 @@ namespace plumb {
 template <class Real>
 class MomentumKeeper {
 public:
-    MomentumKeeper(const World& world, Workers& workers) : workers_(workers) {
-        for (const Deformable& d : world.deformables) add_pieces(world, d);
+    /// `mass` outlives the keeper.
+    MomentumKeeper(const World& world, const ParticleMass& mass, Workers& workers)
+        : workers_(workers), mass_(mass) {
+        for (const Deformable& d : world.deformables) add_pieces(d);
         arm_.resize(world.particles.size());
     }
 
@@ -33,20 +36,19 @@ public:
     void begin(const World& world) {
         const Particles& p = world.particles;
         first_row_ = world.particle_row(0);
-        mass_ = &p.mass;
         for (Shape& s : shapes_) {
             Vector3d centre = Vector3d::Zero();
             s.mass = 0;
             const Vector3d& near = p.position[member_[s.first]];
             each_member(s, [&](std::uint32_t i) {
-                s.mass += p.mass[i], centre += p.mass[i] * (p.position[i] - near);
+                s.mass += mass_.mass[i], centre += mass_.mass[i] * (p.position[i] - near);
             });
             centre = near + centre / s.mass;
             Matrix3d inertia = Matrix3d::Zero();
             each_member(s, [&](std::uint32_t i) {
                 arm_[i] = p.position[i] - centre;
-                inertia += p.mass[i] * (arm_[i].squaredNorm() * Matrix3d::Identity() -
-                                        arm_[i] * arm_[i].transpose());
+                inertia += mass_.mass[i] * (arm_[i].squaredNorm() * Matrix3d::Identity() -
+                                            arm_[i] * arm_[i].transpose());
             });
             // a straight string has no inertia about itself, and nothing turns it there
             inertia += 1e-13 * inertia.trace() * Matrix3d::Identity();
@@ -81,7 +83,7 @@ private:
     };
 
     /// The free pieces of a deformable, by their lowest points.
-    void add_pieces(const World& world, const Deformable& d) {
+    void add_pieces(const Deformable& d) {
         std::vector<std::uint32_t> lower(d.count);  // a point of the same piece, or itself
         std::iota(lower.begin(), lower.end(), 0u);
         const auto lowest = [&](std::uint32_t i) {
@@ -100,9 +102,8 @@ private:
         std::vector<std::vector<std::uint32_t>> pieces(d.count);
         for (std::uint32_t i = 0; i < d.count; ++i) pieces[lowest(i)].push_back(d.first + i);
         for (const std::vector<std::uint32_t>& piece : pieces) {
-            const bool is_free = std::all_of(piece.begin(), piece.end(), [&](std::uint32_t i) {
-                return world.particles.inverse_mass[i] > 0;
-            });
+            const bool is_free = std::all_of(piece.begin(), piece.end(),
+                                             [&](std::uint32_t i) { return mass_.inverse[i] > 0; });
             // nothing inside of a single point pushes it
             if (piece.size() < 2 || !is_free) continue;
             const auto first = static_cast<std::uint32_t>(member_.size());
@@ -123,7 +124,7 @@ private:
     Momentum momentum(const Shape& s, const BodyRows<Real>& rows) const {
         Momentum sum;
         each_member(s, [&](std::uint32_t i) {
-            const Vector3d p = (*mass_)[i] * change_of(rows, row(i));
+            const Vector3d p = mass_.mass[i] * change_of(rows, row(i));
             sum.linear += p, sum.angular += arm_[i].cross(p);
         });
         return sum;
@@ -140,7 +141,7 @@ private:
     std::vector<Shape> shapes_;
     std::vector<std::uint32_t> member_;  ///< particles, piece by piece
     std::vector<Vector3d> arm_;          ///< [particle] from the centre of its piece [m]
-    const std::vector<double>* mass_ = nullptr;
+    const ParticleMass& mass_;
     std::int32_t first_row_ = 0;
 };
 

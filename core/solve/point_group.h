@@ -6,6 +6,7 @@
 #include "schedule/colouring.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/joined_bodies.h"
 #include "solve/patch_solver.h"
 
 #include <algorithm>
@@ -19,17 +20,17 @@ namespace plumb {
 template <class F, class Real, int W>
 class PointGroup final : public ConstraintGroup<Real> {
 public:
-    PointGroup(const World& world, Workers& workers)
+    PointGroup(const World& world, const ParticleMass& mass, Workers& workers)
         : kernels_(point_kernels<Real, W>()), workers_(workers) {
         const double h = world.settings.dt / world.settings.substeps;
         for (const Deformable& d : world.deformables)
             F::each(d, [&](const auto& points, const auto& numbers, const auto& compliances) {
-                add(world, d, points, numbers, compliances, h);
+                add(world, mass, d, points, numbers, compliances, h);
             });
         colouring_.colour(links_, world.moving_count());
         lay_out(world);
         if constexpr (HasPatches<F>)
-            if (world.settings.multilevel) make_patches(world);
+            if (world.settings.multilevel) make_patches(world, mass);
     }
 
     Stage stage() const override { return Stage::particles; }
@@ -82,15 +83,16 @@ private:
     };
 
     template <class Points, class Compliances>
-    void add(const World& world, const Deformable& d, const Points& points,
-             const double (&numbers)[Size::kNumbers], const Compliances& compliances, double h) {
+    void add(const World& world, const ParticleMass& mass, const Deformable& d,
+             const Points& points, const double (&numbers)[Size::kNumbers],
+             const Compliances& compliances, double h) {
         const double damping = d.spec.elasticity.damping;
         Item item;
         LinkedRows<F::kPoints> link;
         for (int i = 0; i < F::kPoints; ++i) {
             const std::uint32_t particle = d.first + points[i];
             link.rows[i] = world.particle_row(particle);
-            item.inverse_mass[i] = world.particles.inverse_mass[particle];
+            item.inverse_mass[i] = mass.inverse[particle];
         }
         std::copy_n(numbers, Size::kNumbers, item.numbers.begin());
         if constexpr (Size::kIsLinear)
@@ -149,7 +151,7 @@ private:
     }
 
     /// Over the constraints as they were told, in their places in the blocks.
-    void make_patches(const World& world) {
+    void make_patches(const World& world, const ParticleMass& mass) {
         using Patches = PatchSolver<F, Real, W>;
         std::vector<typename Patches::Element> elements(items_.size());
         if constexpr (HasFollowing<F>) pushes_.resize(blocks_.size());
@@ -179,8 +181,8 @@ private:
             ends.push_back(static_cast<std::uint32_t>(corners.size()));
         }
         if (!elements.empty())
-            patches_.emplace(elements, corners, ends, world.particles.inverse_mass,
-                             world.particle_row(0), world.zero_row(), workers_);
+            patches_.emplace(elements, corners, ends, mass.inverse, world.particle_row(0),
+                             world.zero_row(), workers_);
     }
 
     /// Every worker takes its share of blocks that are independent, and waits for the others.

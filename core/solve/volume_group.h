@@ -4,6 +4,7 @@
 
 #include "constraints/volume.h"
 #include "schedule/workers.h"
+#include "solve/joined_bodies.h"
 #include "solve/particle_rows.h"
 #include "world/world.h"
 
@@ -14,14 +15,15 @@ namespace plumb {
 template <class Real>
 class VolumeGroup {
 public:
-    VolumeGroup(const World& world, Workers& workers) : workers_(workers) {
+    VolumeGroup(const World& world, const ParticleMass& mass, Workers& workers)
+        : workers_(workers) {
         for (const Deformable& d : world.deformables) {
             if (d.spec.kind != DeformableKind::balloon) continue;
             Balloon balloon;
             balloon.triangles = &d.spec.triangles;
             for (std::uint32_t i = d.first; i < d.first + d.count; ++i) {
                 balloon.rows.push_back(world.particle_row(i));
-                balloon.inverse_mass.push_back(world.particles.inverse_mass[i]);
+                balloon.inverse_mass.push_back(mass.inverse[i]);
             }
             balloon.pressure = d.spec.pressure.value_or(0);
             balloon.keeps_volume = !d.spec.pressure;

@@ -258,11 +258,13 @@ private:
             else if (grows)
                 trees_ = add<JointTreeGroup<Real, W>>(world, forest, solved_ties_.joints, workers_);
         }
+        const JoinedBodies<Real>* joined = nullptr;
         if (plan.runs(Effect::exact_deformables))
             add<ExactDeformableGroup<Real>>(world, workers_);
         else if (plan.runs(Effect::deformables))
-            add<DeformableGroup<Real, W>>(world, workers_);
-        if (plan.runs(Effect::links)) add<LinkGroup<Real>>(world, solved_ties_.links, workers_);
+            joined = &add<DeformableGroup<Real, W>>(world, workers_)->bodies();
+        if (plan.runs(Effect::links))
+            add<LinkGroup<Real>>(world, solved_ties_.links, joined, workers_);
         if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
         if (plan.runs(Effect::particle_contacts))
