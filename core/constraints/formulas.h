@@ -36,7 +36,7 @@ concept HasAxes = requires(double (&rows)[F::kRows]) {
 /// their points accordingly.
 template <class F>
 concept HasFollowing = requires {
-    F::kFollows;
+    requires F::kFollows;
 };
 
 /// Sizes of a formula's blocks.

@@ -49,46 +49,76 @@ struct Membrane {
     }
 
     /// What a taut triangle has pushed turns with it. Left along the gradients along which it was
-    /// built up, it throws the sheet across itself, and without bound once h² T q² > 4 m.
+    /// built up, it throws the sheet across itself; without bound where what swings across it turns
+    /// by more than two radians a substep.
     ///
-    ///   (s t)  what was pushed, per unit of a and of c, how much of each corner u and w have
-    ///   K      the impulses' stress as far as it pulls, Π the directions in which it does
-    ///   G      = h Σ w (a c)ᵀ (a c) of the corners
+    ///   (s t)  what was pushed: s aᵢ + t cᵢ at corner i, with u = Σ aᵢ pᵢ and w = Σ cᵢ pᵢ
+    ///   K      the stress of the summed impulses as far as it pulls, negative as they are
+    ///   Π      the projector onto the directions in which it pulls
+    ///   G      = h Σ wᵢ (aᵢ cᵢ)ᵀ (aᵢ cᵢ)
     ///
-    /// It should be D = F K − (s t) Π more; corners that yield to that move F by δF = (D + δF K) G,
-    /// so δF (1 − K G) = D G. `place` is against the first corner; so are those it moves to.
+    /// There should be D = F K − (s t) Π more. Corners that yield to that move F by
+    /// δF = (D + δF K) G, so δF (1 − K G) = D G; all along the principal axes of K, where each term
+    /// of the determinant is positive. `place` is against the first corner.
+    /// Slim triangles, of cells from 4 : 1 on, do not follow: it shakes sheets of them.
     static constexpr bool kFollows = true;
+    static constexpr double kSlim = 7;
     template <class T>
     static void follow(Vector3<T> (&place)[3], Vector3<T> (&velocity)[3], Vector3<T> (&push)[2],
                        const T (&inverse)[kNumbers], const T (&inverse_mass)[3],
                        const T (&impulse)[kRows], const T& h) {
-        const T a[3] = {-inverse[0], inverse[0], T(0)},
+        const T zero(0), half(0.5), one(1);
+        const T radius = sqrt(impulse[1] * impulse[1] + impulse[2] * impulse[2]);
+        const T cos_2 = impulse[1] / max(radius, T(1e-20));
+        const T cosine = sqrt(max((one + cos_2) * half, zero));
+        const T size = sqrt(max((one - cos_2) * half, zero));
+        const T sine = select_greater(zero, impulse[2], -size, size);
+        const T high = min(impulse[0] + radius, zero), low = min(impulse[0] - radius, zero);
+
+        const T a[3] = {-inverse[0], inverse[0], zero},
                 c[3] = {-(inverse[1] + inverse[2]), inverse[1], inverse[2]};
+        T high_high = zero, high_low = zero, low_low = zero;  // of G
+        for (int i = 0; i < 3; ++i) {
+            const T at_high = a[i] * cosine + c[i] * sine, at_low = c[i] * cosine - a[i] * sine;
+            const T moved = inverse_mass[i] * h;
+            high_high += moved * (at_high * at_high), high_low += moved * (at_high * at_low);
+            low_low += moved * (at_low * at_low);
+        }
+        const T area = inverse[0] * inverse[2] * h;
+        const T det_g = area * area *
+                        (inverse_mass[0] * (inverse_mass[1] + inverse_mass[2]) +
+                         inverse_mass[1] * inverse_mass[2]);
+
         const Vector3<T> e1 = place[1] - place[0], e2 = place[2] - place[0];
         const Vector3<T> u = e1 * inverse[0], w = e1 * inverse[1] + e2 * inverse[2];
-        const T long_a = T(1) / inverse[0], long_c = T(1) / inverse[2];
+        const T long_a = one / inverse[0], long_c = one / inverse[2];
         const Vector3<T> t = push[1] * long_c, s = (push[0] - t * inverse[1]) * long_a;
-        T aa = T(0), ac = T(0), cc = T(0);  // of G
-        for (int i = 0; i < 3; ++i) {
-            const T moved = inverse_mass[i] * h;
-            aa += moved * (a[i] * a[i]), ac += moved * (a[i] * c[i]), cc += moved * (c[i] * c[i]);
-        }
-        const Pull<T> k(impulse);
-        const Vector3<T> ds = (u * k.xx + w * k.xy) - (s * k.in_xx + t * k.in_xy),
-                         dt = (u * k.xy + w * k.yy) - (s * k.in_xy + t * k.in_yy);
-        const Vector3<T> rs = ds * aa + dt * ac, rt = ds * ac + dt * cc;
-        const T m00 = T(1) - (k.xx * aa + k.xy * ac), m01 = -(k.xx * ac + k.xy * cc),
-                m10 = -(k.xy * aa + k.yy * ac), m11 = T(1) - (k.xy * ac + k.yy * cc);
-        const T over = T(1) / (m00 * m11 - m01 * m10);
-        const Vector3<T> du = (rs * m11 - rt * m10) * over, dw = (rt * m00 - rs * m01) * over;
-        const Vector3<T> s_more = ds + du * k.xx + dw * k.xy, t_more = dt + du * k.xy + dw * k.yy;
+        // a² + b² + c² over a c, of the first edge a, and b along and c across it of the second
+        const T slim =
+            (inverse[2] * inverse[2] + inverse[1] * inverse[1] + inverse[0] * inverse[0]) *
+            (long_a * long_c);
+        const T follows = select_greater(T(kSlim), slim, one, zero);
+        const Vector3<T> d_high =
+                             ((u * cosine + w * sine) * high -
+                              (s * cosine + t * sine) * select_greater(zero, high, one, zero)) *
+                             follows,
+                         d_low = ((w * cosine - u * sine) * low -
+                                  (t * cosine - s * sine) * select_greater(zero, low, one, zero)) *
+                                 follows;
+
+        const T over = one / ((one - high * high_high) - low * low_low + high * low * det_g);
+        const Vector3<T> f_high = (d_high * (high_high - low * det_g) + d_low * high_low) * over,
+                         f_low = (d_high * high_low + d_low * (low_low - high * det_g)) * over;
+        const Vector3<T> more_high = d_high + f_high * high, more_low = d_low + f_low * low;
+        const Vector3<T> s_more = more_high * cosine - more_low * sine,
+                         t_more = more_high * sine + more_low * cosine;
         for (int i = 0; i < 3; ++i)
             velocity[i] += (s_more * a[i] + t_more * c[i]) * inverse_mass[i];
         push[0] += s_more * inverse[0] + t_more * inverse[1];
         push[1] += t_more * inverse[2];
-        const Vector3<T> side = (u + du) * long_a;
+        const Vector3<T> side = (u + (f_high * cosine - f_low * sine)) * long_a;
         place[1] = place[0] + side;
-        place[2] = place[0] + ((w + dw) - side * inverse[1]) * long_c;
+        place[2] = place[0] + ((w + (f_high * sine + f_low * cosine)) - side * inverse[1]) * long_c;
     }
 
     /// The stress as far as it pulls: what is pressed buckles, and is not made stiffer by it.
@@ -102,29 +132,6 @@ struct Membrane {
         return map.transpose() * pulling_part<2>(stress) * map;
     }
 
-private:
-    /// The pulling part of impulses' stress, negative as the impulses are that pull, and the
-    /// projector onto the directions of it.
-    template <class T>
-    struct Pull {
-        T xx, xy, yy, in_xx, in_xy, in_yy;
-
-        explicit Pull(const T (&impulse)[kRows]) {
-            const T radius = sqrt(impulse[1] * impulse[1] + impulse[2] * impulse[2]);
-            const T over = T(1) / max(radius, T(1e-20));
-            const T x = impulse[1] * over, y = impulse[2] * over;
-            const T zero(0), half(0.5);
-            const T high = min(impulse[0] + radius, zero), low = min(impulse[0] - radius, zero);
-            const T mean = (high + low) * half, swing = (high - low) * half;
-            xx = mean + x * swing, xy = y * swing, yy = mean - x * swing;
-            // both, the lower alone, or none
-            const T all = select_greater(zero, high, T(1), select_greater(zero, low, half, zero));
-            const T one = select_greater(zero, high, zero, select_greater(zero, low, half, zero));
-            in_xx = all - x * one, in_xy = -(y * one), in_yy = all + x * one;
-        }
-    };
-
-public:
     /// Calls visit(points, numbers, compliances) for each triangle of cloth and balloons.
     template <class Visit>
     static void each(const Deformable& d, Visit visit) {

@@ -102,7 +102,7 @@ struct PassSettings {
     bool shared_push;   // the push of both passes together stays repulsive, not of each alone
     bool forwards;      // direction of this iteration
     std::uint32_t iteration = 0;          // of the pass
-    std::uint32_t round = 0, rounds = 1;  // of the iteration: how often it goes over particles
+    std::uint32_t round = 0, rounds = 1;  // of the iteration, which goes over all so many times
     bool alone = false;                   // nothing but one group changes velocities in this pass
 };
 

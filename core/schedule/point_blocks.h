@@ -19,7 +19,8 @@ struct alignas(64) PointBlock {
     Real impulse[Size::kRows][W];          // summed over the substep
 };
 
-/// What W constraints have pushed their points but the first, which takes the opposite.
+/// What W constraints have pushed into each of their points except the first, which took the
+/// opposite of their sum [N s].
 template <int Points, class Real, int W>
 struct alignas(64) PushBlock {
     Real push[3 * (Points - 1)][W];

@@ -45,10 +45,8 @@ public:
     virtual void end_substep(World&) {}
     virtual void end_step(World&) {}
 
-    /// How many rounds an iteration of the position pass calls for. Groups that move particles take
-    /// part in each, all others in the first.
+    /// How many rounds an iteration of the position pass calls for.
     virtual std::uint32_t rounds() const { return 1; }
-    virtual bool moves_particles() const { return false; }
 
     /// After the last substep's iterations: whether it tells how far its constraints are from being
     /// solved. If some do, all name the bodies of theirs that no tie holds, and tell what they can.

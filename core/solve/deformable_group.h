@@ -32,7 +32,6 @@ public:
         for (const auto& group : groups_) most = std::max(most, group->rounds());
         return most;
     }
-    bool moves_particles() const override { return true; }
 
     void begin(const World& world, const BodyRows<Real>& rows, const PassSettings<Real>& pass,
                double h) override {
@@ -51,8 +50,8 @@ public:
         if (worker == 0) bodies_.note(rows);
         keeper_.note(rows, worker);
         for (const auto& group : groups_) group->iterate_positions(rows, mine, worker);
-        if (!volumes_.empty() && pass.round + 1 == pass.rounds)
-            volumes_.iterate(rows, h_, pass.iteration == 0, worker);
+        if (!volumes_.empty())
+            volumes_.iterate(rows, h_, pass.iteration == 0 && pass.round == 0, worker);
         keeper_.restore(rows, worker);
         if (worker == 0) bodies_.give(rows);
         workers_.barrier();

@@ -27,7 +27,6 @@ public:
 
     Stage stage() const override { return Stage::particles; }
     bool empty() const override { return velocity_.empty(); }
-    bool moves_particles() const override { return true; }
 
     void load(const World& world) override { system_.load(world); }
 

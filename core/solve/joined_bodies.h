@@ -88,10 +88,7 @@ private:
     void add(const World& world, std::uint32_t link, const WorldPoint& particle,
              const WorldPoint& to, double sign) {
         if (particle.particle == kNoIndex || to.particle != kNoIndex) return;
-        if (to.body == kNoIndex || !(world.bodies.inverse_mass[to.body] > 0)) {
-            mass_.inverse[particle.particle] = 0;
-            return;
-        }
+        if (to.body == kNoIndex || !(world.bodies.inverse_mass[to.body] > 0)) return;
         joints_.push_back({link, particle.particle, to.body, world.particle_row(particle.particle),
                            world.bodies.row[to.body], sign, to.position});
     }

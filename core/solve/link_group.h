@@ -36,7 +36,6 @@ public:
 
     Stage stage() const override { return Stage::links; }
     bool empty() const override { return rows_.empty(); }
-    bool moves_particles() const override { return true; }
 
     void load(const World&) override {
         rows_.clear();

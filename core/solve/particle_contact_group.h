@@ -26,7 +26,6 @@ public:
 
     Stage stage() const override { return Stage::particle_contacts; }
     bool empty() const override { return pairs_.empty(); }
-    bool moves_particles() const override { return true; }
 
     void load(const World& world) override {
         const ParticleContactTable& c = world.particle_contacts;

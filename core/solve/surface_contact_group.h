@@ -25,7 +25,6 @@ public:
 
     Stage stage() const override { return Stage::surface_contacts; }
     bool empty() const override { return rows_.empty(); }
-    bool moves_particles() const override { return true; }
 
     void load(const World& world) override {
         rows_.reserve(world.surface_contacts.capacity());

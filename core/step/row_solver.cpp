@@ -275,7 +275,7 @@ private:
     /// One round of an iteration.
     void iterate_positions(const PassSettings<Real>& pass, std::uint32_t worker, Ledger& ledger) {
         for (const auto& group : groups_) {
-            if (group->empty() || (pass.round > 0 && !group->moves_particles())) continue;
+            if (group->empty()) continue;
             // by the clock of the first worker alone
             const auto share =
                 worker == 0 ? share_of(*group, ledger, Stage::positions) : std::nullopt;
