@@ -14,16 +14,6 @@ bool is_along(const Joint& joint, std::uint32_t axis) {
     return axis <= kAlongZ || joint.kind == JointKind::distance;
 }
 
-double parted(const Joint& joint, const JointPose& pose) {
-    if (joint.compliance > 0) return 0;
-    const Vector3d apart = pose.point_a - pose.point_b;
-    if (joint.length > 0) return joint.locked[kAlongX] ? std::abs(apart.norm() - joint.length) : 0;
-    Vector3d gap = Vector3d::Zero();
-    for (int k = 0; k < 3; ++k)
-        if (joint.locked[k]) gap[k] = pose.axes_b.col(k).dot(apart);
-    return gap.norm();
-}
-
 /// The whole angle, where the rows that close it know its sine.
 double turned(const Joint& joint, const JointPose& pose) {
     const Matrix3d &a = pose.axes_a, &b = pose.axes_b;
@@ -45,7 +35,7 @@ double turned(const Joint& joint, const JointPose& pose) {
 }  // namespace
 
 JointError locked_error(const Joint& joint, const JointPose& pose) {
-    return {parted(joint, pose), turned(joint, pose)};
+    return {joint.compliance > 0 ? 0 : joint_gap(joint, pose), turned(joint, pose)};
 }
 
 JointError limit_error(const World& world, const JointDrive& drive, const JointPose& pose) {

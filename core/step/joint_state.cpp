@@ -41,8 +41,10 @@ JointPose joint_pose(const Bodies& b, const Joint& joint) {
 }
 
 double joint_gap(const Bodies& b, const Joint& joint) {
-    if (joint.broken) return 0;
-    const JointPose pose = joint_pose(b, joint);
+    return joint.broken ? 0 : joint_gap(joint, joint_pose(b, joint));
+}
+
+double joint_gap(const Joint& joint, const JointPose& pose) {
     const Vector3d apart = pose.point_a - pose.point_b;
     if (joint.length > 0) return joint.locked[kAlongX] ? std::abs(apart.norm() - joint.length) : 0;
     Vector3d gap = Vector3d::Zero();
