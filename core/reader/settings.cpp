@@ -128,8 +128,7 @@ const Table<Settings>& settings_table() {
         field<S>("multilevel", Flag{}, &S::multilevel,
                  "sheets, balloons and ropes are also solved patch by patch, from the whole down "
                  "to a few elements, so that large stiff ones do not give way at few iterations; "
-                 "an iteration takes two to six times as long, and what is light under a heavy "
-                 "load trembles"),
+                 "an iteration takes two to eight times as long"),
         field<S>(
             "tree_parts", W{{1, 4096}}, &S::tree_parts,
             "into how many parts a tree of joints that touches nothing may divide a substep in "

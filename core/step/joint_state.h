@@ -15,7 +15,7 @@ JointPose joint_pose(const Bodies& bodies, const Joint& joint);
 /// each other about what it locks [rad]; 0 of one that is broken.
 double joint_gap(const Bodies& bodies, const Joint& joint);
 double joint_turn_gap(const Bodies& bodies, const Joint& joint);
-/// The same of one that is whole, where its pose is known.
+/// The former, of a joint that is whole and whose pose is known.
 double joint_gap(const Joint& joint, const JointPose& pose);
 
 /// How many rotations a joint leaves free.
