@@ -53,6 +53,7 @@ public:
         if (!volumes_.empty())
             volumes_.iterate(rows, h_, pass.iteration == 0 && pass.round == 0, worker);
         keeper_.restore(rows, worker);
+        if (bodies_.empty()) return;
         if (worker == 0) bodies_.give(rows);
         workers_.barrier();
     }

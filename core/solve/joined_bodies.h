@@ -38,11 +38,15 @@ public:
         if (!bears) return;
         for (std::uint32_t i = 0; i < world.links.size(); ++i) {
             const Link& link = world.links[i];
-            if (link.joins && link.compliance == 0) add(world, i, link.a, link.b, -1);
-            if (link.joins && link.compliance == 0) add(world, i, link.b, link.a, 1);
+            if (!link.joins || link.compliance > 0) continue;
+            add(world, i, link.a, link.b, -1);
+            add(world, i, link.b, link.a, 1);
         }
         share_out(world);
     }
+
+    /// Whether no particle bears anything.
+    bool empty() const { return joints_.empty(); }
 
     /// With what they bear.
     const ParticleMass& mass() const { return mass_; }
