@@ -126,7 +126,7 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
 }
 
 /// One contact of what is opened apart: pushes only, and yields.
-void IslandSolver::open(IslandPoint& p) {
+[[gnu::flatten]] void IslandSolver::open(IslandPoint& p) {
     const double left = p.wanted[0] - velocity_of(p, island_.velocity)[0];
     const double step = (p.mass_normal * left - kYield * p.impulse[0]) / (1 + kYield);
     Vector6d more = Vector6d::Zero();
@@ -253,7 +253,7 @@ double IslandSolver::softness(double error, double hard) const {
 }
 
 /// The greatest of the shifts that slip asks for.
-double IslandSolver::most_shift() const {
+[[gnu::flatten]] double IslandSolver::most_shift() const {
     double most = 0;
     for (const IslandPoint& p : island_.points) {
         const Vector6d slip = p.wanted - velocity_of(p, island_.velocity);
@@ -262,7 +262,7 @@ double IslandSolver::most_shift() const {
     return most;
 }
 
-double IslandSolver::residual() const {
+[[gnu::flatten]] double IslandSolver::residual() const {
     const double slack = shifts_ ? creep_ : kInfinity;
     double worst = 0;
     for (const IslandPoint& p : island_.points) {
@@ -284,7 +284,7 @@ double IslandSolver::residual() const {
 }
 
 /// An impulse more at a point, to the velocities of its bodies.
-void IslandSolver::push(const IslandPoint& p, const Vector6d& impulse) {
+[[gnu::flatten]] void IslandSolver::push(const IslandPoint& p, const Vector6d& impulse) {
     const Vector3d along = p.frame * impulse.head<3>();
     Vector3d about = Vector3d::Zero();
     if (p.cone.turns()) about = p.length * (p.frame * impulse.tail<3>());
@@ -319,7 +319,7 @@ void IslandSolver::sweep(bool forwards) {
 }
 
 /// The normal first, then the rest within its bounds.
-void IslandSolver::sweep(IslandPoint& p) {
+[[gnu::flatten]] void IslandSolver::sweep(IslandPoint& p) {
     Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
     Vector6d more = Vector6d::Zero();
     more[0] = std::clamp(p.mass_normal * lack[0], -p.impulse[0], p.cone.most - p.impulse[0]);
@@ -332,7 +332,7 @@ void IslandSolver::sweep(IslandPoint& p) {
     push(p, more);
 }
 
-void IslandSolver::begin_round(double softness, double error) {
+[[gnu::flatten]] void IslandSolver::begin_round(double softness, double error) {
     change_.assign(island_.bodies.size(), Vector6d::Zero());
     work_.resize(island_.points.size());
     for (std::size_t k = 0; k < work_.size(); ++k) {
@@ -381,7 +381,7 @@ bool IslandSolver::minimise(double enough, int steps, std::uint32_t& factorisati
 
 /// The force that leads downhill, into downhill_; returns the fastest velocity that it would make,
 /// by the energy that it would give a body: turning counts by the radius of gyration.
-double IslandSolver::find_downhill() {
+[[gnu::flatten]] double IslandSolver::find_downhill() {
     downhill_.resize(island_.bodies.size());
     for (std::size_t b = 0; b < downhill_.size(); ++b)
         downhill_[b] = -momentum(island_.bodies[b], change_[b]);
@@ -404,7 +404,7 @@ double IslandSolver::find_downhill() {
 
 /// Second derivatives, block by block: M, of each point [E, −[r]ₓ]ᵀ K [E, −[r]ₓ], and of each row
 /// on k onᵀ.
-void IslandSolver::assemble() {
+[[gnu::flatten]] void IslandSolver::assemble() {
     system_->clear();
     for (std::size_t b = 0; b < island_.bodies.size(); ++b)
         system_->add(static_cast<std::uint32_t>(b), mass_matrix(island_.bodies[b]));
@@ -453,7 +453,7 @@ void IslandSolver::assemble() {
 }
 
 /// Derivative of what is minimised along the direction; rises with the step.
-double IslandSolver::slope(double step) const {
+[[gnu::flatten]] double IslandSolver::slope(double step) const {
     double sum = 0;
     for (std::size_t b = 0; b < direction_.size(); ++b)
         sum += direction_[b].dot(momentum(island_.bodies[b], change_[b] + step * direction_[b]));
