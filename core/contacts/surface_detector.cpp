@@ -233,34 +233,38 @@ bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Tri
 
 /// Of each surface the nearest triangle, and the next that the point faces from another side.
 void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
-    std::sort(near_.begin(), near_.end(), [&](const Near& x, const Near& y) {
-        const std::uint32_t a = triangles_[x.triangle].deformable,
-                            b = triangles_[y.triangle].deformable;
-        if (a != b) return a < b;
+    const auto surface_of = [&](const Near& n) { return triangles_[n.triangle].deformable; };
+    const auto is_nearer = [](const Near& x, const Near& y) {
         return x.distance != y.distance ? x.distance < y.distance : x.triangle < y.triangle;
-    });
-    const auto surface_of = [&](std::size_t i) { return triangles_[near_[i].triangle].deformable; };
-    for (std::size_t first = 0, last = 0; first < near_.size(); first = last) {
-        while (last < near_.size() && surface_of(last) == surface_of(first)) ++last;
+    };
+    if (world.deformables.size() > 1)
+        std::sort(near_.begin(), near_.end(),
+                  [&](const Near& x, const Near& y) { return surface_of(x) < surface_of(y); });
+    for (auto first = near_.cbegin(), last = first; first != near_.cend(); first = last) {
+        last = std::find_if(first, near_.cend(),
+                            [&](const Near& n) { return surface_of(n) != surface_of(*first); });
         // of triangles whose common edge or corner is nearest, the one that the point faces most
         // tells inside from outside
-        std::size_t best = first;
-        const double same = near_[first].distance * (1 + 1e-6) + 1e-12;
-        for (std::size_t i = first; i < last && near_[i].distance <= same; ++i)
-            if (std::abs(near_[i].facing) > std::abs(near_[best].facing)) best = i;
-        if (!add(world, probe, near_[best])) continue;
+        const Near& nearest = *std::min_element(first, last, is_nearer);
+        const Near* best = &nearest;
+        const double same = nearest.distance * (1 + 1e-6) + 1e-12;
+        for (auto n = first; n != last; ++n) {
+            if (n->distance > same) continue;
+            const double more = std::abs(n->facing) - std::abs(best->facing);
+            if (more > 0 || (more == 0 && is_nearer(*n, *best))) best = &*n;
+        }
+        if (!add(world, probe, *best)) continue;
         const auto out_of = [](const Near& n) {
             return n.is_beyond ? Vector3d(-n.apart) : n.apart;
         };
-        const Vector3d direction = out_of(near_[best]);
-        for (std::size_t i = first; i < last; ++i) {
-            const Vector3d other = out_of(near_[i]);
-            if (std::abs(near_[i].facing) < kFaceOn ||
-                other.dot(direction) > kSameSide * other.norm() * direction.norm())
-                continue;
-            add(world, probe, near_[i]);
-            break;
+        const Vector3d direction = out_of(*best);
+        const Near* other = nullptr;
+        for (auto n = first; n != last; ++n) {
+            if (std::abs(n->facing) < kFaceOn || (other && is_nearer(*other, *n))) continue;
+            const Vector3d out = out_of(*n);
+            if (!(out.dot(direction) > kSameSide * out.norm() * direction.norm())) other = &*n;
         }
+        if (other) add(world, probe, *other);
     }
 }
 
