@@ -325,8 +325,9 @@ inline void solve_row(const ContactArrays<Real, W>& arrays, std::uint32_t k, Pai
 }
 
 template <Pass P, class Real, int W, ContactVariant V>
-void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
-           const PassSettings<Real>& pass, std::uint32_t first, std::uint32_t last) {
+[[gnu::flatten]] void solve(const ContactArrays<Real, W>& arrays, const BodyRows<Real>& bodies,
+                            const PassSettings<Real>& pass, std::uint32_t first,
+                            std::uint32_t last) {
     using T = Number<Real, W>;
     for (std::uint32_t i = first; i < last; ++i) {
         const PairBlock<Real, W>& block = arrays.blocks[i];
