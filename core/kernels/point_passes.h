@@ -57,8 +57,8 @@ inline void evaluate(T (&c)[FormulaSize<F>::kRows], const FormulaBlock<F, Real, 
 }
 
 template <class F, class Real, int W>
-void begin_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, Real h,
-                  std::uint32_t first, std::uint32_t last) {
+[[gnu::flatten]] void begin_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows,
+                                   Real h, std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     using Size = FormulaSize<F>;
     for (std::uint32_t b = first; b < last; ++b) {
@@ -103,8 +103,8 @@ inline void store_points(FormulaBlock<F, Real, W>& block, const T (&impulse)[For
 }
 
 template <class F, class Real, int W>
-void solve_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, Real h,
-                  std::uint32_t first, std::uint32_t last) {
+[[gnu::flatten]] void solve_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows,
+                                   Real h, std::uint32_t first, std::uint32_t last) {
     using T = Number<Real, W>;
     using Size = FormulaSize<F>;
     constexpr int n = F::kPoints;
@@ -132,8 +132,10 @@ void solve_points(FormulaBlock<F, Real, W>* blocks, const BodyRows<Real>& rows, 
 }
 
 template <class F, class Real, int W>
-void follow_points(FormulaBlock<F, Real, W>* blocks, FormulaPushBlock<F, Real, W>* pushes,
-                   const BodyRows<Real>& rows, Real h, std::uint32_t first, std::uint32_t last) {
+[[gnu::flatten]] void follow_points(FormulaBlock<F, Real, W>* blocks,
+                                    FormulaPushBlock<F, Real, W>* pushes,
+                                    const BodyRows<Real>& rows, Real h, std::uint32_t first,
+                                    std::uint32_t last) {
     using T = Number<Real, W>;
     constexpr int n = F::kPoints, m = F::kRows;
     for (std::uint32_t b = first; b < last; ++b) {
