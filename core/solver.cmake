@@ -3,7 +3,7 @@ set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp math/sparse_ldlt.cpp
   world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
   world/motion_script.cpp
-  world/shape_store.cpp world/tears.cpp
+  world/shape_store.cpp world/sleep.cpp world/tears.cpp
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   kernels/dispatch.cpp
   effects/filter_reachability.cpp effects/plan.cpp
@@ -13,7 +13,7 @@ set(PLUMB_CORE_SOURCES
   solve/elastic_system.cpp solve/island_residuals.cpp solve/patch_tree.cpp
   step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/fast_joints.cpp step/gaping_joints.cpp step/integrate.cpp step/island_choice.cpp step/island_group.cpp step/island_couplings.cpp step/island_energy.cpp step/island_joints.cpp step/island_links.cpp step/island_residual.cpp
   step/island_solver.cpp step/island_ties.cpp step/joint_residual.cpp step/joint_state.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp
-  step/row_solver.cpp step/step.cpp step/stretched_links.cpp step/tear.cpp step/tree_nodes.cpp step/tree_solver.cpp
+  step/row_solver.cpp step/sleeping.cpp step/step.cpp step/stretched_links.cpp step/tear.cpp step/tree_nodes.cpp step/tree_solver.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/within_reach.cpp)
 

@@ -3,6 +3,7 @@
 
 #include "measure/deformation.h"
 #include "measure/measure.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -27,7 +28,7 @@ Sample sample_of(const World& world) {
                   {}};
     for (const double error : volume_errors(world)) sample.volume_error.push_back(std::abs(error));
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-        if (world.bodies.motion[i] != Motion::dynamic) continue;
+        if (!is_movable(world.bodies.motion[i])) continue;
         const double v = world.bodies.velocity[i].norm();
         const Vector3d& x = world.bodies.position[i];
         sample.speed.push_back(v);

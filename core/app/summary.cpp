@@ -4,6 +4,7 @@
 #include "kernels/contact_kernels.h"
 #include "measure/measure.h"
 #include "step/row_solver.h"
+#include "world/sleep.h"
 
 #include <nlohmann/json.hpp>
 
@@ -54,7 +55,7 @@ Heights heights_of(const World& world) {
     const Vector3d g = world.settings.gravity;
     const Vector3d up = g.norm() > 0 ? Vector3d(-g.normalized()) : Vector3d(Vector3d::UnitY());
     for (std::size_t i = 0; i < world.bodies.size(); ++i) {
-        if (world.bodies.motion[i] != Motion::dynamic) continue;
+        if (!is_movable(world.bodies.motion[i])) continue;
         const double y = up.dot(world.bodies.position[i]);
         h.lowest = h.count == 0 ? y : std::min(h.lowest, y);
         h.all += y;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/contact_faults.h"
 
+#include "world/sleep.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,7 +19,7 @@ bool is_finite(const Contact& c) {
 /// and no joint keeps them apart.
 bool is_wanted(std::uint32_t a, std::uint32_t b, const World& world) {
     const Bodies& bodies = world.bodies;
-    if (bodies.motion[a] != Motion::dynamic && bodies.motion[b] != Motion::dynamic) return false;
+    if (!is_movable(bodies.motion[a]) && !is_movable(bodies.motion[b])) return false;
     if (!(bodies.group[a] & bodies.mask[b]) || !(bodies.group[b] & bodies.mask[a])) return false;
     return !std::binary_search(world.excluded.begin(), world.excluded.end(), pair_key(a, b));
 }

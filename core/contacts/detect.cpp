@@ -4,6 +4,7 @@
 #include "contacts/renew_contacts.h"
 #include "world/motion_script.h"
 #include "world/round_shapes.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,8 +52,12 @@ void prepare_request(World& world, DetectBuffers& buffers, double dt) {
         poses[i] = pose;
         const double travel = travel_in(world, i, dt);
         buffers.sweeps[i] = std::max(0.0, travel - world.settings.margin / 2);
-        buffers.motions[i] = {travel, buffers.sweeps[i], change, is_round(world, i),
-                              has_rim(world, i)};
+        buffers.motions[i] = {travel,
+                              buffers.sweeps[i],
+                              change,
+                              is_round(world, i),
+                              has_rim(world, i),
+                              is_still(bodies, i)};
     }
     buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
     buffers.sinks.clear();
@@ -78,12 +83,22 @@ void look_at_rooms(const DetectBuffers& buffers, StepReport& report) {
     }
 }
 
+/// Whether a contact of known bodies lies aside, as one of them sleeps and the other is still.
+bool both_sleep(const World& world, const Contact& c) {
+    const Bodies& b = world.bodies;
+    if (c.a >= b.size() || c.b >= b.size()) return false;
+    const bool any = b.motion[c.a] == Motion::asleep || b.motion[c.b] == Motion::asleep;
+    return any && is_still(b, c.a) && is_still(b, c.b);
+}
+
 void take_contacts(World& world, const DetectBuffers& buffers, StepReport& report) {
     std::vector<Contact>& found = world.contacts.fresh.found;
     found.clear();
     if (report.collider_unusable) return;
     for (const ContactRoom& room : buffers.rooms)
         for (const Contact& c : room) {
+            if (both_sleep(world, c))
+                continue;  // from colliders that were not asked to leave it out
             const ContactFault fault = fault_of(c, world, buffers.sweeps);
             if (fault == ContactFault::none) {
                 found.push_back(c);

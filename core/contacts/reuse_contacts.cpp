@@ -70,6 +70,7 @@ public:
         const std::uint64_t key = pair_key(a, b);
         if (!(a < b) || b >= motions_.size() || key <= last_) return true;
         last_ = key;
+        if (motions_[a].is_still && motions_[b].is_still) return false;  // its contacts lie aside
         std::vector<KeptPair>& pairs = kept_.pairs;
         while (read_ < pairs.size() && key_of(pairs[read_]) < key) contact_ += pairs[read_++].count;
         const double margin = world_.settings.margin + motions_[a].sweep + motions_[b].sweep;

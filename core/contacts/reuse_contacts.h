@@ -32,6 +32,7 @@ struct BodyMotion {
     double sweep;       ///< of that, what the margin does not cover [m]
     PoseChange change;  ///< since the detection before
     bool is_round, has_rim;
+    bool is_still;  ///< nothing moves it (world/sleep.h)
 };
 
 /// What a question to the collider needs to leave out pairs.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "effects/filter_reachability.h"
 
+#include "world/sleep.h"
+
 #include <algorithm>
 #include <map>
 #include <tuple>
@@ -25,7 +27,7 @@ std::vector<Kind> kinds_of(const Bodies& bodies) {
     std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::size_t> counts;
     for (std::size_t i = 0; i < bodies.size(); ++i)
         if (bodies.bounding_radius[i] > 0)
-            ++counts[{bodies.group[i], bodies.mask[i], bodies.motion[i] == Motion::dynamic}];
+            ++counts[{bodies.group[i], bodies.mask[i], is_movable(bodies.motion[i])}];
     std::vector<Kind> kinds;
     for (const auto& [key, count] : counts)
         kinds.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), count});

@@ -36,9 +36,10 @@ enum class Stage : std::uint32_t {
     move,               ///< new poses
     tearing,            ///< elements that are strained too far
     still_ground,       ///< energy that the ground gave, taken back
+    sleeping,           ///< what falls asleep or wakes
     remember,           ///< impulses kept for the next step
 };
-inline constexpr std::size_t kStageCount = 26;
+inline constexpr std::size_t kStageCount = 27;
 inline constexpr std::array<std::string_view, kStageCount> kStageNames{"detect",
                                                                        "reuse",
                                                                        "match",
@@ -64,6 +65,7 @@ inline constexpr std::array<std::string_view, kStageCount> kStageNames{"detect",
                                                                        "move",
                                                                        "tearing",
                                                                        "still_ground",
+                                                                       "sleeping",
                                                                        "remember"};
 
 /// Times [ns] and counts, of one step or summed over many.

@@ -6,6 +6,7 @@
 #include "scene/nearest.h"
 #include "schedule/joint_trees.h"
 #include "world/round_shapes.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 
@@ -37,8 +38,12 @@ std::size_t shaped_bodies(const World& w) {
     return count_bodies(w, [&](std::size_t i) { return w.bodies.geometry[i] != kNoIndex; });
 }
 
+std::size_t movable_bodies(const World& w) {
+    return count_bodies(w, [&](std::size_t i) { return is_movable(w.bodies.motion[i]); });
+}
+
 Wish contacts(const World& w) {
-    if (w.moving_count() == 0) return {false, "nothing moves by itself"};
+    if (movable_bodies(w) + w.particles.size() == 0) return {false, "nothing moves by itself"};
     if (w.particles.size() > 0 && shaped_bodies(w) > 0)
         return {true,
                 std::to_string(shaped_bodies(w)) + " bodies have shapes that particles may meet"};
@@ -97,7 +102,7 @@ Wish still_ground(const World& w) {
     if (!w.settings.shared_push)
         return {false, "what stands still may give energy, as in the paper (shared_push)"};
     const auto stands = [&](std::size_t i) {
-        return w.bodies.motion[i] != Motion::dynamic && w.bodies.bounding_radius[i] > 0;
+        return !is_movable(w.bodies.motion[i]) && w.bodies.bounding_radius[i] > 0;
     };
     return counted(
         count_bodies(w, stands),
@@ -205,6 +210,11 @@ Wish kinematics(const World& w) {
     return counted(static_cast<std::size_t>(w.kinematic_count),
                    "bodies are moved by a script or a given velocity", "no kinematic bodies");
 }
+Wish sleeping(const World& w) {
+    if (!(w.settings.sleep_speed > 0)) return {false, "sleep_speed is 0"};
+    if (movable_bodies(w) == 0) return {false, "no body moves by itself"};
+    return {true, "what rests sleeps until it is disturbed (sleep_speed > 0)"};
+}
 Wish shock_propagation(const World&) {
     return {false, "breaks the balance of momentum, so it runs only when required"};
 }
@@ -239,6 +249,7 @@ constexpr std::array<Registered, kEffectCount> kEffects{{
     {"particle_contacts", particle_contacts},
     {"surface_contacts", surface_contacts},
     {"kinematics", kinematics},
+    {"sleeping", sleeping},
     {"shock_propagation", shock_propagation},
 }};
 

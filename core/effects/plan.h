@@ -40,9 +40,10 @@ enum class Effect : std::uint32_t {
     particle_contacts,
     surface_contacts,
     kinematics,
+    sleeping,
     shock_propagation,
 };
-inline constexpr std::size_t kEffectCount = 23;
+inline constexpr std::size_t kEffectCount = 24;
 
 struct Decision {
     std::string_view name;

@@ -58,6 +58,7 @@ struct GapingJoints {
 
 struct StepReport {
     std::uint32_t contacts = 0;            ///< contact points
+    std::uint32_t asleep = 0;              ///< bodies that slept through it
     std::uint32_t clamped_recoveries = 0;  ///< contacts, summed over substeps, whose overlap was
                                            ///< deeper than one substep may push out
     std::uint32_t unsolved_islands = 0;   ///< islands, summed over substeps, that were to be solved

@@ -3,6 +3,7 @@
 
 #include "contacts/contact_room.h"
 #include "scene/error.h"
+#include "world/sleep.h"
 
 #include <cstdint>
 #include <vector>
@@ -69,7 +70,8 @@ void add_body(Proximity& proximity, const World& world, std::uint32_t slot, cons
     placement.shape = world.shapes[row.geometry];
     const Placement& local = row.geometry_in_body;
     placement.local = {to_plain(local.position), to_plain(local.rotation)};
-    placement.mobility = static_cast<Mobility>(row.motion);
+    placement.mobility =
+        is_movable(row.motion) ? Mobility::dynamic : static_cast<Mobility>(row.motion);
     placement.group = row.group;
     placement.mask = row.mask;
     check(proximity.add(slot, placement), collider, "shape of " + name_of(row.id));

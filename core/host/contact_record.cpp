@@ -45,28 +45,14 @@ void ContactRecord::start_from(std::vector<Pair> touching) {
 void ContactRecord::take_contacts(const World& world, const Stepper& stepper) {
     contacts_.clear();
     if (!stepper.plan.runs(Effect::contacts)) return;
-    const Bodies& b = world.bodies;
-    const ContactTable& table = world.contacts;
-    const std::vector<Pose>& then = table.kept.seen;
-    for (std::size_t i = 0; i < table.found.size(); ++i) {
-        const Contact& found = table.found[i];
-        const ContactSum& sum = stepper.sums->bodies()[i];
-        BodyContact& c = contacts_.emplace_back();
-        c.body_a = b.id[found.a], c.body_b = b.id[found.b];
-        c.part_a = found.part_a, c.part_b = found.part_b;
-        c.material_a = b.material[found.a], c.material_b = b.material[found.b];
-        c.normal = to_eigen(found.normal);
-        c.point_a =
-            ridden(b, found.a, then[found.a], to_eigen(found.point_a)) - found.radius_a * c.normal;
-        c.point_b =
-            ridden(b, found.b, then[found.b], to_eigen(found.point_b)) + found.radius_b * c.normal;
-        c.gap = c.normal.dot(c.point_a - c.point_b);
-        c.normal_impulse = sum.normal, c.friction_impulse = sum.friction;
-        c.normal_force = sum.normal / world.settings.dt;
-        c.friction_force = sum.friction / world.settings.dt;
-        c.approach_speed = sum.approach;
-        c.touches = table.memory[i].normal_impulse > 0 || c.gap <= 0;
-        put_in_order(c);
+    for (std::size_t i = 0; i < world.contacts.found.size(); ++i)
+        add_contact(world, world.contacts, i, stepper.sums->bodies()[i]);
+    // what sleeps bears what it bore in the last substep before
+    for (std::size_t i = 0; i < world.asleep.found.size(); ++i) {
+        const ContactMemory& memory = world.asleep.memory[i];
+        const double substeps = world.settings.substeps;
+        add_contact(world, world.asleep, i,
+                    {substeps * memory.normal_impulse, substeps * memory.friction_impulse, 0});
     }
     // slots and identifiers part once bodies were removed
     const auto before = [](const BodyContact& x, const BodyContact& y) {
@@ -74,6 +60,29 @@ void ContactRecord::take_contacts(const World& world, const Stepper& stepper) {
     };
     if (!std::is_sorted(contacts_.begin(), contacts_.end(), before))
         std::sort(contacts_.begin(), contacts_.end(), before);
+}
+
+void ContactRecord::add_contact(const World& world, const RememberedContacts& table, std::size_t i,
+                                const ContactSum& sum) {
+    const Bodies& b = world.bodies;
+    const std::vector<Pose>& then = world.contacts.kept.seen;
+    const Contact& found = table.found[i];
+    BodyContact& c = contacts_.emplace_back();
+    c.body_a = b.id[found.a], c.body_b = b.id[found.b];
+    c.part_a = found.part_a, c.part_b = found.part_b;
+    c.material_a = b.material[found.a], c.material_b = b.material[found.b];
+    c.normal = to_eigen(found.normal);
+    c.point_a =
+        ridden(b, found.a, then[found.a], to_eigen(found.point_a)) - found.radius_a * c.normal;
+    c.point_b =
+        ridden(b, found.b, then[found.b], to_eigen(found.point_b)) + found.radius_b * c.normal;
+    c.gap = c.normal.dot(c.point_a - c.point_b);
+    c.normal_impulse = sum.normal, c.friction_impulse = sum.friction;
+    c.normal_force = sum.normal / world.settings.dt;
+    c.friction_force = sum.friction / world.settings.dt;
+    c.approach_speed = sum.approach;
+    c.touches = table.memory[i].normal_impulse > 0 || c.gap <= 0;
+    put_in_order(c);
 }
 
 void ContactRecord::take_particles(const World& world, const Stepper& stepper) {

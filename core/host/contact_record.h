@@ -34,6 +34,9 @@ public:
 
 private:
     void take_contacts(const World& world, const Stepper& stepper);
+    /// The contact of a table in which it is the i-th.
+    void add_contact(const World& world, const RememberedContacts& table, std::size_t i,
+                     const ContactSum& sum);
     void take_particles(const World& world, const Stepper& stepper);
     void reserve_events();
     void take_events();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "host/world_state.h"
 #include "math/fnv1a.h"
+#include "world/sleep.h"
 
 #include <optional>
 
@@ -63,15 +64,16 @@ void add_settings(Hash& hash, const Settings& s) {
          << s.velocity_iterations << s.position_iterations << s.method << s.precision << s.contacts
          << s.margin << s.reuse_distance << s.stiffness << s.recovery_speed << s.collision_depth
          << s.anchor_stiffness << s.gyroscopic << s.leapfrog_start << s.joints << s.exact_islands
-         << s.accuracy << s.exact_deformables << s.multilevel << s.tree_parts << s.joint_tolerance
-         << s.warm_start << s.alternate_sweeps << s.shared_push << s.shared_cone << s.require
-         << s.forbid;
+         << s.accuracy << s.sleep_speed << s.sleep_time << s.exact_deformables << s.multilevel
+         << s.tree_parts << s.joint_tolerance << s.warm_start << s.alternate_sweeps << s.shared_push
+         << s.shared_cone << s.require << s.forbid;
 }
 
 void add_bodies(Hash& hash, const World& world) {
     const Bodies& b = world.bodies;
-    hash << world.slots.next().id << b.id << b.motion << b.mass << b.inertia << b.geometry_in_body
-         << b.geometry << b.material << b.group << b.mask;
+    hash << world.slots.next().id << b.id << b.mass << b.inertia << b.geometry_in_body << b.geometry
+         << b.material << b.group << b.mask;
+    for (const Motion motion : b.motion) hash << (is_movable(motion) ? Motion::dynamic : motion);
     for (const MotionScript& script : b.script) {
         hash << script.loop << script.keyframes.size();
         for (const Keyframe& key : script.keyframes) hash << key.time << key.placement;

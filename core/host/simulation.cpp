@@ -6,6 +6,7 @@
 #include "measure/measure.h"
 #include "scene/error.h"
 #include "world/derived.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,6 +72,12 @@ void Simulation::Parts::renew() {
     tell_warnings();
     note_broken_joints();
     outdated = false;
+}
+
+void Simulation::Parts::wake_near(std::uint32_t slot) { outdated |= plumb::wake_near(world, slot); }
+
+void Simulation::Parts::wake_joined_by(std::uint32_t joint) {
+    wake_near(world.joints.joints[joint].a);  // the other body, too, if it sleeps
 }
 
 void Simulation::Parts::note_broken_joints() {

@@ -95,6 +95,7 @@ std::uint32_t Simulation::add_body(const BodySpec& body) {
     }
     parts_->outdated = true;
     parts_->placed = false;
+    parts_->wake_near(slot);
     if (!body.name.empty()) parts_->body_names.emplace(body.name, id);
     return id;
 }
@@ -103,6 +104,7 @@ void Simulation::remove_body(std::uint32_t body) {
     World& world = parts_->world;
     const std::uint32_t slot = parts_->slot(body);
     if (parts_->filled) plumb::remove_body(parts_->proximity, world, slot, parts_->collider_name);
+    parts_->wake_near(slot);
     const std::vector<Joint>& joints = world.joints.joints;
     for (auto i = static_cast<std::uint32_t>(joints.size()); i-- > 0;)
         if (joints[i].a == slot || joints[i].b == slot) erase_joint(world, i);
@@ -116,6 +118,8 @@ std::uint32_t Simulation::add_joint(const JointSpec& joint) {
     JointSpec placed = joint;
     placed.body_a = parts_->slot(joint.body_a);
     if (joint.body_b != kNoIndex) placed.body_b = parts_->slot(joint.body_b);
+    for (const std::uint32_t body : {placed.body_a, placed.body_b})
+        if (body != kNoIndex) parts_->wake_near(body);
     JointDraft draft = make_joint(world, placed, "/joints/" + std::to_string(world.joints.next_id));
     if (parts_->filled && draft.joint.keeps_apart)
         exclude_pair(parts_->proximity, world, kept_apart(draft.joint), true,
@@ -131,6 +135,7 @@ void Simulation::remove_joint(std::uint32_t joint) {
     const std::uint32_t index = parts_->joint_index(joint);
     const Joint& old = world.joints.joints[index];
     const std::uint64_t pair = old.keeps_apart ? kept_apart(old) : 0;
+    parts_->wake_joined_by(index);
     const auto reasons = std::count(world.excluded.begin(), world.excluded.end(), pair);
     if (parts_->filled && old.keeps_apart && reasons == 1)
         exclude_pair(parts_->proximity, world, pair, false, parts_->collider_name);
@@ -154,6 +159,7 @@ std::uint32_t Simulation::add_coupling(const CouplingSpec& coupling) {
     CouplingSpec placed = coupling;
     placed.joint_a = parts_->joint_index(coupling.joint_a);
     placed.joint_b = parts_->joint_index(coupling.joint_b);
+    parts_->wake_joined_by(placed.joint_a), parts_->wake_joined_by(placed.joint_b);
     JointCoupling made =
         make_coupling(world, placed, "/couplings/" + std::to_string(world.joints.next_coupling_id));
     if (!coupling.offset)
@@ -165,7 +171,9 @@ std::uint32_t Simulation::add_coupling(const CouplingSpec& coupling) {
 }
 
 void Simulation::remove_coupling(std::uint32_t coupling) {
-    erase_coupling(parts_->world, parts_->coupling_index(coupling));
+    const std::uint32_t index = parts_->coupling_index(coupling);
+    parts_->wake_joined_by(parts_->world.joints.couplings[index].joint_a);
+    erase_coupling(parts_->world, index);
     parts_->outdated = true;
 }
 

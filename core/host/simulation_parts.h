@@ -76,6 +76,10 @@ struct Simulation::Parts {
     /// Throws ColliderError where the plugin lacks a pair of shapes that the new body brings.
     void check_pairs(const BodyRow& row, const std::string& name);
 
+    /// Wakes what touches a body or is near it, and the body itself.
+    void wake_near(std::uint32_t slot);
+    void wake_joined_by(std::uint32_t joint);  ///< by its index
+
     /// Hands a body that was just inserted to the collider, with all others where it has none yet
     /// and now needs them.
     void hand_over(std::uint32_t slot, const BodyRow& row);

@@ -3,6 +3,7 @@
 #include "host/simulation_parts.h"
 #include "scene/joint_faults.h"
 #include "world/edit_world.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +53,12 @@ void Simulation::set_placement(std::uint32_t body, const Placement& placement) {
     expect_placement(placement);
     if (follows_keyframes(b, slot))
         throw std::invalid_argument("a body that follows keyframes cannot be placed");
+    parts_->wake_near(slot);
     const Placement outer{placement.position, placement.rotation.normalized()};
     const Placement now = outer * inverse(b.geometry_in_body[slot]);
     b.position[slot] = now.position, b.orientation[slot] = now.rotation;
     forget_contacts(world, slot);
+    parts_->wake_near(slot);
     parts_->placed = false;
 }
 
@@ -68,6 +71,7 @@ void Simulation::set_velocity(std::uint32_t body, const Eigen::Vector3d& v,
         throw std::invalid_argument("a fixed body has no velocity");
     if (follows_keyframes(b, slot))
         throw std::invalid_argument("a body that follows keyframes has their velocity");
+    parts_->wake_near(slot);
     b.velocity[slot] = v, b.angular_velocity[slot] = w;
 }
 
@@ -76,8 +80,9 @@ void Simulation::set_force(std::uint32_t body, const Eigen::Vector3d& force,
     Bodies& b = parts_->world.bodies;
     const std::uint32_t slot = parts_->slot(body);
     expect_finite(force, "a force"), expect_finite(torque, "a torque");
-    if (b.motion[slot] != Motion::dynamic)
+    if (!is_movable(b.motion[slot]))
         throw std::invalid_argument("only a dynamic body yields to a force");
+    parts_->wake_near(slot);
     b.force[slot] = force, b.torque[slot] = torque;
 }
 
@@ -85,6 +90,7 @@ void Simulation::set_motor_target(std::uint32_t joint, std::uint32_t axis, doubl
     const std::uint32_t index = parts_->joint_index(joint);
     if (!(std::abs(target) <= kFurthestTarget))
         throw std::invalid_argument("a motor's target must be finite and within ±1e9");
+    parts_->wake_joined_by(index);
     for (JointDrive& drive : parts_->world.joints.drives)
         if (drive.joint == index && drive.axis == axis && drive.kind == DriveKind::motor) {
             drive.spec.motor.keys.clear();

@@ -2,6 +2,7 @@
 #include "host/world_state.h"
 
 #include "contacts/contact_pairs.h"
+#include "world/sleep.h"
 #include "world/tears.h"
 
 #include <algorithm>
@@ -32,7 +33,7 @@ void each_number_of_bodies(Io& io, B& b) {
                              &b.velocity_now, &b.angular_velocity_now, &b.velocity_before,
                              &b.angular_velocity_before, &b.angular_momentum, &b.turn_change})
             vector(io, (*column)[i]);
-        io(b.lost_to_ground[i]);
+        io(b.lost_to_ground[i]), io(b.rest_time[i]), io(b.sleeps_with[i]);
         auto& m = b.world_inverse_inertia[i];
         io(m.xx), io(m.yy), io(m.zz), io(m.xy), io(m.xz), io(m.yz);
     }
@@ -68,6 +69,7 @@ void each_number_of_contacts(Io& io, List& contacts) {
     }
 }
 
+/// `table`: found and memory.
 template <class Io, class Table>
 void each_number_of_memory(Io& io, Table& table) {
     each_number_of_contacts(io, table.found);
@@ -79,22 +81,35 @@ void each_number_of_memory(Io& io, Table& table) {
         io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.settling), io(m.missed),
             io(m.flush), io(m.ghost), io(m.known), io(m.matched);
     }
-    io(table.rejected);
-    io.count(table.kept.seen);
-    for (auto& pose : table.kept.seen) {
-        plain_vector(io, pose.position);
-        io(pose.rotation.x), io(pose.rotation.y), io(pose.rotation.z), io(pose.rotation.w);
-    }
-    io.count(table.kept.rides);
-    for (auto& r : table.kept.rides)
+}
+
+/// `kept`: rides, pairs and poses.
+template <class Io, class Kept>
+void each_number_of_kept(Io& io, Kept& kept) {
+    io.count(kept.rides);
+    for (auto& r : kept.rides)
         plain_vector(io, r.point_a), plain_vector(io, r.point_b), plain_vector(io, r.normal);
-    io.count(table.kept.pairs);
-    for (auto& pair : table.kept.pairs) {
+    io.count(kept.pairs);
+    for (auto& pair : kept.pairs) {
         io(pair.a), io(pair.b), io(pair.count), io(pair.fresh);
         io(pair.margin), io(pair.reach), io(pair.moved);
     }
-    io.count(table.kept.poses);
-    for (auto& pose : table.kept.poses) vector(io, pose.offset), quaternion(io, pose.turn);
+    io.count(kept.poses);
+    for (auto& pose : kept.poses) vector(io, pose.offset), quaternion(io, pose.turn);
+}
+
+template <class Io, class W>
+void each_number_of_contacts_of(Io& io, W& world) {
+    each_number_of_memory(io, world.contacts);
+    io(world.contacts.rejected);
+    io.count(world.contacts.kept.seen);
+    for (auto& pose : world.contacts.kept.seen) {
+        plain_vector(io, pose.position);
+        io(pose.rotation.x), io(pose.rotation.y), io(pose.rotation.z), io(pose.rotation.w);
+    }
+    each_number_of_kept(io, world.contacts.kept);
+    each_number_of_memory(io, world.asleep);
+    each_number_of_kept(io, world.asleep);
 }
 
 template <class Io, class W>
@@ -122,7 +137,7 @@ void each_number(Io& io, W& world) {
     io(world.time), io(world.steps);
     each_number_of_bodies(io, world.bodies);
     each_number_of_joints(io, world.joints);
-    each_number_of_memory(io, world.contacts);
+    each_number_of_contacts_of(io, world);
     each_number_of_particles(io, world);
 }
 
@@ -141,14 +156,30 @@ bool have_all_contacts(const std::vector<KeptPair>& pairs, const std::vector<Con
     return next == found.size();
 }
 
-/// Columns of one length, and pairs that fit their contacts; else nothing is kept.
-void drop_what_does_not_fit(ContactTable& table, std::size_t bodies) {
+/// Columns of one length, and pairs that fit their contacts; else nothing is kept. `kept`: rides,
+/// pairs and poses.
+template <class Kept>
+void drop_what_does_not_fit(RememberedContacts& table, Kept& kept, std::size_t bodies) {
     table.memory.resize(table.found.size());
-    KeptContacts& kept = table.kept;
     if (kept.rides.size() == table.found.size() && kept.pairs.size() == kept.poses.size() &&
         have_all_contacts(kept.pairs, table.found, bodies))
         return;
     kept.pairs.clear(), kept.poses.clear(), kept.rides.clear();
+}
+
+bool are_of_bodies(const std::vector<Contact>& contacts, std::size_t bodies) {
+    return std::all_of(contacts.begin(), contacts.end(),
+                       [&](const Contact& c) { return c.a < bodies && c.b < bodies; });
+}
+
+/// Who sleeps is told by with whom.
+void send_to_sleep(Bodies& b) {
+    for (std::uint32_t i = 0; i < b.size(); ++i) {
+        if (!is_movable(b.motion[i]))
+            b.sleeps_with[i] = kNoIndex;
+        else
+            set_asleep(b, i, b.sleeps_with[i] != kNoIndex);
+    }
 }
 
 /// Whether it is between a triangle of one deformable and something else that exists.
@@ -169,7 +200,11 @@ void write_state(const World& world, StateWriter& to) { each_number(to, world); 
 
 void read_state(World& world, StateReader& from) {
     each_number(from, world);
-    drop_what_does_not_fit(world.contacts, world.bodies.size());
+    send_to_sleep(world.bodies);
+    const std::size_t bodies = world.bodies.size();
+    drop_what_does_not_fit(world.contacts, world.contacts.kept, bodies);
+    drop_what_does_not_fit(world.asleep, world.asleep, bodies);
+    if (!are_of_bodies(world.asleep.found, bodies)) world.asleep = {};
     world.contacts.list_pairs();
     std::erase_if(world.surface_contacts,
                   [&](const SurfaceContact& c) { return !can_be(c, world); });

@@ -5,6 +5,7 @@
 #include "step/gaping_joints.h"
 #include "world/body_momentum.h"
 #include "world/link_error.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 
@@ -22,7 +23,7 @@ double potential_energy(const World& world) {
     const Bodies& b = world.bodies;
     double sum = 0;
     for (std::size_t i = 0; i < b.size(); ++i)
-        if (b.motion[i] == Motion::dynamic)
+        if (is_movable(b.motion[i]))
             sum -= (b.mass[i] * world.settings.gravity + b.force[i]).dot(b.position[i]);
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -51,9 +52,9 @@ Vector3d angular_momentum(const World& world) {
     return sum;
 }
 
-std::vector<double> penetrations(const World& world) {
-    std::vector<double> depths;
-    const auto& contacts = world.contacts.found;
+namespace {
+
+void add_penetrations(const std::vector<Contact>& contacts, std::vector<double>& depths) {
     for (std::size_t i = 0; i < contacts.size();) {
         double deepest = 0;
         const Contact& first = contacts[i];
@@ -61,6 +62,14 @@ std::vector<double> penetrations(const World& world) {
             deepest = std::max(deepest, -contacts[i].gap);
         if (deepest > 0) depths.push_back(deepest);
     }
+}
+
+}  // namespace
+
+std::vector<double> penetrations(const World& world) {
+    std::vector<double> depths;
+    add_penetrations(world.contacts.found, depths);
+    add_penetrations(world.asleep.found, depths);
     return depths;
 }
 
@@ -124,12 +133,14 @@ void capture(const World& world, Frame& frame) {
     for (std::uint32_t i = 0; i < world.deformables.size(); ++i)
         for (const std::uint32_t element : world.deformables[i].torn)
             frame.torn.push_back({i, element});
-    frame.contacts = static_cast<std::uint32_t>(world.contacts.found.size());
+    frame.contacts =
+        static_cast<std::uint32_t>(world.contacts.found.size() + world.asleep.found.size());
     frame.kinetic_energy = kinetic_energy(world);
     frame.potential_energy = potential_energy(world);
     frame.deepest_penetration = 0;
-    for (const Contact& c : world.contacts.found)
-        frame.deepest_penetration = std::max(frame.deepest_penetration, -c.gap);
+    for (const auto* contacts : {&world.contacts.found, &world.asleep.found})
+        for (const Contact& c : *contacts)
+            frame.deepest_penetration = std::max(frame.deepest_penetration, -c.gap);
 }
 
 double percentile(std::vector<double> values, double p) {

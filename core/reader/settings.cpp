@@ -135,6 +135,11 @@ const Table<Settings>& settings_table() {
             "which it turns far; 1: none"),
         field<S>("joint_tolerance", Number{{1e-12, 1}}, &S::joint_tolerance,
                  "up to which trees of joints are closed [m], [rad]"),
+        field<S>("sleep_speed", Number{{0, 1e3}}, &S::sleep_speed,
+                 "bodies that touch one another fall asleep once no point of them has been faster "
+                 "for sleep_time: they stay where they are and cost next to nothing until "
+                 "something disturbs them [m/s]; 0: never"),
+        field<S>("sleep_time", Number{{0, 1e9}}, &S::sleep_time, "see sleep_speed [s]"),
         field<S>("warm_start", Flag{}, &S::warm_start,
                  "begin from the impulses of the step before"),
         field<S>("alternate_sweeps", Flag{}, &S::alternate_sweeps,

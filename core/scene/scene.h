@@ -35,7 +35,8 @@ struct MaterialPair {
     std::optional<double> friction, restitution, rolling_friction, spinning_friction;
 };
 
-enum class Motion : std::uint32_t { fixed, kinematic, dynamic };
+/// `asleep` is the state of a dynamic body that rests (Settings::sleep_speed); no scene begins so.
+enum class Motion : std::uint32_t { fixed, kinematic, dynamic, asleep };
 
 /// Where a kinematic body is at a time; between keyframes position is linear and rotation turns
 /// evenly.

@@ -74,6 +74,11 @@ struct Settings {
                                           ///< nothing may divide a substep; 1 = none
     double joint_tolerance = 5e-7;        ///< up to which trees of joints are closed [m], [rad]
 
+    double sleep_speed = 0;   ///< bodies that touch one another fall asleep once no point of them
+                              ///< has been faster for sleep_time, and cost next to nothing until
+                              ///< they are disturbed [m/s]; 0 = never
+    double sleep_time = 0.5;  ///< [s]
+
     bool warm_start = true;        ///< begin from the impulses of the step before
     bool alternate_sweeps = true;  ///< forwards and backwards in turn
     bool shared_push =
@@ -99,7 +104,7 @@ inline void apply_paper_preset(Settings& s) {
     s.joints = JointMethod::iterate;
     s.exact_islands = s.exact_deformables = 0;
     s.multilevel = false;
-    s.accuracy = 0;
+    s.accuracy = s.sleep_speed = 0;
 }
 
 }  // namespace plumb

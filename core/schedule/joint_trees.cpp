@@ -13,22 +13,25 @@ BodyPair joined_pair(const World& world, std::uint32_t index) {
     const Joint& joint = world.joints.joints[index];
     const auto rows = std::count(joint.locked.begin(), joint.locked.end(), true);
     return {world.row_of(joint.a), world.row_of(joint.b), index,
-            joint.broken ? 0 : static_cast<std::uint32_t>(rows)};
+            world.acts(joint) ? static_cast<std::uint32_t>(rows) : 0};
 }
 
 /// Sets of dynamic bodies that joints link.
 class JointIslands {
 public:
     JointIslands(const std::vector<BodyPair>& joints, std::int32_t dynamic_count)
-        : of_(static_cast<std::size_t>(dynamic_count)) {
+        : of_(static_cast<std::size_t>(dynamic_count) + 1) {
         std::iota(of_.begin(), of_.end(), 0);
         for (const BodyPair& j : joints)
             if (j.row_a < dynamic_count && j.row_b < dynamic_count)
                 of_[root(j.row_a)] = root(j.row_b);
     }
 
-    /// That of a joint, named by one of its bodies. One of a joint's bodies is dynamic.
-    std::int32_t of(const BodyPair& joint) { return root(std::min(joint.row_a, joint.row_b)); }
+    /// That of a joint, named by one of its bodies. All that sleep are of one behind the others.
+    std::int32_t of(const BodyPair& joint) {
+        const auto none = static_cast<std::int32_t>(of_.size()) - 1;
+        return root(std::min({joint.row_a, joint.row_b, none}));
+    }
     std::int32_t root(std::int32_t row) {
         while (of_[row] != row) row = of_[row] = of_[of_[row]];
         return row;
@@ -61,7 +64,7 @@ struct Census {
 
 std::vector<Census> take_census(const World& world, const std::vector<BodyPair>& joints,
                                 JointIslands& islands) {
-    std::vector<Census> census(static_cast<std::size_t>(world.dynamic_count));
+    std::vector<Census> census(static_cast<std::size_t>(world.dynamic_count) + 1);
     for (std::int32_t row = 0; row < world.dynamic_count; ++row) ++census[islands.root(row)].bodies;
     for (const BodyPair& j : joints) {
         Census& c = census[islands.of(j)];

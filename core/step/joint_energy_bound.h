@@ -114,7 +114,7 @@ private:
         }
         for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
             const Joint& joint = world.joints.joints[i];
-            if (joint.broken) continue;
+            if (!world.acts(joint)) continue;
             const bool is_moved = moves_by_itself(b, joint.a) || moves_by_itself(b, joint.b);
             const double work = most_work(world, i, h);
             for (const std::uint32_t body : {joint.a, joint.b}) {

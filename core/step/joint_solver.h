@@ -134,6 +134,11 @@ private:
         return {row_of(world, joint.a), row_of(world, joint.b), item, 1, 0};
     }
 
+    /// One that is broken has its place all the same: it may break in any step.
+    static bool is_laid_out(const World& world, const Joint& joint) {
+        return joint.broken || world.acts(joint);
+    }
+
     void lay_out(const World& world, const std::vector<std::uint8_t>& elsewhere) {
         std::vector<BodyPair> all, balls, blocks, drives;
         for (std::uint32_t i = 0; i < world.joints.size(); ++i)
@@ -141,7 +146,7 @@ private:
         find_joint_levels(all, world.dynamic_count);
         for (std::uint32_t i = 0; i < world.joints.size(); ++i) {
             const Joint& joint = world.joints.joints[i];
-            if (elsewhere[i]) continue;
+            if (elsewhere[i] || !is_laid_out(world, joint)) continue;
             if (joint.is_plain_ball()) {
                 ball_joints_.push_back(i);
                 balls.push_back(all[i]);
@@ -152,7 +157,7 @@ private:
         }
         for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i) {
             const std::uint32_t joint = world.joints.drives[i].joint;
-            if (elsewhere[joint]) continue;
+            if (elsewhere[joint] || !is_laid_out(world, world.joints.joints[joint])) continue;
             driven_.push_back(i);
             drives.push_back(all[joint]);
         }

@@ -4,6 +4,7 @@
 #include "contacts/bend.h"
 #include "step/gaping_joints.h"
 #include "step/substep_time.h"
+#include "world/derived.h"
 
 #include <cmath>
 
@@ -32,7 +33,6 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     Ledger& ledger = stepper.ledger = {};
     ledger.mark = start;
     const Plan& plan = stepper.plan;
-    RowSolver& solver = *stepper.solver;
     auto timed = [&](Stage stage, auto&& work) {
         const StageTimer timer(ledger, stage);
         work();
@@ -42,7 +42,11 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     const bool divides = plan.runs(Effect::divided_trees);
     const bool watches = plan.runs(Effect::still_ground);
     const bool touches = plan.runs(Effect::contacts);
+    const bool sleeps = plan.runs(Effect::sleeping);
+    bool renews = false;
     ContactSums* sums = stepper.sums ? &*stepper.sums : nullptr;
+    if (sleeps)
+        timed(Stage::sleeping, [&] { renews = stepper.sleeping.let_sleep(world); });
     if (touches) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
@@ -54,6 +58,13 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         });
     if (plan.runs(Effect::surface_contacts))
         timed(Stage::surface_contacts, [&] { stepper.surfaces.detect(world, dt); });
+    if (sleeps)
+        timed(Stage::sleeping, [&] {
+            renews |= stepper.sleeping.wake_disturbed(world, stepper.buffers.motions);
+            if (renews) assign_rows(world), stepper.renew_rows(world);
+            report.asleep = stepper.sleeping.asleep();
+        });
+    RowSolver& solver = *stepper.solver;
     if (divides) timed(Stage::divided_trees, [&] { stepper.divided.find_free(world); });
     if (sums) timed(Stage::remember, [&] { sums->begin_step(world); });
     for (std::uint32_t i = 0; i < world.settings.substeps; ++i) {

@@ -16,6 +16,7 @@
 #include "step/fast_joints.h"
 #include "step/joint_state.h"
 #include "step/row_solver.h"
+#include "step/sleeping.h"
 #include "step/stages.h"
 #include "world/world.h"
 
@@ -48,16 +49,21 @@ struct Stepper {
     /// joints, deformables and links holds nothing of the world, and its memory serves on.
     void renew(const World& world) {
         const Plan before = std::exchange(plan, make_plan(world));
-        motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         revolute = revolute_joints(world);
         breakable = breakable_joints(world);
         if (plan.runs(Effect::surface_contacts)) surfaces = SurfaceDetector(world);
         if (plan.runs(Effect::air_drag)) air = Air(world);
+        renew_rows(world, !plan.runs_as(before));
+    }
+
+    /// The same where only the rows of bodies changed. `anew`: the solver is of another plan.
+    void renew_rows(const World& world, bool anew = false) {
+        motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         if (plan.runs(Effect::divided_trees)) divided = DividedTrees(world, plan);
         fast_joints = FastJoints(world, plan);
         const bool holds =
             plan.runs(Effect::joints) || plan.runs(Effect::deformables) || plan.runs(Effect::links);
-        if (holds || !plan.runs_as(before)) solver = make_row_solver(world, plan, workers);
+        if (holds || anew) solver = make_row_solver(world, plan, workers);
     }
 
     Plan plan;
@@ -74,6 +80,7 @@ struct Stepper {
     GhostContacts ghosts;
     GroundTouch ground;
     StillGround still_ground;
+    Sleeping sleeping;
     std::optional<ContactSums> sums;  ///< of the last step, where someone wants them
     Ledger ledger;                    ///< of the last step
 };

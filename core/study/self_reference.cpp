@@ -8,6 +8,7 @@
 #include "study/gauges.h"
 #include "study/judges.h"
 #include "study/trajectory.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 #include <chrono>
@@ -110,7 +111,7 @@ Trajectory recorded(const Scene& scene, double interval, const Length& length,
 double size_of(const World& world) {
     double sum = 0;
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies.motion[i] == Motion::dynamic &&
+        if (is_movable(world.bodies.motion[i]) &&
             std::isfinite(world.bodies.bounding_radius[i]))
             sum += world.bodies.bounding_radius[i];
     for (const Deformable& d : world.deformables) {

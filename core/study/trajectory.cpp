@@ -3,6 +3,7 @@
 
 #include "measure/deformation.h"
 #include "measure/measure.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +31,7 @@ double mean(const std::vector<double>& values) {
 template <class Visit>
 void each_dynamic(const Bodies& bodies, Visit visit) {
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        if (bodies.motion[i] == Motion::dynamic) visit(i);
+        if (is_movable(bodies.motion[i])) visit(i);
 }
 
 }  // namespace

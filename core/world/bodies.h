@@ -24,9 +24,10 @@ struct Bodies {
     std::vector<Vector3d> velocity;          ///< of the centre of mass [m/s]
     std::vector<Vector3d> angular_velocity;  ///< [rad/s], world frame
 
-    std::vector<double> mass, inverse_mass;  ///< [kg], [1/kg]; 0 and 0 unless dynamic
+    std::vector<double> mass, inverse_mass;  ///< [kg], [1/kg]; 0 and 0 unless dynamic; what sleeps
+                                             ///< keeps its mass
     std::vector<Vector3d> inertia,
-        inverse_inertia;  ///< principal moments, body frame [kg m²]; 0 unless dynamic
+        inverse_inertia;  ///< principal moments, body frame [kg m²]; the same
     std::vector<std::uint8_t> isotropic;  ///< 1: all moments equal, so there is no gyroscopic term
     std::vector<Vector3d> force, torque;  ///< constant, world frame [N], [N m]
 
@@ -41,6 +42,11 @@ struct Bodies {
 
     std::vector<double>
         lost_to_ground;  ///< what a body lost on fixed ground and may regain (still_ground.h) [J]
+
+    std::vector<double> rest_time;  ///< for how long it has been slower than
+                                    ///< Settings::sleep_speed [s]
+    std::vector<std::uint32_t> sleeps_with;  ///< while it sleeps, the first of all bodies that fell
+                                             ///< asleep together; else kNoIndex
 
     // The substep's own columns.
     std::vector<std::int32_t> row;                          ///< row in the solver's velocity table

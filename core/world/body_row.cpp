@@ -117,6 +117,7 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.material, row.material), visit(b.group, row.group), visit(b.mask, row.mask);
     visit(b.script, row.script);
     visit(b.lost_to_ground, 0);
+    visit(b.rest_time, 0), visit(b.sleeps_with, kNoIndex);
     visit(b.row, 0);
     visit(b.world_inverse_inertia, Symmetric3<double>{});
     visit(b.angular_momentum, Vector3d(Vector3d::Zero()));

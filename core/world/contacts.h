@@ -42,6 +42,14 @@ struct RememberedContacts {
     std::vector<ContactMemory> memory;  ///< [contact]
 };
 
+/// Contacts of bodies that sleep, with the pairs that they are of; columns as in ContactTable and
+/// KeptContacts.
+struct SleepingContacts : RememberedContacts {
+    std::vector<ContactRide> rides;
+    std::vector<KeptPair> pairs;
+    std::vector<PairPose> poses;
+};
+
 /// The contacts of two bodies, which stand side by side in their table.
 struct ContactPair {
     std::uint32_t a, b;          ///< bodies, a < b

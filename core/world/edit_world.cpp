@@ -11,8 +11,9 @@ void count(World& world, Motion motion, std::int32_t change) {
     if (motion == Motion::kinematic) world.kinematic_count += change;
 }
 
-template <class Is>
-void forget_pairs(KeptContacts& kept, Is is_of_body) {
+/// `kept`: pairs and poses.
+template <class Kept, class Is>
+void forget_pairs(Kept& kept, Is is_of_body) {
     std::size_t stays = 0;
     for (std::size_t i = 0; i < kept.pairs.size(); ++i) {
         if (is_of_body(kept.pairs[i])) continue;
@@ -20,6 +21,21 @@ void forget_pairs(KeptContacts& kept, Is is_of_body) {
         kept.poses[stays++] = kept.poses[i];
     }
     kept.pairs.resize(stays), kept.poses.resize(stays);
+}
+
+template <class Is>
+void forget_contacts(RememberedContacts& c, std::vector<ContactRide>& rides, Is is_of_body) {
+    const bool has_rides = !rides.empty();
+    std::size_t stays = 0;
+    for (std::size_t i = 0; i < c.found.size(); ++i) {
+        if (is_of_body(c.found[i])) continue;
+        c.found[stays] = c.found[i];
+        c.memory[stays] = c.memory[i];
+        if (has_rides) rides[stays] = rides[i];
+        ++stays;
+    }
+    c.found.resize(stays), c.memory.resize(stays);
+    if (has_rides) rides.resize(stays);
 }
 
 }  // namespace
@@ -49,20 +65,11 @@ void erase_body(World& world, std::uint32_t slot) {
 void forget_contacts(World& world, std::uint32_t slot) {
     ContactTable& c = world.contacts;
     const auto is_of_body = [slot](const auto& x) { return x.a == slot || x.b == slot; };
-    const bool rides = !c.kept.rides.empty();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        if (is_of_body(c.found[i])) continue;
-        c.found[kept] = c.found[i];
-        c.memory[kept] = c.memory[i];
-        if (rides) c.kept.rides[kept] = c.kept.rides[i];
-        ++kept;
-    }
-    c.found.resize(kept);
-    c.memory.resize(kept);
-    if (rides) c.kept.rides.resize(kept);
+    forget_contacts(c, c.kept.rides, is_of_body);
+    forget_contacts(world.asleep, world.asleep.rides, is_of_body);
     c.list_pairs();
     forget_pairs(c.kept, is_of_body);
+    forget_pairs(world.asleep, is_of_body);
     world.particle_contacts = {};
     std::erase_if(world.surface_contacts,
                   [slot](const SurfaceContact& x) { return x.point.body == slot; });

@@ -35,13 +35,13 @@ void each_body(const World& world, const Tie& tie, Visit visit) {
     }
 }
 
-/// Whether a tie holds anything: nothing that is broken does.
+/// Whether a tie holds anything: nothing does that is broken, or sleeps.
 inline bool holds(const World& world, const Tie& tie) {
-    const auto is_whole = [&](std::uint32_t i) { return !world.joints.joints[i].broken; };
-    if (tie.kind == TieKind::joint) return is_whole(tie.index);
+    const auto acts = [&](std::uint32_t i) { return world.acts(world.joints.joints[i]); };
+    if (tie.kind == TieKind::joint) return acts(tie.index);
     if (tie.kind == TieKind::link) return true;
     const JointCoupling& c = world.joints.couplings[tie.index];
-    return is_whole(c.joint_a) && is_whole(c.joint_b);
+    return acts(c.joint_a) && acts(c.joint_b);
 }
 
 /// For how long exact islands leave a joint or a link alone; of a coupling its joints tell.

@@ -41,6 +41,7 @@ struct World {
     std::vector<std::uint64_t> excluded;  ///< pair_key of bodies that never collide, sorted; as
                                           ///< often as there are reasons
     ContactTable contacts;
+    SleepingContacts asleep;  ///< of bodies of which none moves
     ParticleContactTable particle_contacts;
     std::vector<SurfaceContact> surface_contacts;
     ShapeStore shapes;
@@ -75,6 +76,13 @@ struct World {
             for (const WorldPoint* p : {&link.a, &link.b})
                 if (link.is_between_bodies() == between_bodies && p->body != kNoIndex)
                     visit(p->body);
+    }
+    /// Whether a joint holds anything: it is whole, and one of its bodies is awake.
+    bool acts(const Joint& joint) const {
+        const auto is_awake = [&](std::uint32_t body) {
+            return body != kNoIndex && bodies.motion[body] == Motion::dynamic;
+        };
+        return !joint.broken && (is_awake(joint.a) || is_awake(joint.b));
     }
     std::int32_t zero_row() const { return moving_count() + kinematic_count; }
     /// Row of a body; kNoIndex stands for the world, which is fixed.

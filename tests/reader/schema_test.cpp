@@ -115,10 +115,10 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                                   stiffness, recovery_speed, collision_depth, anchor_stiffness,
                                   gyroscopic, leapfrog_start, joints, exact_islands,
                                   accuracy, exact_deformables, multilevel, tree_parts,
-                                  joint_tolerance, warm_start,
+                                  joint_tolerance, sleep_speed, sleep_time, warm_start,
                                   alternate_sweeps, shared_push, shared_cone, require, forbid] =
         settings;
-    constexpr std::size_t kMembers = 36, kPreset = 1;
+    constexpr std::size_t kMembers = 38, kPreset = 1;
     EXPECT_EQ(schema()["$defs"]["settings"]["properties"].size(), kMembers + kPreset);
     for (const char* name : {"gravity",
                              "wind",
@@ -147,6 +147,8 @@ TEST(Schema, HasAKeyForEveryMemberOfSettings) {
                              "accuracy",
                              "exact_deformables",
                              "multilevel",
+                             "sleep_speed",
+                             "sleep_time",
                              "tree_parts",
                              "joint_tolerance",
                              "warm_start",

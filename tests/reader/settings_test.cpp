@@ -30,7 +30,7 @@ TEST(Settings, FillsEveryMember) {
         "lanes": 16, "margin": 0.1, "stiffness": 0.3, "recovery_speed": 2, "collision_depth": 0.001,
         "anchor_stiffness": 0.5, "gyroscopic": "implicit", "warm_start": false, "alternate_sweeps": false,
         "shared_cone": false, "leapfrog_start": true, "shared_push": false, "joints": "tree",
-        "exact_islands": 12, "accuracy": 0.02, "exact_deformables": 30, "multilevel": true, "tree_parts": 9, "contacts": "raw", "joint_tolerance": 1e-6, "require": ["a", "b"], "forbid": ["c"])");
+        "exact_islands": 12, "accuracy": 0.02, "exact_deformables": 30, "multilevel": true, "tree_parts": 9, "sleep_speed": 0.02, "sleep_time": 0.7, "contacts": "raw", "joint_tolerance": 1e-6, "require": ["a", "b"], "forbid": ["c"])");
     EXPECT_EQ(s.gravity, Eigen::Vector3d(1, 2, 3));
     EXPECT_EQ(s.wind, Eigen::Vector3d(4, 0, -1));
     EXPECT_EQ(s.gusts, Eigen::Vector3d(0.5, 0, 2));
@@ -60,6 +60,8 @@ TEST(Settings, FillsEveryMember) {
     EXPECT_EQ(s.accuracy, 0.02);
     EXPECT_EQ(s.exact_deformables, 30u);
     EXPECT_TRUE(s.multilevel);
+    EXPECT_EQ(s.sleep_speed, 0.02);
+    EXPECT_EQ(s.sleep_time, 0.7);
     EXPECT_EQ(s.tree_parts, 9u);
     EXPECT_EQ(s.contacts, ContactOrigin::raw);
     EXPECT_EQ(s.joint_tolerance, 1e-6);
