@@ -70,6 +70,8 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     add_times(simulation.ledger());
     contact_sum += report.contacts;
     contact_max = std::max(contact_max, report.contacts);
+    asleep_end = report.asleep;
+    asleep_max = std::max(asleep_max, report.asleep);
     clamped_recoveries += report.clamped_recoveries;
     unsolved_islands += report.unsolved_islands;
     costly_islands += report.costly_islands;

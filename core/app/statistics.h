@@ -63,6 +63,7 @@ public:
     std::uint64_t stretched_links = 0;  ///< StepReport::stretched_links, of all steps
     double link_error = 0;              ///< StepReport::link_error, the greatest [m]
     std::uint32_t contact_max = 0;
+    std::uint32_t asleep_max = 0, asleep_end = 0;  ///< StepReport::asleep
     std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, costly_islands = 0,
                   unsolved_trees = 0, rejected_contacts = 0, collider_failures = 0;
     std::uint64_t torn = 0;                                  ///< elements of deformables

@@ -203,14 +203,16 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["steps"] = simulation.steps();
     j["simulated_time"] = simulation.time();
     j["bodies"] = world.bodies.size();
-    j["dynamic_bodies"] = world.dynamic_count;
+    const std::vector<Motion>& motion = world.bodies.motion;
+    j["dynamic_bodies"] = std::count_if(motion.begin(), motion.end(), is_movable);
     j["deformables"] = world.deformables.size();
     j["particles"] = world.particles.size();
     j["joints"] = world.joints.size();
     j["links"] = world.links.size();
     j["contacts"] = {{"mean", s.contact_sum / steps},
                      {"max", s.contact_max},
-                     {"end", world.contacts.found.size()}};
+                     {"end", world.contacts.found.size() + world.asleep.found.size()}};
+    j["asleep"] = {{"max", s.asleep_max}, {"end", s.asleep_end}};
     j["pairs"] = {{"candidates", detect.broad_pairs}, {"touching", detect.narrow_pairs}};
     j["contacts"]["kept"] = world.contacts.kept.reused;
     j["contact_sources"] = {{"asked", settings.contacts == ContactOrigin::raw ? "raw" : "shared"},

@@ -16,7 +16,7 @@ for file in html png csv plumb; do [ -s "$work/x.$file" ]; done
 "$json_has" "$work/summary.json" /scene /collider/name /collider/version /method /precision /threads /lanes /dt /substeps \
   /velocity_iterations /position_iterations /steps /simulated_time /bodies /deformables /particles /joints /contacts/mean /contacts/max \
   /time_ms/detect/median /time_ms/solve/mean /time_ms/step/p99 /time_ms/stages/positions /energy/start /energy/end \
-  /momentum/linear /momentum/angular /penetration/mean /penetration/p99 /penetration/max /joint_error/mean /joint_error/max /joint_turn_error/max /open_joints /broken /link_error/max \
+  /momentum/linear /momentum/angular /penetration/mean /penetration/p99 /penetration/max /joint_error/mean /joint_error/max /joint_turn_error/max /open_joints /broken /asleep/max /asleep/end /link_error/max \
   /speed/median /speed/p90 /speed/rms /speed/max /speed_near/left_out /particle_speed/p90 /final_height/mean /fallen_through /clamps \
   /residual/force_of_weight/mean /residual/force_of_weight/max /residual/force_of_weight/end /residual/force_n/max /residual/force_n/end \
   /residual/error_m/max /residual/error_m/end /residual/island/first_body /residual/island/bodies /residual/island/exact \

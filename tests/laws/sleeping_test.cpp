@@ -12,7 +12,7 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kSpeed = 0.01;  ///< below which bodies fall asleep [m/s]
+constexpr double kSlow = 0.01;  ///< below which bodies fall asleep [m/s]
 
 std::uint32_t asleep(const World& world) {
     return static_cast<std::uint32_t>(
@@ -23,7 +23,7 @@ class Sleep : public OnEveryCollider {
 protected:
     Scene sleepy_scene() const {
         Scene s = scene();
-        s.settings.sleep_speed = kSpeed;
+        s.settings.sleep_speed = kSlow;
         return s;
     }
     Simulation running(const Scene& s) const { return {s, colliders(), collider()}; }
@@ -51,7 +51,7 @@ INSTANTIATE_TEST_SUITE_P(, Sleep, every_collider(), where_name);
 TEST_P(Sleep, WhatRestsFallsAsleepWhereItIs) {
     Scene s = heap();
     s.settings.precision = scene().settings.precision;
-    s.settings.sleep_speed = kSpeed;
+    s.settings.sleep_speed = kSlow;
     s.materials[0].rolling_friction = s.materials[0].spinning_friction = 0.01;
     Simulation simulation = running(s);
     const World& world = simulation.world();
@@ -274,7 +274,9 @@ TEST_P(Sleep, WhatIsMovedAlongKeepsAwakeWhatItTouches) {
         simulation.step();
         const World& world = simulation.world();
         const double gap = world.bodies.position[3].y() - 0.1 - 0.8;
-        if (gap < -1e-4) EXPECT_EQ(asleep(world), 0u) << "at " << simulation.time() << " s";
+        if (gap < -1e-4) {
+            EXPECT_EQ(asleep(world), 0u) << "at " << simulation.time() << " s";
+        }
     }
 }
 
@@ -306,7 +308,9 @@ TEST(Sleeping, GoesOnFromASavedState) {
     for (const int before : {150, 330, 349, 360, 500}) {
         Simulation one(s, colliders(), "ode"), two(s, colliders(), "ode");
         make_steps(one, before), make_steps(two, 5);
-        if (before == 330) EXPECT_GT(asleep(one.world()), 20u);
+        if (before == 330) {
+            EXPECT_GT(asleep(one.world()), 20u);
+        }
         const std::string bytes = one.save();
         two.restore(bytes);
         EXPECT_EQ(two.save(), bytes);
@@ -321,7 +325,7 @@ TEST(Sleeping, GoesOnFromASavedState) {
 /// Particles wake what they meet, and what a string holds stays awake.
 TEST(Sleeping, WhatDeformsKeepsAwakeWhatItTouches) {
     Scene s;
-    s.settings.sleep_speed = kSpeed;
+    s.settings.sleep_speed = kSlow;
     add_ground(s);
     add_body(s, box(0.2, 0.2, 0.2), {0, 0.2, 0});
     add_body(s, box(0.2, 0.2, 0.2), {3, 0.2, 0});
