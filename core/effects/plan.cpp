@@ -137,7 +137,7 @@ Wish joints(const World& w) { return counted(w.joints.size(), "joints", "no join
 Wish joint_trees(const World& w) {
     if (w.joints.size() == 0) return {false, "no joints"};
     if (w.settings.joints == JointMethod::iterate) return {false, "joints are iterated"};
-    const JointForest forest = find_forest(w);
+    const JointForest forest = find_forest(w, true);
     const std::size_t iterated = w.joints.size() - forest.edges - forest.loops;
     const std::string left_out =
         "bodies that hang together are iterated where more than one joint in ten closes a loop, "

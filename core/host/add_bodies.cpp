@@ -42,7 +42,8 @@ void check_raw(Proximity& proximity, const World& world, const std::string& coll
 
 BodyRow shape_row(const Bodies& b, std::uint32_t slot) {
     BodyRow row;
-    row.id = b.id[slot], row.motion = b.motion[slot];
+    row.id = b.id[slot];
+    row.motion = is_movable(b.motion[slot]) ? Motion::dynamic : b.motion[slot];
     row.geometry = b.geometry[slot], row.geometry_in_body = b.geometry_in_body[slot];
     row.group = b.group[slot], row.mask = b.mask[slot];
     return row;
@@ -70,8 +71,7 @@ void add_body(Proximity& proximity, const World& world, std::uint32_t slot, cons
     placement.shape = world.shapes[row.geometry];
     const Placement& local = row.geometry_in_body;
     placement.local = {to_plain(local.position), to_plain(local.rotation)};
-    placement.mobility =
-        is_movable(row.motion) ? Mobility::dynamic : static_cast<Mobility>(row.motion);
+    placement.mobility = static_cast<Mobility>(row.motion);
     placement.group = row.group;
     placement.mask = row.mask;
     check(proximity.add(slot, placement), collider, "shape of " + name_of(row.id));

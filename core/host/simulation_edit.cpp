@@ -17,7 +17,7 @@ namespace {
 bool is_well_known(const Bodies& b, const BodyRow& row) {
     int alike = 0;
     for (std::size_t i = 0; i < b.size() && alike < 2; ++i)
-        alike += b.geometry[i] == row.geometry && b.motion[i] == row.motion &&
+        alike += b.geometry[i] == row.geometry && shape_row(b, i).motion == row.motion &&
                  b.group[i] == row.group && b.mask[i] == row.mask;
     return alike == 2;
 }
@@ -118,14 +118,13 @@ std::uint32_t Simulation::add_joint(const JointSpec& joint) {
     JointSpec placed = joint;
     placed.body_a = parts_->slot(joint.body_a);
     if (joint.body_b != kNoIndex) placed.body_b = parts_->slot(joint.body_b);
-    for (const std::uint32_t body : {placed.body_a, placed.body_b})
-        if (body != kNoIndex) parts_->wake_near(body);
     JointDraft draft = make_joint(world, placed, "/joints/" + std::to_string(world.joints.next_id));
     if (parts_->filled && draft.joint.keeps_apart)
         exclude_pair(parts_->proximity, world, kept_apart(draft.joint), true,
                      parts_->collider_name);
     parts_->outdated = true;
     const std::uint32_t id = insert_joint(world, std::move(draft));
+    parts_->wake_joined_by(parts_->joint_index(id));
     if (!joint.name.empty()) parts_->joint_names.emplace(joint.name, id);
     return id;
 }
@@ -135,10 +134,10 @@ void Simulation::remove_joint(std::uint32_t joint) {
     const std::uint32_t index = parts_->joint_index(joint);
     const Joint& old = world.joints.joints[index];
     const std::uint64_t pair = old.keeps_apart ? kept_apart(old) : 0;
-    parts_->wake_joined_by(index);
     const auto reasons = std::count(world.excluded.begin(), world.excluded.end(), pair);
     if (parts_->filled && old.keeps_apart && reasons == 1)
         exclude_pair(parts_->proximity, world, pair, false, parts_->collider_name);
+    parts_->wake_joined_by(index);
     erase_joint(world, index);
     parts_->outdated = true;
 }
@@ -159,13 +158,13 @@ std::uint32_t Simulation::add_coupling(const CouplingSpec& coupling) {
     CouplingSpec placed = coupling;
     placed.joint_a = parts_->joint_index(coupling.joint_a);
     placed.joint_b = parts_->joint_index(coupling.joint_b);
-    parts_->wake_joined_by(placed.joint_a), parts_->wake_joined_by(placed.joint_b);
     JointCoupling made =
         make_coupling(world, placed, "/couplings/" + std::to_string(world.joints.next_coupling_id));
     if (!coupling.offset)
         made.offset = coordinate_now(world, made.joint_b, made.axis_b) -
                       made.ratio * coordinate_now(world, made.joint_a, made.axis_a);
     append_coupling(world, made);
+    parts_->wake_joined_by(made.joint_a), parts_->wake_joined_by(made.joint_b);
     parts_->outdated = true;
     return world.joints.couplings.back().id;
 }

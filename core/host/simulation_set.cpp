@@ -90,11 +90,11 @@ void Simulation::set_motor_target(std::uint32_t joint, std::uint32_t axis, doubl
     const std::uint32_t index = parts_->joint_index(joint);
     if (!(std::abs(target) <= kFurthestTarget))
         throw std::invalid_argument("a motor's target must be finite and within ±1e9");
-    parts_->wake_joined_by(index);
     for (JointDrive& drive : parts_->world.joints.drives)
         if (drive.joint == index && drive.axis == axis && drive.kind == DriveKind::motor) {
             drive.spec.motor.keys.clear();
             drive.spec.motor.target = target;
+            parts_->wake_joined_by(index);
             return;
         }
     throw std::invalid_argument("the joint has no motor on axis " + std::to_string(axis));

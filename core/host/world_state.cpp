@@ -34,6 +34,7 @@ void each_number_of_bodies(Io& io, B& b) {
                              &b.angular_velocity_before, &b.angular_momentum, &b.turn_change})
             vector(io, (*column)[i]);
         io(b.lost_to_ground[i]), io(b.rest_time[i]), io(b.sleeps_with[i]);
+        vector(io, b.rest_way[i]), vector(io, b.rest_turn[i]);
         auto& m = b.world_inverse_inertia[i];
         io(m.xx), io(m.yy), io(m.zz), io(m.xy), io(m.xz), io(m.yz);
     }
@@ -175,10 +176,8 @@ bool are_of_bodies(const std::vector<Contact>& contacts, std::size_t bodies) {
 /// Who sleeps is told by with whom.
 void send_to_sleep(Bodies& b) {
     for (std::uint32_t i = 0; i < b.size(); ++i) {
-        if (!is_movable(b.motion[i]))
-            b.sleeps_with[i] = kNoIndex;
-        else
-            set_asleep(b, i, b.sleeps_with[i] != kNoIndex);
+        if (!is_movable(b.motion[i]) || b.sleeps_with[i] >= b.size()) b.sleeps_with[i] = kNoIndex;
+        if (is_movable(b.motion[i])) set_asleep(b, i, b.sleeps_with[i] != kNoIndex);
     }
 }
 

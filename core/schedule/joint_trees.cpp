@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "schedule/joint_trees.h"
 
+#include "world/sleep.h"
+
 #include <algorithm>
 #include <numeric>
 #include <vector>
@@ -8,12 +10,30 @@
 namespace plumb {
 namespace {
 
-/// A joint's bodies as rows of the velocity table, and how many rows it takes away.
-BodyPair joined_pair(const World& world, std::uint32_t index) {
+/// Bodies that move have the first rows; all that does not, the one behind them.
+struct BodyRowsOf {
+    std::vector<std::int32_t> row;  // [body]
+    std::int32_t count = 0;         // of those that move
+
+    BodyRowsOf(const World& world, bool asleep_too) {
+        const auto moves = [&](Motion m) {
+            return asleep_too ? is_movable(m) : m == Motion::dynamic;
+        };
+        for (const Motion motion : world.bodies.motion) count += moves(motion);
+        std::int32_t next = 0;
+        for (const Motion motion : world.bodies.motion)
+            row.push_back(moves(motion) ? next++ : count);
+    }
+    std::int32_t of(std::uint32_t body) const { return body == kNoIndex ? count : row[body]; }
+};
+
+/// A joint's bodies as rows, and how many rows it takes away.
+BodyPair joined_pair(const World& world, const BodyRowsOf& rows, std::uint32_t index) {
     const Joint& joint = world.joints.joints[index];
-    const auto rows = std::count(joint.locked.begin(), joint.locked.end(), true);
-    return {world.row_of(joint.a), world.row_of(joint.b), index,
-            world.acts(joint) ? static_cast<std::uint32_t>(rows) : 0};
+    const auto locked = std::count(joint.locked.begin(), joint.locked.end(), true);
+    const std::int32_t a = rows.of(joint.a), b = rows.of(joint.b);
+    const bool acts = !joint.broken && std::min(a, b) < rows.count;
+    return {a, b, index, acts ? static_cast<std::uint32_t>(locked) : 0};
 }
 
 /// Sets of dynamic bodies that joints link.
@@ -62,14 +82,14 @@ struct Census {
     static constexpr std::uint32_t kMostOfARagdoll = 32;
 };
 
-std::vector<Census> take_census(const World& world, const std::vector<BodyPair>& joints,
-                                JointIslands& islands) {
-    std::vector<Census> census(static_cast<std::size_t>(world.dynamic_count) + 1);
-    for (std::int32_t row = 0; row < world.dynamic_count; ++row) ++census[islands.root(row)].bodies;
+std::vector<Census> take_census(const World& world, std::int32_t dynamic_count,
+                                const std::vector<BodyPair>& joints, JointIslands& islands) {
+    std::vector<Census> census(static_cast<std::size_t>(dynamic_count) + 1);
+    for (std::int32_t row = 0; row < dynamic_count; ++row) ++census[islands.root(row)].bodies;
     for (const BodyPair& j : joints) {
         Census& c = census[islands.of(j)];
         c.joints += j.count > 0;
-        c.held |= j.count > 0 && std::max(j.row_a, j.row_b) >= world.dynamic_count;
+        c.held |= j.count > 0 && std::max(j.row_a, j.row_b) >= dynamic_count;
     }
     for (const JointDrive& d : world.joints.drives) {
         Census& c = census[islands.of(joints[d.joint])];
@@ -83,20 +103,24 @@ std::vector<Census> take_census(const World& world, const std::vector<BodyPair>&
     return census;
 }
 
-void leave_out_what_is_iterated(const World& world, std::vector<BodyPair>& joints) {
-    JointIslands islands(joints, world.dynamic_count);
-    const std::vector<Census> census = take_census(world, joints, islands);
+void leave_out_what_is_iterated(const World& world, std::int32_t dynamic_count,
+                                std::vector<BodyPair>& joints) {
+    JointIslands islands(joints, dynamic_count);
+    const std::vector<Census> census = take_census(world, dynamic_count, joints, islands);
     for (BodyPair& j : joints)
         if (!census[islands.of(j)].suits_trees()) j.count = 0;
 }
 
 }  // namespace
 
-JointForest find_forest(const World& world) {
+JointForest find_forest(const World& world, bool asleep_too) {
+    const BodyRowsOf rows(world, asleep_too);
     std::vector<BodyPair> joints;
-    for (std::uint32_t i = 0; i < world.joints.size(); ++i) joints.push_back(joined_pair(world, i));
-    if (world.settings.joints == JointMethod::auto_) leave_out_what_is_iterated(world, joints);
-    return grow_joint_forest(joints, world.dynamic_count);
+    for (std::uint32_t i = 0; i < world.joints.size(); ++i)
+        joints.push_back(joined_pair(world, rows, i));
+    if (world.settings.joints == JointMethod::auto_)
+        leave_out_what_is_iterated(world, rows.count, joints);
+    return grow_joint_forest(joints, rows.count);
 }
 
 }  // namespace plumb

@@ -2,6 +2,7 @@
 #include "step/sleeping.h"
 
 #include "contacts/contact_measures.h"
+#include "step/substep_time.h"
 #include "world/sleep.h"
 #include "world/tie.h"
 
@@ -13,6 +14,13 @@ namespace {
 
 /// So often within the time that bodies have to rest it is asked which may sleep.
 constexpr double kLooks = 5;
+
+/// No shorter time tells what rests from what begins to move [s].
+constexpr double kLeastTime = 0.1;
+
+/// Share of Settings::sleep_speed at which what rests may move on the mean from one look to the
+/// next; and share of what gravity gives in a substep that may be left of it.
+constexpr double kDrift = 0.1, kPushed = 0.1;
 
 /// Of its fastest point, at the most [m/s].
 double speed_of(const Bodies& b, std::size_t i) {
@@ -45,11 +53,12 @@ double least_gap(const ContactTable& c, const ContactPair& pair) {
 }  // namespace
 
 bool Sleeping::let_sleep(World& world) {
-    const bool any = count_rest(world);
-    const double look = world.settings.sleep_time / kLooks / world.settings.dt;
+    count_rest(world);
+    const Settings& s = world.settings;
+    const double look = std::max(s.sleep_time, kLeastTime) / kLooks / s.dt;
     const auto steps = static_cast<std::uint64_t>(std::max(1.0, std::round(look)));
-    if (!any || world.steps % steps != 0) return false;
-    find_what_stirs(world);
+    if (world.steps % steps != 0) return false;
+    find_what_stirs(world, static_cast<double>(steps) * s.dt);
     find_pairs(world);
     find_ties(world);
     islands_.find(pairs_, ties_, 0, world.dynamic_count);
@@ -58,23 +67,27 @@ bool Sleeping::let_sleep(World& world) {
     return true;
 }
 
-/// Returns whether a body has rested for long enough.
-bool Sleeping::count_rest(World& world) {
+/// For how long bodies have rested, and how far they went meanwhile.
+void Sleeping::count_rest(World& world) {
     Bodies& b = world.bodies;
     const Settings& s = world.settings;
+    const double least_push = kPushed * s.gravity.norm() * substep_of(s);
     asleep_ = 0;
-    bool any = false;
     for (std::size_t i = 0; i < b.size(); ++i) {
         asleep_ += b.motion[i] == Motion::asleep;
         if (b.motion[i] != Motion::dynamic) continue;
-        b.rest_time[i] = speed_of(b, i) < s.sleep_speed ? b.rest_time[i] + s.dt : 0;
-        any |= b.rest_time[i] >= s.sleep_time;
+        const bool is_pushed =
+            least_push > 0 && (b.velocity[i] - b.velocity_now[i]).norm() > least_push;
+        const bool rests = speed_of(b, i) < s.sleep_speed && !is_pushed;
+        b.rest_time[i] = rests ? b.rest_time[i] + s.dt : 0;
+        b.rest_way[i] += s.dt * b.velocity[i];
+        b.rest_turn[i] += s.dt * b.angular_velocity[i];
     }
-    return any;
 }
 
-void Sleeping::find_what_stirs(const World& world) {
-    const Bodies& b = world.bodies;
+/// `since`: the last look [s].
+void Sleeping::find_what_stirs(World& world, double since) {
+    Bodies& b = world.bodies;
     body_of_.assign(static_cast<std::size_t>(world.dynamic_count), kNoIndex);
     stirs_.assign(body_of_.size(), 0);
     const auto stir = [&](std::uint32_t body) {
@@ -83,7 +96,10 @@ void Sleeping::find_what_stirs(const World& world) {
     for (std::uint32_t i = 0; i < b.size(); ++i) {
         if (b.motion[i] != Motion::dynamic) continue;
         body_of_[b.row[i]] = i;
-        if (b.rest_time[i] < world.settings.sleep_time) stir(i);
+        const double way = b.rest_way[i].norm() + b.bounding_radius[i] * b.rest_turn[i].norm();
+        const bool drifts = way > kDrift * world.settings.sleep_speed * since;
+        if (drifts || b.rest_time[i] < 0.99 * since) stir(i);
+        b.rest_way[i].setZero(), b.rest_turn[i].setZero();
     }
     for (const JointDrive& drive : world.joints.drives) {
         const Joint& joint = world.joints.joints[drive.joint];
@@ -127,13 +143,23 @@ void Sleeping::find_ties(const World& world) {
     for (std::uint32_t i = 0; i < world.joints.couplings.size(); ++i) tie(TieKind::coupling, i);
 }
 
+/// An island rests from when on all of it does.
 bool Sleeping::put_to_sleep_what_rests(World& world) {
+    Bodies& b = world.bodies;
+    const double time = 0.99 * std::max(world.settings.sleep_time, kLeastTime);
     bool any = false;
     const auto consider = [&](auto first, auto last) {
-        if (std::any_of(first, last, [&](std::int32_t row) { return stirs_[row]; })) return;
+        const bool stirs = std::any_of(first, last, [&](std::int32_t row) { return stirs_[row]; });
+        bool rests = !stirs;
         island_.clear();
-        for (auto row = first; row != last; ++row) island_.push_back(body_of_[*row]);
-        put_to_sleep(world.bodies, island_);
+        for (auto row = first; row != last; ++row) {
+            const std::uint32_t body = body_of_[*row];
+            if (stirs) b.rest_time[body] = 0;
+            rests &= b.rest_time[body] > time;
+            island_.push_back(body);
+        }
+        if (!rests) return;
+        put_to_sleep(b, island_);
         asleep_ += static_cast<std::uint32_t>(island_.size());
         any = true;
     };

@@ -45,8 +45,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     const bool sleeps = plan.runs(Effect::sleeping);
     bool renews = false;
     ContactSums* sums = stepper.sums ? &*stepper.sums : nullptr;
-    if (sleeps)
-        timed(Stage::sleeping, [&] { renews = stepper.sleeping.let_sleep(world); });
+    if (sleeps) timed(Stage::sleeping, [&] { renews = stepper.sleeping.let_sleep(world); });
     if (touches) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
         timed(Stage::match, [&] { match_contacts(world, plan); });
@@ -63,6 +62,8 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             renews |= stepper.sleeping.wake_disturbed(world, stepper.buffers.motions);
             if (renews) assign_rows(world), stepper.renew_rows(world);
             report.asleep = stepper.sleeping.asleep();
+            report.contacts =
+                static_cast<std::uint32_t>(world.contacts.found.size() + world.asleep.found.size());
         });
     RowSolver& solver = *stepper.solver;
     if (divides) timed(Stage::divided_trees, [&] { stepper.divided.find_free(world); });

@@ -45,6 +45,8 @@ struct Bodies {
 
     std::vector<double> rest_time;  ///< for how long it has been slower than
                                     ///< Settings::sleep_speed [s]
+    std::vector<Vector3d> rest_way, rest_turn;  ///< by how much it has moved and turned since it
+                                                ///< was last asked whether it rests [m], [rad]
     std::vector<std::uint32_t> sleeps_with;  ///< while it sleeps, the first of all bodies that fell
                                              ///< asleep together; else kNoIndex
 

@@ -118,6 +118,7 @@ void each_column(Bodies& b, const BodyRow& row, Visit visit) {
     visit(b.script, row.script);
     visit(b.lost_to_ground, 0);
     visit(b.rest_time, 0), visit(b.sleeps_with, kNoIndex);
+    visit(b.rest_way, Vector3d(Vector3d::Zero())), visit(b.rest_turn, Vector3d(Vector3d::Zero()));
     visit(b.row, 0);
     visit(b.world_inverse_inertia, Symmetric3<double>{});
     visit(b.angular_momentum, Vector3d(Vector3d::Zero()));

@@ -3,6 +3,7 @@
 
 #include "scene/error.h"
 #include "scene/joint_faults.h"
+#include "world/sleep.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -74,9 +75,7 @@ private:
         if (spec_.body_a >= b.size() || (spec_.body_b != kNoIndex && spec_.body_b >= b.size()) ||
             spec_.body_a == spec_.body_b)
             refuse("/bodies", "a joint links two different bodies, or one body and the world");
-        auto dynamic = [&](std::uint32_t k) {
-            return k != kNoIndex && b.motion[k] == Motion::dynamic;
-        };
+        auto dynamic = [&](std::uint32_t k) { return k != kNoIndex && is_movable(b.motion[k]); };
         if (!dynamic(spec_.body_a) && !dynamic(spec_.body_b))
             refuse("/bodies", "at least one of the linked bodies must be dynamic");
     }
@@ -100,7 +99,7 @@ private:
     /// inertia.
     void check_lever(const Joint& joint, std::uint32_t body, const Vector3d& arm) const {
         const bool holds = joint.locked[kAlongX] || joint.locked[kAlongY] || joint.locked[kAlongZ];
-        if (body == kNoIndex || world_.bodies.motion[body] != Motion::dynamic || !holds) return;
+        if (body == kNoIndex || !is_movable(world_.bodies.motion[body]) || !holds) return;
         const double lever = lever_of(arm, world_.bodies.mass[body], world_.bodies.inertia[body]);
         if (lever <= kLongestLever) return;
         char numbers[64];
@@ -232,7 +231,7 @@ void count_springs(World& world) {
     for (const JointDrive& drive : table.drives)
         if (drive.is_spring()) springs[drive.joint][drive.axis >= kTurnX] = true;
     const auto counts = [&](std::uint32_t body) {
-        return body != kNoIndex && world.bodies.motion[body] == Motion::dynamic;
+        return body != kNoIndex && is_movable(world.bodies.motion[body]);
     };
     for (std::uint32_t i = 0; i < table.size(); ++i)
         for (const std::uint32_t body : {table.joints[i].a, table.joints[i].b})

@@ -127,21 +127,18 @@ void wake(Bodies& b, std::uint32_t body) {
 }
 
 bool wake_near(World& world, std::uint32_t body) {
+    Bodies& b = world.bodies;
     bool any = false;
-    for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
-        if (world.bodies.motion[i] != Motion::asleep || !are_near(world, i, body)) continue;
-        wake(world.bodies, i);
-        any = true;
-    }
-    const auto wake_joined = [&](std::uint32_t i) {
-        if (i == kNoIndex || world.bodies.motion[i] != Motion::asleep) return;
-        wake(world.bodies, i);
-        any = true;
+    const auto stir = [&](std::uint32_t i) {
+        if (i == kNoIndex) return;
+        any |= b.motion[i] == Motion::asleep;
+        wake(b, i);
+        b.rest_time[i] = 0;
     };
-    for (const Joint& joint : world.joints.joints) {
-        if (joint.a == body) wake_joined(joint.b);
-        if (joint.b == body) wake_joined(joint.a);
-    }
+    for (std::uint32_t i = 0; i < b.size(); ++i)
+        if (is_movable(b.motion[i]) && are_near(world, i, body)) stir(i);
+    for (const Joint& joint : world.joints.joints)
+        if (joint.a == body || joint.b == body) stir(joint.a), stir(joint.b);
     if (any) sort_contacts(world);
     return any;
 }

@@ -33,8 +33,9 @@ void put_to_sleep(Bodies& bodies, const std::vector<std::uint32_t>& island);
 /// Wakes a body if it sleeps, with all that fell asleep with it. Contacts and rows are out of date.
 void wake(Bodies& bodies, std::uint32_t body);
 
-/// The same for what touches a body, is near it or joined to it, and for itself: before it is taken
-/// away or moved, and after it came. Returns whether anything woke.
+/// The same for what touches a body, is near it or joined to it, and for itself: before it is
+/// moved, once it came, or is to go. What is awake there has not rested. Returns whether anything
+/// woke.
 bool wake_near(World& world, std::uint32_t body);
 
 /// Puts the contacts of bodies that are both still aside, and those of which one moves now among

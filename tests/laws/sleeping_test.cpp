@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// What sleeps stays where it is and costs nothing, and is disturbed as it would be awake.
 #include "host/editing.h"
+#include "scene/error.h"
 #include "support/draw_settings.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -203,6 +204,69 @@ TEST_P(Sleep, WhateverIsAskedOfItWakesIt) {
               2u);
 }
 
+/// Whatever the step: also where it is asked which bodies rest.
+TEST_P(Sleep, NoEditIsSwallowed) {
+    if (collider() == "fcl") return;  // the same on others
+    Scene s = stack(1);
+    add_body(s, box(0.3, 0.1, 0.3), {3, 0.1, 0});
+    add_body(s, box(0.1, 0.1, 0.1), {3, 0.3, 0});
+    add_body(s, box(0.1, 0.1, 0.1), {6, 3, 0});
+    add_joint(s, JointKind::fixed, 4, kNoIndex, {6, 3, 0});
+    for (int steps = 40; steps <= 62; ++steps) {
+        Simulation simulation = running(s);
+        make_steps(simulation, steps);
+        const std::vector<Vector> before = simulation.world().bodies.position;
+        simulation.set_force(1, {2000, 0, 0}, Vector::Zero());
+        simulation.set_placement(3, {{3, 2, 0}, Rotation::Identity()});
+        simulation.remove_joint(0);
+        make_steps(simulation, 30);
+        const std::vector<Vector>& after = simulation.world().bodies.position;
+        SCOPED_TRACE(steps);
+        EXPECT_GT(after[1].x() - before[1].x(), 0.01);
+        EXPECT_LT(after[3].y(), 1.6);
+        EXPECT_LT(after[4].y(), 2.6);
+    }
+}
+
+/// What begins to move does not rest, however slowly it begins.
+TEST_P(Sleep, WhatBeginsToMoveGoesOn) {
+    Scene light = sleepy_scene();
+    light.settings.gravity = {0, -0.015, 0};
+    add_body(light, sphere(0.1), {0, 2, 0});
+    Scene pushed = sleepy_scene();
+    pushed.settings.gravity.setZero();
+    BodySpec& heavy = add_body(pushed, box(0.2, 0.2, 0.2), {0, 2, 0});
+    heavy.mass = 100, heavy.force = {0, -1, 0};
+    Scene dropped = sleepy_scene();
+    dropped.settings.sleep_time = 0, dropped.settings.dt = 1e-3;
+    add_body(dropped, sphere(0.1), {0, 2, 0});
+    for (Scene* s : {&light, &pushed, &dropped}) {
+        Simulation simulation = running(*s);
+        const double a = s == &light ? 0.015 : s == &pushed ? 0.01 : kGravity;
+        run_for(simulation, s == &dropped ? 0.4 : 4);
+        const double t = simulation.time();
+        EXPECT_NEAR(simulation.world().bodies.position[0].y(), 2 - 0.5 * a * t * t, 0.02 * a * t);
+    }
+}
+
+/// A door on which a box rests goes at some time, on which none of the box's own depends.
+TEST_P(Sleep, WhatLiesOnWhatIsMovedAlongFallsWithIt) {
+    for (const double dt : {0.001, 0.002, 0.01})
+        for (int k = 0; k < 12; ++k) {
+            Scene s = sleepy_scene();
+            s.settings.dt = dt, s.settings.sleep_speed = 0.03;
+            BodySpec& door = add_body(s, box(0.3, 0.1, 0.3), {0, 0, 0}, Motion::kinematic);
+            const double opens = 0.9 + 0.7 * dt * k;
+            door.script.keyframes = {{0, {{0, 0, 0}, Rotation::Identity()}},
+                                     {opens, {{0, 0, 0}, Rotation::Identity()}},
+                                     {opens + dt, {{9, 0, 0}, Rotation::Identity()}}};
+            add_body(s, box(0.1, 0.1, 0.1), {0, 0.2, 0});
+            Simulation simulation = running(s);
+            run_for(simulation, 1.3);
+            EXPECT_LT(simulation.world().bodies.position[1].y(), 0) << dt << " s, " << k;
+        }
+}
+
 /// A lamp that hangs from the world on two rods, and a lid on a stop: joints, limits and friction.
 TEST_P(Sleep, JointsHoldWhatSleeps) {
     Scene s = sleepy_scene();
@@ -211,7 +275,7 @@ TEST_P(Sleep, JointsHoldWhatSleeps) {
     add_joint(s, JointKind::ball, 0, kNoIndex, {0, 0, 0});
     add_joint(s, JointKind::ball, 1, 0, {0, -0.6, 0});
     for (JointSpec& joint : s.joints)
-        for (const int axis : {kTurnX, kTurnY, kTurnZ}) joint.axes[axis].damping = 2;
+        for (const int axis : {kTurnX, kTurnY, kTurnZ}) joint.axes[axis].damping = 8;
     add_body(s, box(0.3, 0.02, 0.2), {2.3, 0, 0});
     add_joint(s, JointKind::hinge, 2, kNoIndex, {2, 0, 0}).axes[kTurnX].lower = -0.2;
     s.joints.back().axes[kTurnX].upper = 0.2;
@@ -320,6 +384,65 @@ TEST(Sleeping, GoesOnFromASavedState) {
         }
         EXPECT_EQ(two.save(), one.save());
     }
+}
+
+/// A chain that sleeps is a tree all the same when it is struck: after a state is restored, and
+/// after an edit elsewhere.
+TEST(Sleeping, JointsAreSolvedAsTheyWereBefore) {
+    Scene s;
+    s.settings.sleep_speed = kSlow;
+    for (std::uint32_t i = 0; i < 8; ++i) {
+        add_body(s, box(0.05, 0.1, 0.05), {0, -0.1 - 0.2 * i, 0});
+        add_joint(s, JointKind::ball, i, i == 0 ? kNoIndex : i - 1, {0, -0.2 * i, 0});
+    }
+    add_body(s, sphere(0.1), {-10, -1.0, 0}).velocity = {5, 9.81, 0};  // comes by after 2 s
+    Simulation one(s, colliders(), "ode"), two(s, colliders(), "ode"), three(s, colliders(), "ode");
+    s.settings.sleep_speed = 0;
+    Simulation wakeful(s, colliders(), "ode");
+    make_steps(one, 150), make_steps(three, 150), make_steps(wakeful, 150);
+    ASSERT_EQ(asleep(one.world()), 8u);
+    two.restore(one.save());
+    three.add_material({});
+    double widest = 0, widest_awake = 0;
+    for (int i = 0; i < 150; ++i) {
+        one.step(), two.step(), three.step(), wakeful.step();
+        ASSERT_EQ(hash_of(two), hash_of(one)) << "step " << i;
+        ASSERT_EQ(hash_of(three), hash_of(one)) << "step " << i;
+        widest = std::max(widest, widest_joint(one.world()));
+        widest_awake = std::max(widest_awake, widest_joint(wakeful.world()));
+    }
+    EXPECT_TRUE(two.plan().runs(Effect::joint_trees));
+    EXPECT_GT((one.world().bodies.position[7] - Vector(0, -1.5, 0)).norm(), 0.05) << "struck";
+    EXPECT_LT(widest, 1.1 * widest_awake + 1e-6);
+}
+
+/// Edits that are refused wake nothing, and those far away change nothing of what sleeps.
+TEST(Sleeping, EditsElsewhereChangeNothing) {
+    Scene s;
+    s.settings.sleep_speed = kSlow;
+    add_ground(s);
+    for (std::uint32_t i = 0; i < 2; ++i) {
+        add_body(s, box(0.1, 0.1, 0.1), {0.5 * i, 1, 0});
+        JointSpec& joint = add_joint(s, JointKind::slider, 1 + i, i == 0 ? kNoIndex : 1, {0, 1, 0});
+        joint.axes[kAlongX].stiffness = 1000, joint.axes[kAlongX].damping = 100;
+    }
+    add_body(s, box(0.1, 0.1, 0.1), {50, 1, 0});
+    add_joint(s, JointKind::ball, 3, kNoIndex, {50, 1, 0});
+    Simulation simulation(s, colliders(), "ode");
+    const auto crowd = [&] { return simulation.world().joints.joints[0].crowd; };
+    const std::uint32_t before = crowd();
+    EXPECT_EQ(before, 2u);
+    run_for(simulation, 3);
+    ASSERT_EQ(asleep(simulation.world()), 3u);
+    const std::string state = simulation.save();
+    EXPECT_THROW(simulation.set_motor_target(0, kAlongX, 1), std::invalid_argument);
+    JointSpec wrong;
+    wrong.body_a = wrong.body_b = 1;
+    EXPECT_THROW(simulation.add_joint(wrong), SceneError);
+    EXPECT_EQ(simulation.save(), state);
+    simulation.remove_joint(2);
+    EXPECT_EQ(crowd(), before);
+    EXPECT_EQ(asleep(simulation.world()), 2u);
 }
 
 /// Particles wake what they meet, and what a string holds stays awake.
