@@ -111,8 +111,7 @@ Trajectory recorded(const Scene& scene, double interval, const Length& length,
 double size_of(const World& world) {
     double sum = 0;
     for (std::size_t i = 0; i < world.bodies.size(); ++i)
-        if (is_movable(world.bodies.motion[i]) &&
-            std::isfinite(world.bodies.bounding_radius[i]))
+        if (is_movable(world.bodies.motion[i]) && std::isfinite(world.bodies.bounding_radius[i]))
             sum += world.bodies.bounding_radius[i];
     for (const Deformable& d : world.deformables) {
         const Vector3d centre = centre_of(world, d);
