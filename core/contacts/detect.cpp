@@ -84,11 +84,10 @@ void look_at_rooms(const DetectBuffers& buffers, StepReport& report) {
 }
 
 /// Whether a contact of known bodies lies aside, as one of them sleeps and the other is still.
-bool both_sleep(const World& world, const Contact& c) {
-    const Bodies& b = world.bodies;
+bool lies_aside(const Bodies& b, const std::vector<BodyMotion>& motions, const Contact& c) {
     if (c.a >= b.size() || c.b >= b.size()) return false;
     const bool any = b.motion[c.a] == Motion::asleep || b.motion[c.b] == Motion::asleep;
-    return any && is_still(b, c.a) && is_still(b, c.b);
+    return any && motions[c.a].is_still && motions[c.b].is_still;
 }
 
 void take_contacts(World& world, const DetectBuffers& buffers, StepReport& report) {
@@ -97,8 +96,8 @@ void take_contacts(World& world, const DetectBuffers& buffers, StepReport& repor
     if (report.collider_unusable) return;
     for (const ContactRoom& room : buffers.rooms)
         for (const Contact& c : room) {
-            if (both_sleep(world, c))
-                continue;  // from colliders that were not asked to leave it out
+            // from colliders that were not asked to leave it out
+            if (lies_aside(world.bodies, buffers.motions, c)) continue;
             const ContactFault fault = fault_of(c, world, buffers.sweeps);
             if (fault == ContactFault::none) {
                 found.push_back(c);

@@ -42,8 +42,7 @@ void check_raw(Proximity& proximity, const World& world, const std::string& coll
 
 BodyRow shape_row(const Bodies& b, std::uint32_t slot) {
     BodyRow row;
-    row.id = b.id[slot];
-    row.motion = is_movable(b.motion[slot]) ? Motion::dynamic : b.motion[slot];
+    row.id = b.id[slot], row.motion = awake(b.motion[slot]);
     row.geometry = b.geometry[slot], row.geometry_in_body = b.geometry_in_body[slot];
     row.group = b.group[slot], row.mask = b.mask[slot];
     return row;

@@ -73,7 +73,7 @@ void add_bodies(Hash& hash, const World& world) {
     const Bodies& b = world.bodies;
     hash << world.slots.next().id << b.id << b.mass << b.inertia << b.geometry_in_body << b.geometry
          << b.material << b.group << b.mask;
-    for (const Motion motion : b.motion) hash << (is_movable(motion) ? Motion::dynamic : motion);
+    for (const Motion motion : b.motion) hash << awake(motion);
     for (const MotionScript& script : b.script) {
         hash << script.loop << script.keyframes.size();
         for (const Keyframe& key : script.keyframes) hash << key.time << key.placement;

@@ -4,6 +4,7 @@
 #include "scene/error.h"
 #include "world/derived.h"
 #include "world/edit_world.h"
+#include "world/sleep.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +18,7 @@ namespace {
 bool is_well_known(const Bodies& b, const BodyRow& row) {
     int alike = 0;
     for (std::size_t i = 0; i < b.size() && alike < 2; ++i)
-        alike += b.geometry[i] == row.geometry && shape_row(b, i).motion == row.motion &&
+        alike += b.geometry[i] == row.geometry && awake(b.motion[i]) == row.motion &&
                  b.group[i] == row.group && b.mask[i] == row.mask;
     return alike == 2;
 }

@@ -134,7 +134,7 @@ private:
         return {row_of(world, joint.a), row_of(world, joint.b), item, 1, 0};
     }
 
-    /// One that is broken has its place all the same: it may break in any step.
+    /// One that broke keeps its place, so that the others keep theirs.
     static bool is_laid_out(const World& world, const Joint& joint) {
         return joint.broken || world.acts(joint);
     }

@@ -20,6 +20,11 @@ constexpr bool is_movable(Motion motion) {
     return motion == Motion::dynamic || motion == Motion::asleep;
 }
 
+/// What a body is while it does not sleep.
+constexpr Motion awake(Motion motion) {
+    return motion == Motion::asleep ? Motion::dynamic : motion;
+}
+
 /// Whether a body is where a step would leave it, whatever touches it: it is fixed, it sleeps, or
 /// it is kinematic, at rest and without a script.
 bool is_still(const Bodies& bodies, std::size_t body);

@@ -206,7 +206,6 @@ TEST_P(Sleep, WhateverIsAskedOfItWakesIt) {
 
 /// Whatever the step: also where it is asked which bodies rest.
 TEST_P(Sleep, NoEditIsSwallowed) {
-    if (collider() == "fcl") return;  // the same on others
     Scene s = stack(1);
     add_body(s, box(0.3, 0.1, 0.3), {3, 0.1, 0});
     add_body(s, box(0.1, 0.1, 0.1), {3, 0.3, 0});
