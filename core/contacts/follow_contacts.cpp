@@ -74,14 +74,33 @@ void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) 
     set_anchors(m, poses, now, Vector3d::Zero());
 }
 
+/// What slid in the substep before sticks anew where it is now, and what bore nothing with the slip
+/// of the nearest contact that stuck, as from step to step (match_contacts.cpp). The points that
+/// met when the step began would pull back what came to a stand after them.
+void renew_anchors(ContactTable& c, const PairPoses& poses, const ContactPair& pair) {
+    const auto sticks = [&](std::size_t k) { return c.hold[pair.first + k] == Hold::sticks; };
+    const auto point_at = [&](std::size_t k) { return c.point[pair.first + k]; };
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+        if (c.hold[i] == Hold::sticks || !is_sharp(c.found[i])) continue;
+        const std::size_t from = c.hold[i] == Hold::slides
+                                     ? pair.count
+                                     : nearest_sticking(pair.count, c.point[i], sticks, point_at);
+        Vector3d slip = Vector3d::Zero();
+        if (from < pair.count) slip = anchor_slip_of(poses, c.memory[pair.first + from]);
+        set_anchors(c.memory[i], poses, c.point[i], slip);
+    }
+}
+
 /// How far apart the points have come that met when a contact began to stick.
-void measure_anchor_slips(World& world) {
+void measure_anchor_slips(World& world, bool first_substep) {
     ContactTable& c = world.contacts;
     c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
+    if (first_substep && world.settings.substeps > 1) c.hold.assign(c.found.size(), Hold::sticks);
     for (const ContactPair& pair : c.pairs) {
         const auto first = c.found.begin() + pair.first;
         if (std::none_of(first, first + pair.count, is_sharp)) continue;
         const PairPoses poses(world.bodies, pair.a, pair.b);
+        if (!first_substep) renew_anchors(c, poses, pair);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
             if (!is_sharp(c.found[i])) continue;
             if (!c.rims.empty()) let_go_of_what_rolled(world, poses, i);
@@ -101,7 +120,7 @@ void follow_contacts(World& world, const Plan& plan, bool first_substep) {
         if (rims) follow_rims(world);
         measure(world);
     }
-    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world);
+    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world, first_substep);
 }
 
 }  // namespace plumb

@@ -3,6 +3,7 @@
 /// back.
 #pragma once
 
+#include "contacts/anchors.h"
 #include "contacts/contact_measures.h"
 #include "contacts/contact_pairs.h"
 #include "contacts/contact_sums.h"
@@ -262,6 +263,15 @@ public:
         });
     }
 
+    /// For the next substep, if there is one.
+    void note_holds(ContactTable& contacts) {
+        if (contacts.hold.empty()) return;
+        const ContactArrays<Real, W> rows = batches_.arrays();
+        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
+            contacts.hold[contact] = hold_of(rows, k, lane, impulse_of(rows, k, lane));
+        });
+    }
+
     void end_step(World& world) override {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
@@ -274,13 +284,17 @@ public:
             memory.missed = missed_after_sweeps(memory.missed);
             if (!rows.frictions) return;
             memory.friction_impulse = p.friction();
-            const double friction = double(rows.frictions[k].friction[lane]);
-            const double most = (1 - 1e-5) * friction * memory.normal_impulse;
-            memory.sticks = p.x * p.x + p.y * p.y < most * most;
+            memory.sticks = hold_of(rows, k, lane, p) == Hold::sticks;
         });
     }
 
 private:
+    static Hold hold_of(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
+                        const RowImpulse& p) {
+        return plumb::hold_of(p.normal, p.x * p.x + p.y * p.y,
+                              double(rows.frictions[k].friction[lane]));
+    }
+
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
     /// full, if it is more than what gravity moves in a step. Only bodies that are moved by others
     /// squeeze without end; elsewhere it must be deep indeed, or heaps would creep. What presses on

@@ -57,6 +57,8 @@ public:
     /// Once a substep, impulses of ties; once a step, those of contacts.
     void store_tie_impulses(World& world) const;
     void store_impulses(ContactTable& contacts) const;
+    /// Once a substep, for the next: which contacts stick.
+    void note_holds(ContactTable& contacts) const;
 
     /// After these: which large islands are to be solved in the next step (step/large_islands.h).
     void note_what_misses(World& world, const IslandResiduals& residuals) const;
@@ -126,6 +128,7 @@ private:
     double torn_from(const World& world, const Member& member, double h) const;
     double open_at_start(const Member& member);
     void forget_impulses();
+    void forget_what_throws(const Member& member);
     void forget_what_whirls(const Member& member);
     void apply_impulses();
     Island island_of(const Member& member);

@@ -219,6 +219,8 @@ public:
             const auto share = share_of(*group, ledger, Stage::joints);
             group->end_substep(world);
         }
+        contacts_->note_holds(world.contacts);
+        if (islands_) islands_->note_holds(world.contacts);
         if (!islands_) return;
         islands_->store_tie_impulses(world);
         islands_->open_apart(world.bodies);
