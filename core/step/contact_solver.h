@@ -381,6 +381,7 @@ private:
     /// Fills the rows of all pairs by fill(pair), their masses, and what follows from both.
     template <class Fill>
     void fill_rows(const World& world, Fill fill) {
+        if (pairs_.empty()) return;
         masses_.fill(world);
         workers_.run([&](std::uint32_t worker) {
             const Range blocks = workers_.share(batches_.block_count(), worker);
