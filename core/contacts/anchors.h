@@ -16,22 +16,6 @@ inline Hold hold_of(double normal, double across_squared, double friction) {
     return across_squared < most * most ? Hold::sticks : Hold::slides;
 }
 
-/// Of `count` contacts the one that sticks nearest to a point; `count` where none does.
-template <class Sticks, class PointAt>
-std::size_t nearest_sticking(std::size_t count, const Vector3d& point, Sticks sticks,
-                             PointAt point_at) {
-    std::size_t best = count;
-    double least = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        if (!sticks(i)) continue;
-        const double distance = (point_at(i) - point).squaredNorm();
-        if (best < count && distance >= least) continue;
-        best = i;
-        least = distance;
-    }
-    return best;
-}
-
 /// A contact begins to stick at `point`, with a slip behind it already [m].
 inline void set_anchors(ContactMemory& memory, const PairPoses& poses, const Vector3d& point,
                         const Vector3d& slip) {

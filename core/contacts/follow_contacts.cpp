@@ -74,21 +74,16 @@ void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) 
     set_anchors(m, poses, now, Vector3d::Zero());
 }
 
-/// What slid in the substep before sticks anew where it is now, and what bore nothing with the slip
-/// of the nearest contact that stuck, as from step to step (match_contacts.cpp). The points that
-/// met when the step began would pull back what came to a stand after them.
+/// A pair that slid in the substep before sticks anew where it is now: the points that met when the
+/// step began would pull back what came to a stand after them. It slid where some of its contacts
+/// did and none stuck; one that slips for a moment, as in what rocks, does not make it forget how
+/// far it has crept.
 void renew_anchors(ContactTable& c, const PairPoses& poses, const ContactPair& pair) {
-    const auto sticks = [&](std::size_t k) { return c.hold[pair.first + k] == Hold::sticks; };
-    const auto point_at = [&](std::size_t k) { return c.point[pair.first + k]; };
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
-        if (c.hold[i] == Hold::sticks || !is_sharp(c.found[i])) continue;
-        const std::size_t from = c.hold[i] == Hold::slides
-                                     ? pair.count
-                                     : nearest_sticking(pair.count, c.point[i], sticks, point_at);
-        Vector3d slip = Vector3d::Zero();
-        if (from < pair.count) slip = anchor_slip_of(poses, c.memory[pair.first + from]);
-        set_anchors(c.memory[i], poses, c.point[i], slip);
-    }
+    const auto first = c.hold.begin() + pair.first, last = first + pair.count;
+    const auto any = [&](Hold hold) { return std::find(first, last, hold) != last; };
+    if (!any(Hold::slides) || any(Hold::sticks)) return;
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
+        set_anchors(c.memory[i], poses, c.point[i], Vector3d::Zero());
 }
 
 /// How far apart the points have come that met when a contact began to stick.

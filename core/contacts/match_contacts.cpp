@@ -74,9 +74,15 @@ void match_pair(const PairRun& now, const PairRun& before, std::vector<std::uint
 
 /// The nearest contact before that stuck; before.size() where none did.
 std::size_t nearest_sticking(const PairRun& before, const Vector3d& point) {
-    return plumb::nearest_sticking(
-        before.size(), point, [&](std::size_t j) { return before.memory[j].sticks; },
-        [&](std::size_t j) { return common_point(before.found[j]); });
+    std::size_t best = before.size();
+    double least = 0;
+    for (std::size_t j = 0; j < before.size(); ++j) {
+        const double distance = (common_point(before.found[j]) - point).squaredNorm();
+        if (!before.memory[j].sticks || (best < before.size() && distance >= least)) continue;
+        best = j;
+        least = distance;
+    }
+    return best;
 }
 
 /// A contact that slid begins to stick anew where it is. One that is new, or carried nothing, takes

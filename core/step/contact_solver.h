@@ -263,10 +263,10 @@ public:
         });
     }
 
-    /// For the next substep, if there is one.
+    /// What the friction of each contact did in this substep.
     void note_holds(ContactTable& contacts) {
-        if (contacts.hold.empty()) return;
         const ContactArrays<Real, W> rows = batches_.arrays();
+        if (!rows.frictions) return;
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             contacts.hold[contact] = hold_of(rows, k, lane, impulse_of(rows, k, lane));
         });

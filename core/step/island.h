@@ -174,11 +174,15 @@ inline Vector6d momentum(const IslandBody& body, const Vector6d& v) {
     return p;
 }
 
-/// Of bodies that move by `v` [J].
+/// Of a body that moves by `v` [J].
+inline double kinetic_energy(const IslandBody& body, const Vector6d& v) {
+    return 0.5 * v.dot(momentum(body, v));
+}
+/// The same of several.
 inline double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector6d> v) {
-    double twice = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i) twice += v[i].dot(momentum(bodies[i], v[i]));
-    return 0.5 * twice;
+    double sum = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) sum += kinetic_energy(bodies[i], v[i]);
+    return sum;
 }
 
 }  // namespace plumb

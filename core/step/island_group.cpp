@@ -52,7 +52,7 @@ constexpr double kFlung = 4;
 /// Bodies that fly about and overlap part at least at this share of their radius [1/s].
 constexpr double kDrift = 0.3;
 
-/// Impulses that give an island so many times the kinetic energy that it has without are no start.
+/// Impulses that give a body so many times the kinetic energy that it has without are no start.
 constexpr double kThrown = 2;
 
 Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
@@ -479,15 +479,38 @@ void IslandGroup::forget_impulses() {
 }
 
 /// Impulses of the substep before take the push of gravity back where nothing changed. What stopped
-/// a blow would throw all that it hit back as fast: such are no start.
+/// a blow would throw the bodies that it hit back as fast: such are no start. Nor are those that
+/// held against them, one contact after another.
 void IslandGroup::forget_what_throws(const Member& m) {
     if (!m.ties.empty() || m.is_driven) return;
     const Island island = island_of(m);
     const std::span<const Vector6d> start = starts_of(m);
-    const double most = kThrown * kinetic_energy(island.bodies, start);
-    if (kinetic_energy(island.bodies, island.velocity) <= most) return;
-    IslandSolver::forget(island);
-    std::copy(start.begin(), start.end(), island.velocity.begin());
+    thrown_.assign(island.bodies.size(), 0);
+    while (find_thrown(island, start)) {
+        const std::span<Vector6d> sums(force_.data() + m.first_body, island.bodies.size());
+        std::fill(sums.begin(), sums.end(), Vector6d::Zero());
+        const auto throws = [&](std::uint32_t body) {
+            return body != kImmovable && thrown_[body] != 0;
+        };
+        for (IslandPoint& point : island.points) {
+            if (throws(point.a) || throws(point.b)) point.impulse.setZero();
+            add_impulse(point, point.impulse, sums);
+        }
+        for (std::size_t i = 0; i < sums.size(); ++i)
+            island.velocity[i] = start[i] + response(island.bodies[i], sums[i]);
+    }
+}
+
+/// Marks the bodies that the impulses throw; whether there are new ones.
+bool IslandGroup::find_thrown(const Island& island, std::span<const Vector6d> start) {
+    bool any = false;
+    for (std::size_t i = 0; i < thrown_.size(); ++i) {
+        if (thrown_[i]) continue;
+        const auto energy = [&](const Vector6d& v) { return kinetic_energy(island.bodies[i], v); };
+        thrown_[i] = energy(island.velocity[i]) > kThrown * energy(start[i]);
+        any |= thrown_[i] != 0;
+    }
+    return any;
 }
 
 /// Nor are those that joints bore when a robot landed: they would whirl its links about, once its
@@ -757,7 +780,6 @@ void IslandGroup::rest_ties(World& world) {
 }
 
 void IslandGroup::note_holds(ContactTable& contacts) const {
-    if (contacts.hold.empty()) return;
     for (std::size_t k = 0; k < points_.size(); ++k)
         contacts.hold[contacts_[k]] = hold_of(points_[k]);
 }

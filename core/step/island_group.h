@@ -129,6 +129,7 @@ private:
     double open_at_start(const Member& member);
     void forget_impulses();
     void forget_what_throws(const Member& member);
+    bool find_thrown(const Island& island, std::span<const Vector6d> start);
     void forget_what_whirls(const Member& member);
     void apply_impulses();
     Island island_of(const Member& member);
@@ -150,6 +151,7 @@ private:
     bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
+    std::vector<std::uint8_t> thrown_;                // [body of an island]
     std::vector<Vector6d> shift_;  // [body] see open_apart, as a velocity over the substep
     double h_ = 0;                 // the substep [s]
     std::vector<IslandPoint> points_;

@@ -101,7 +101,6 @@ TEST_P(Friction, BrakingDistanceDoesNotDependOnMass) {
     for (double d : distances) EXPECT_NEAR(d / distances[0], 1, 1e-3);
 }
 
-/// A ball that slides at first rolls at 5 v₀/7.
 /// What comes to a stand in the middle of a step is not pulled back to where it was when it began.
 TEST_P(Friction, WhatHasStoppedDoesNotGoBack) {
     Random random(21);
@@ -128,6 +127,7 @@ TEST_P(Friction, WhatHasStoppedDoesNotGoBack) {
     }
 }
 
+/// A ball that slides at first rolls at 5 v₀/7.
 TEST_P(Friction, ASlidingBallComesToRoll) {
     Scene s = scene();
     use_fine_steps(s.settings);
