@@ -127,6 +127,22 @@ TEST_P(Friction, WhatHasStoppedDoesNotGoBack) {
     }
 }
 
+/// Forbidden friction brakes nothing, whether islands are solved exactly or not.
+TEST_P(Friction, BrakesNothingWhereItIsForbidden) {
+    for (const std::uint32_t exact : {0u, 64u})
+        for (const std::uint32_t substeps : {1u, 4u}) {
+            Scene s = scene();
+            s.settings.forbid = {"friction"};
+            s.settings.substeps = substeps, s.settings.exact_islands = exact;
+            add_ground(s);
+            add_body(s, box(0.2, 0.05, 0.1), {0, 0.05, 0}).velocity = {1, 0, 0};
+            Simulation simulation(s, colliders(), collider());
+            run_for(simulation, 0.5);
+            EXPECT_NEAR(simulation.world().bodies.velocity[1].x(), 1, 1e-6)
+                << exact << ", " << substeps << " substeps";
+        }
+}
+
 /// A ball that slides at first rolls at 5 v₀/7.
 TEST_P(Friction, ASlidingBallComesToRoll) {
     Scene s = scene();

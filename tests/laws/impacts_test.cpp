@@ -235,6 +235,42 @@ TEST_P(Impacts, WithoutRestitutionRowsOnTheGroundStay) {
     }
 }
 
+/// A blow is felt as one also where its island holds much that only stands there.
+TEST_P(Impacts, WithoutRestitutionRowsBeforeAStandingWallStay) {
+    constexpr int kDraws = 20;
+    Random random(16);
+    int back = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+        Scene s = scene();
+        s.materials[0].restitution = 0, s.materials[0].friction = random.number(0.1, 1);
+        add_ground(s);
+        const std::uint32_t count = 1 + random.below(6);
+        const double speed = random.number(0.5, 4);
+        add_body(s, box(0.1, 0.1, 0.1), {-0.2 - random.number(0.001, 0.1), 0.1, 0}).velocity = {
+            speed, 0, 0};
+        for (std::uint32_t i = 0; i < count; ++i)
+            add_body(s, box(0.1, 0.1, 0.1), {0.2 * i, 0.1, 0});
+        for (int i = 0; i < 16; ++i)
+            add_body(s, box(0.2, 0.1, 0.2),
+                     {0.2 * count + 0.1, 0.1 + 0.2 * (i / 4), 0.4 * (i % 4) - 0.6})
+                .mass = random.number(8, 80);
+        if (draw % 2 == 1) s.settings.dt = random.number(0.005, 0.015);
+        Simulation simulation(s, colliders(), collider());
+        const World& world = simulation.world();
+        double fastest = 0;
+        while (simulation.time() < 0.4) {
+            simulation.step();
+            for (std::uint32_t i = 1; i < count + 2; ++i)
+                fastest = std::max(fastest, -world.bodies.velocity[i].x());
+        }
+        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << count << " cubes, " << speed
+                                        << " m/s, " << s.settings.dt << " s");
+        EXPECT_LT(fastest, 0.05 * speed);
+        back += fastest > 0.01 * speed;
+    }
+    EXPECT_LE(back, kDraws / 10);
+}
+
 /// A body that falls on the ground from some times its radius, turning at a rate [rad/s].
 Scene falling(Scene s, Random& random, const Geometry& shape, double radius, double rate) {
     s.materials[0].friction = 0;
