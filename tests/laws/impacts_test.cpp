@@ -271,6 +271,40 @@ TEST_P(Impacts, WithoutRestitutionRowsBeforeAStandingWallStay) {
     EXPECT_LE(back, kDraws / 10);
 }
 
+/// Two rows that run into each other part again in one draw of ten.
+TEST_P(Impacts, WithoutRestitutionRowsThatMeetStayTogether) {
+    constexpr int kDraws = 30;
+    Random random(17);
+    int parting = 0;
+    for (int draw = 0; draw < kDraws; ++draw) {
+        Scene s = scene();
+        s.materials[0].restitution = 0, s.materials[0].friction = random.number(0.1, 1.2);
+        choose_step(s.settings, draw, random);
+        s.settings.dt = std::min(s.settings.dt, 0.01);
+        s.settings.exact_islands = Settings().exact_islands;
+        add_ground(s);
+        const std::uint32_t left = 1 + random.below(8), right = 1 + random.below(8);
+        const double speed = random.number(0.5, 2), apart = 0.2 + random.number(0.001, 0.1);
+        for (std::uint32_t i = 0; i < left; ++i)
+            add_body(s, box(0.1, 0.1, 0.1), {-0.2 * i, 0.1, 0}).velocity = {speed, 0, 0};
+        for (std::uint32_t i = 0; i < right; ++i)
+            add_body(s, box(0.1, 0.1, 0.1), {apart + 0.2 * i, 0.1, 0}).velocity = {-speed, 0, 0};
+        Simulation simulation(s, colliders(), collider());
+        const std::vector<Vector>& v = simulation.world().bodies.velocity;
+        double most = 0;
+        while (simulation.time() < 0.3) {
+            simulation.step();
+            most = std::max(most, v[left + 1].x() - v[1].x());
+        }
+        SCOPED_TRACE(testing::Message()
+                     << "draw " << draw << ", " << left << " and " << right << " cubes, " << speed
+                     << " m/s, " << s.settings.dt << " s x " << s.settings.substeps);
+        EXPECT_LT(most, 0.16 * 2 * speed);
+        parting += most > 0.01 * 2 * speed;
+    }
+    EXPECT_LE(parting, kDraws / 10);
+}
+
 /// A body that falls on the ground from some times its radius, turning at a rate [rad/s].
 Scene falling(Scene s, Random& random, const Geometry& shape, double radius, double rate) {
     s.materials[0].friction = 0;
