@@ -8,12 +8,11 @@
 
 namespace plumb {
 
-/// What the friction of a contact does whose impulses are `normal` along and `across` it [N s].
-inline Hold hold_of(double normal, double across_squared, double friction) {
-    constexpr double kBelow = 1 - 1e-5;  // of its bound, where it sticks
-    if (!(normal > 0)) return Hold::nothing;
+/// Whether a contact sticks with these impulses along and, squared, across it [N s].
+inline bool does_stick(double normal, double across_squared, double friction) {
+    constexpr double kBelow = 1 - 1e-5;  // of its bound
     const double most = kBelow * friction * normal;
-    return across_squared < most * most ? Hold::sticks : Hold::slides;
+    return across_squared < most * most;
 }
 
 /// A contact begins to stick at `point`, with a slip behind it already [m].

@@ -263,12 +263,12 @@ public:
         });
     }
 
-    /// What the friction of each contact did in this substep.
-    void note_holds(ContactTable& contacts) {
+    /// Which contacts stick in this substep.
+    void note_sticking(ContactTable& contacts) {
         const ContactArrays<Real, W> rows = batches_.arrays();
         if (!rows.frictions) return;
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
-            contacts.hold[contact] = hold_of(rows, k, lane, impulse_of(rows, k, lane));
+            contacts.sticks[contact] = does_stick(rows, k, lane, impulse_of(rows, k, lane));
         });
     }
 
@@ -284,15 +284,15 @@ public:
             memory.missed = missed_after_sweeps(memory.missed);
             if (!rows.frictions) return;
             memory.friction_impulse = p.friction();
-            memory.sticks = hold_of(rows, k, lane, p) == Hold::sticks;
+            memory.sticks = does_stick(rows, k, lane, p);
         });
     }
 
 private:
-    static Hold hold_of(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
-                        const RowImpulse& p) {
-        return plumb::hold_of(p.normal, p.x * p.x + p.y * p.y,
-                              double(rows.frictions[k].friction[lane]));
+    static bool does_stick(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
+                           const RowImpulse& p) {
+        return plumb::does_stick(p.normal, p.x * p.x + p.y * p.y,
+                                 double(rows.frictions[k].friction[lane]));
     }
 
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in

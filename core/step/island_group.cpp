@@ -71,8 +71,8 @@ double closing_velocity(double gap, double h, const PushOut& push_out) {
     return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
 }
 
-Hold hold_of(const IslandPoint& p) {
-    return plumb::hold_of(p.impulse[0], p.impulse.segment<2>(1).squaredNorm(), p.cone.friction);
+bool does_stick(const IslandPoint& p) {
+    return plumb::does_stick(p.impulse[0], p.impulse.segment<2>(1).squaredNorm(), p.cone.friction);
 }
 
 /// Of a driven axis, as far as its bounds or the substep before tell.
@@ -779,9 +779,9 @@ void IslandGroup::rest_ties(World& world) {
         });
 }
 
-void IslandGroup::note_holds(ContactTable& contacts) const {
+void IslandGroup::note_sticking(ContactTable& contacts) const {
     for (std::size_t k = 0; k < points_.size(); ++k)
-        contacts.hold[contacts_[k]] = hold_of(points_[k]);
+        contacts.sticks[contacts_[k]] = does_stick(points_[k]);
 }
 
 void IslandGroup::store_impulses(ContactTable& contacts) const {
@@ -794,7 +794,7 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         memory.exact = true;
         memory.jammed = locked_[k] != 0;
         memory.gap = contacts.found[contacts_[k]].gap;
-        memory.sticks = hold_of(p) == Hold::sticks;
+        memory.sticks = does_stick(p);
     }
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];

@@ -225,9 +225,9 @@ public:
         islands_->open_apart(world.bodies);
     }
 
-    void note_holds(ContactTable& contacts) override {
-        contacts_->note_holds(contacts);
-        if (islands_) islands_->note_holds(contacts);
+    void note_sticking(ContactTable& contacts) override {
+        contacts_->note_sticking(contacts);
+        if (islands_) islands_->note_sticking(contacts);
     }
 
     void end_step(World& world) override {

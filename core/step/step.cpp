@@ -131,7 +131,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });
         timed(Stage::joints, [&] { solver.end_substep(world, ledger); });
         if (anchors && i + 1 < world.settings.substeps)
-            timed(Stage::remember, [&] { solver.note_holds(world.contacts); });
+            timed(Stage::remember, [&] { solver.note_sticking(world.contacts); });
         world.time += h;
     }
     timed(Stage::residual, [&] { report.residual = solver.find_residual(world); });

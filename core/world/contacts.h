@@ -82,13 +82,6 @@ enum class Restitution : std::uint8_t {
     bouncing
 };
 
-/// What a contact's friction did in a substep.
-enum class Hold : std::uint8_t {
-    nothing,  ///< it bore nothing
-    slides,
-    sticks
-};
-
 /// Columns of one length: [contact], sorted by (a, b, feature), and below them what a detection
 /// works with. The contacts and what they remember stay from step to step: those of pairs that
 /// hardly moved are brought to the poses of the step where they stand.
@@ -107,7 +100,8 @@ struct ContactTable : RememberedContacts {
     std::vector<std::uint8_t> bounced;         ///< whether a collision has consumed its restitution
     std::vector<Vector3d>
         anchor_slip;  ///< how far a sticking contact has left its anchors [m]; else empty
-    std::vector<Hold> hold;  ///< in the substep before; only with anchors and several substeps
+    std::vector<std::uint8_t> sticks;  ///< whether it did in the substep before; only with anchors
+                                       ///< and several substeps
 
     RememberedContacts fresh;        ///< those that the collider reported in this step
     RememberedContacts copy;         ///< of one pair, while its contacts change
