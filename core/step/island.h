@@ -174,15 +174,11 @@ inline Vector6d momentum(const IslandBody& body, const Vector6d& v) {
     return p;
 }
 
-/// Of a body that moves by `v` [J].
-inline double kinetic_energy(const IslandBody& body, const Vector6d& v) {
-    return 0.5 * v.dot(momentum(body, v));
-}
-/// The same of several.
+/// Of bodies that move by `v` [J].
 inline double kinetic_energy(std::span<const IslandBody> bodies, std::span<const Vector6d> v) {
-    double sum = 0;
-    for (std::size_t i = 0; i < bodies.size(); ++i) sum += kinetic_energy(bodies[i], v[i]);
-    return sum;
+    double twice = 0;
+    for (std::size_t i = 0; i < bodies.size(); ++i) twice += v[i].dot(momentum(bodies[i], v[i]));
+    return 0.5 * twice;
 }
 
 }  // namespace plumb

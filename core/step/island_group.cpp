@@ -4,7 +4,6 @@
 #include "constraints/connector.h"
 #include "constraints/contact.h"
 #include "constraints/friction.h"
-#include "contacts/anchors.h"
 #include "contacts/contact_measures.h"
 #include "math/rotation.h"
 #include "step/island_rows.h"
@@ -52,8 +51,8 @@ constexpr double kFlung = 4;
 /// Bodies that fly about and overlap part at least at this share of their radius [1/s].
 constexpr double kDrift = 0.3;
 
-/// Impulses that give a body so many times the kinetic energy that it has without are no start.
-constexpr double kThrown = 2;
+/// A contact sticks whose friction is below its bound by this share.
+constexpr double kSticks = 1e-5;
 
 Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
@@ -69,10 +68,6 @@ double largest(const Symmetric3<double>& k) {
 double closing_velocity(double gap, double h, const PushOut& push_out) {
     const double left = overlap_left(gap, push_out.most);
     return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
-}
-
-bool does_stick(const IslandPoint& p) {
-    return plumb::does_stick(p.impulse[0], p.impulse.segment<2>(1).squaredNorm(), p.cone.friction);
 }
 
 /// Of a driven axis, as far as its bounds or the substep before tell.
@@ -478,44 +473,10 @@ void IslandGroup::forget_impulses() {
     for (IslandRow& row : ties_.rows()) row.impulse = 0;
 }
 
-/// Impulses of the substep before take the push of gravity back where nothing changed. What stopped
-/// a blow would throw the bodies that it hit back as fast: such are no start. Nor are those that
-/// held against them, one contact after another.
-void IslandGroup::forget_what_throws(const Member& m) {
-    if (!m.ties.empty() || m.is_driven) return;
-    const Island island = island_of(m);
-    const std::span<const Vector6d> start = starts_of(m);
-    thrown_.assign(island.bodies.size(), 0);
-    while (find_thrown(island, start)) {
-        const std::span<Vector6d> sums(force_.data() + m.first_body, island.bodies.size());
-        std::fill(sums.begin(), sums.end(), Vector6d::Zero());
-        const auto throws = [&](std::uint32_t body) {
-            return body != kImmovable && thrown_[body] != 0;
-        };
-        for (IslandPoint& point : island.points) {
-            if (throws(point.a) || throws(point.b)) point.impulse.setZero();
-            add_impulse(point, point.impulse, sums);
-        }
-        for (std::size_t i = 0; i < sums.size(); ++i)
-            island.velocity[i] = start[i] + response(island.bodies[i], sums[i]);
-    }
-}
-
-/// Marks the bodies that the impulses throw; whether there are new ones.
-bool IslandGroup::find_thrown(const Island& island, std::span<const Vector6d> start) {
-    bool any = false;
-    for (std::size_t i = 0; i < thrown_.size(); ++i) {
-        if (thrown_[i]) continue;
-        const auto energy = [&](const Vector6d& v) { return kinetic_energy(island.bodies[i], v); };
-        thrown_[i] = energy(island.velocity[i]) > kThrown * energy(start[i]);
-        any |= thrown_[i] != 0;
-    }
-    return any;
-}
-
-/// Nor are those that joints bore when a robot landed: they would whirl its links about, once its
-/// feet are off the ground, farther than what joints are asked for at the end of the substep means
-/// anything. They are taken if bodies turn more than half as fast without.
+/// Impulses of the substep before take the push of gravity back where nothing changed. What joints
+/// bore when a robot landed would whirl its links about, once its feet are off the ground, farther
+/// than what joints are asked for at the end of the substep means anything: such are no start,
+/// unless bodies turn more than half as fast without.
 void IslandGroup::forget_what_whirls(const Member& m) {
     if (m.ties.empty() || m.is_meshed || m.is_driven) return;
     const Island island = island_of(m);
@@ -542,8 +503,7 @@ void IslandGroup::apply_impulses() {
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i)
         velocity_[i] += response(bodies_[i], force_[i]);
-    for (std::size_t i = 0; i < count_; ++i)
-        forget_what_throws(members_[i]), forget_what_whirls(members_[i]);
+    for (std::size_t i = 0; i < count_; ++i) forget_what_whirls(members_[i]);
 }
 
 Island IslandGroup::island_of(const Member& m) {
@@ -779,11 +739,6 @@ void IslandGroup::rest_ties(World& world) {
         });
 }
 
-void IslandGroup::note_sticking(ContactTable& contacts) const {
-    for (std::size_t k = 0; k < points_.size(); ++k)
-        contacts.sticks[contacts_[k]] = does_stick(points_[k]);
-}
-
 void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t k = 0; k < points_.size(); ++k) {
         const IslandPoint& p = points_[k];
@@ -794,7 +749,8 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         memory.exact = true;
         memory.jammed = locked_[k] != 0;
         memory.gap = contacts.found[contacts_[k]].gap;
-        memory.sticks = does_stick(p);
+        memory.sticks =
+            p.impulse.segment<2>(1).norm() < (1 - kSticks) * p.cone.friction * p.impulse[0];
     }
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];

@@ -57,8 +57,6 @@ public:
     /// Once a substep, impulses of ties; once a step, those of contacts.
     void store_tie_impulses(World& world) const;
     void store_impulses(ContactTable& contacts) const;
-    /// Once a substep, for the next: which contacts stick.
-    void note_sticking(ContactTable& contacts) const;
 
     /// After these: which large islands are to be solved in the next step (step/large_islands.h).
     void note_what_misses(World& world, const IslandResiduals& residuals) const;
@@ -128,8 +126,6 @@ private:
     double torn_from(const World& world, const Member& member, double h) const;
     double open_at_start(const Member& member);
     void forget_impulses();
-    void forget_what_throws(const Member& member);
-    bool find_thrown(const Island& island, std::span<const Vector6d> start);
     void forget_what_whirls(const Member& member);
     void apply_impulses();
     Island island_of(const Member& member);
@@ -151,7 +147,6 @@ private:
     bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
     std::vector<IslandBody> bodies_;
     std::vector<Vector6d> start_, velocity_, force_;  // [body]
-    std::vector<std::uint8_t> thrown_;                // [body of an island]
     std::vector<Vector6d> shift_;  // [body] see open_apart, as a velocity over the substep
     double h_ = 0;                 // the substep [s]
     std::vector<IslandPoint> points_;

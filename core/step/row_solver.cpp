@@ -36,8 +36,7 @@ constexpr std::uint32_t kShockRounds = 16;
 /// more than a share of the greatest, or that comes to so many solutions of a pair. What runs along
 /// a row takes as many as the square of its length. Joints would have to take part in that; and
 /// where friction wedges what does not bounce, iterations that are not enough only delay its rest.
-constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000, kRubbingWork = 70000,
-                      kImpactLook = 500;
+constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000, kImpactLook = 500;
 constexpr double kImpactSettled = 1e-5;
 
 template <class Real, int W>
@@ -225,11 +224,6 @@ public:
         islands_->open_apart(world.bodies);
     }
 
-    void note_sticking(ContactTable& contacts) override {
-        contacts_->note_sticking(contacts);
-        if (islands_) islands_->note_sticking(contacts);
-    }
-
     void end_step(World& world) override {
         for (const auto& group : groups_) group->end_step(world);
         if (!islands_) return;
@@ -332,9 +326,9 @@ private:
     void iterate_impacts(const World& world, PassSettings<Real> pass) {
         const std::size_t hits = impacts_.hit_count();
         const bool rubs = has_friction_ && world.contacts.restitution.empty();
-        const std::size_t work = rubs ? kRubbingWork : kImpactWork;
-        const bool settles = world.joints.size() == 0 && (!rubs || hits * hits * hits <= work);
-        const std::size_t most = settles ? work / hits : 0;
+        const bool settles =
+            world.joints.size() == 0 && (!rubs || hits * hits * hits <= kImpactWork);
+        const std::size_t most = settles ? kImpactWork / hits : 0;
         impact_change_ = std::numeric_limits<Real>::infinity();
         for (std::size_t done = 0; done == 0 || (done < most && impacts_go_on(done));
              done += kImpactIterations)
