@@ -8,6 +8,13 @@
 
 namespace plumb {
 
+/// Whether a contact sticks with these impulses along and, squared, across it [N s].
+inline bool does_stick(double normal, double across_squared, double friction) {
+    constexpr double kBelow = 1 - 1e-5;  // of its bound
+    const double most = kBelow * friction * normal;
+    return across_squared < most * most;
+}
+
 /// A contact begins to stick at `point`, with a slip behind it already [m].
 inline void set_anchors(ContactMemory& memory, const PairPoses& poses, const Vector3d& point,
                         const Vector3d& slip) {

@@ -74,16 +74,29 @@ void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) 
     set_anchors(m, poses, now, Vector3d::Zero());
 }
 
-/// How far apart the points have come that met when a contact began to stick.
-void measure_anchor_slips(World& world) {
+/// Whether any contact of a pair stuck in the substep before.
+bool stuck(const ContactTable& c, const ContactPair& pair) {
+    const auto first = c.sticks.begin() + pair.first;
+    return std::find(first, first + pair.count, 1) != first + pair.count;
+}
+
+/// How far apart the points have come that met when a contact began to stick. Where none of a pair
+/// stuck in the substep before they have gone along, or those of the step's beginning would pull
+/// back what came to a stand after them. How far the pair had crept until then is not forgotten.
+void measure_anchor_slips(World& world, bool first_substep) {
     ContactTable& c = world.contacts;
-    c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
+    if (first_substep) {
+        c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
+        if (world.settings.substeps > 1) c.sticks.assign(c.found.size(), 1);
+    }
     for (const ContactPair& pair : c.pairs) {
         const auto first = c.found.begin() + pair.first;
         if (std::none_of(first, first + pair.count, is_sharp)) continue;
         const PairPoses poses(world.bodies, pair.a, pair.b);
+        const bool went_along = !first_substep && !stuck(c, pair);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
             if (!is_sharp(c.found[i])) continue;
+            if (went_along) set_anchors(c.memory[i], poses, c.point[i], c.anchor_slip[i]);
             if (!c.rims.empty()) let_go_of_what_rolled(world, poses, i);
             c.anchor_slip[i] = anchor_slip_of(poses, c.memory[i]);
         }
@@ -101,7 +114,7 @@ void follow_contacts(World& world, const Plan& plan, bool first_substep) {
         if (rims) follow_rims(world);
         measure(world);
     }
-    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world);
+    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world, first_substep);
 }
 
 }  // namespace plumb

@@ -4,6 +4,7 @@
 #include "constraints/connector.h"
 #include "constraints/contact.h"
 #include "constraints/friction.h"
+#include "contacts/anchors.h"
 #include "contacts/contact_measures.h"
 #include "math/rotation.h"
 #include "step/island_rows.h"
@@ -51,9 +52,6 @@ constexpr double kFlung = 4;
 /// Bodies that fly about and overlap part at least at this share of their radius [1/s].
 constexpr double kDrift = 0.3;
 
-/// A contact sticks whose friction is below its bound by this share.
-constexpr double kSticks = 1e-5;
-
 Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
     return b.velocity[i] + b.angular_velocity[i].cross(arm);
 }
@@ -68,6 +66,10 @@ double largest(const Symmetric3<double>& k) {
 double closing_velocity(double gap, double h, const PushOut& push_out) {
     const double left = overlap_left(gap, push_out.most);
     return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
+}
+
+bool does_stick(const IslandPoint& p) {
+    return plumb::does_stick(p.impulse[0], p.impulse.segment<2>(1).squaredNorm(), p.cone.friction);
 }
 
 /// Of a driven axis, as far as its bounds or the substep before tell.
@@ -739,6 +741,11 @@ void IslandGroup::rest_ties(World& world) {
         });
 }
 
+void IslandGroup::note_sticking(ContactTable& contacts) const {
+    for (std::size_t k = 0; k < points_.size(); ++k)
+        contacts.sticks[contacts_[k]] = does_stick(points_[k]);
+}
+
 void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t k = 0; k < points_.size(); ++k) {
         const IslandPoint& p = points_[k];
@@ -749,8 +756,7 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         memory.exact = true;
         memory.jammed = locked_[k] != 0;
         memory.gap = contacts.found[contacts_[k]].gap;
-        memory.sticks =
-            p.impulse.segment<2>(1).norm() < (1 - kSticks) * p.cone.friction * p.impulse[0];
+        memory.sticks = does_stick(p);
     }
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];

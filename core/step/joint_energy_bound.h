@@ -75,10 +75,12 @@ private:
     };
 
     bool any_whirls(const Bodies& b, const BodyRows<Real>& rows, double h) const {
-        return std::any_of(joined_.begin(), joined_.end(), [&](std::uint32_t i) {
-            const Vector3d change = change_of(b, rows, i).w;
-            return h * (b.angular_velocity[i] + change).norm() > kTrustedTurn;
-        });
+        double fastest = 0;  // squared
+        for (const std::uint32_t i : joined_) {
+            const Vector3d rate = b.angular_velocity[i] + change_of(b, rows, i).w;
+            fastest = std::max(fastest, rate.squaredNorm());
+        }
+        return h * h * fastest > kTrustedTurn * kTrustedTurn;
     }
 
     static Velocity<double> change_of(const Bodies& b, const BodyRows<Real>& rows,

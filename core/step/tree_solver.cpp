@@ -294,9 +294,15 @@ void TreeSolver<W>::substitute(bool balance) {
 
 template <int W>
 void TreeSolver<W>::store_impulses(JointTable& joints) {
+    constexpr std::size_t kAhead = 8;  // joints that are fetched while others are written
     for (std::size_t i = 0; i < balls_.size(); ++i)
         for (int lane = 0; lane < N; ++lane) {
             TreeBalls<N>& balls = balls_[i];
+            const std::size_t ahead = i * N + static_cast<std::size_t>(lane) + kAhead;
+            if (ahead < joint_of_.size() && joint_of_[ahead] < joints.size()) {
+                const Joint& next = joints.joints[joint_of_[ahead]];
+                __builtin_prefetch(&next.rows, 1), __builtin_prefetch(&next.rows_before, 1);
+            }
             if (!(balls.used[lane] > 0) || progress_.is_left_out(balls.node[lane])) continue;
             Joint& joint = joints.joints[joint_of_[i * N + static_cast<std::size_t>(lane)]];
             for (int k = 0; k < 3; ++k) {  // a plain ball has no other rows

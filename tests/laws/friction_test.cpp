@@ -101,6 +101,48 @@ TEST_P(Friction, BrakingDistanceDoesNotDependOnMass) {
     for (double d : distances) EXPECT_NEAR(d / distances[0], 1, 1e-3);
 }
 
+/// What comes to a stand in the middle of a step is not pulled back to where it was when it began.
+TEST_P(Friction, WhatHasStoppedDoesNotGoBack) {
+    Random random(21);
+    for (int draw = 0; draw < 40; ++draw) {
+        Scene s = scene();
+        s.settings.dt = random.number(0.001, 0.02);
+        s.settings.substeps = 1 + random.below(40);
+        s.settings.velocity_iterations = 1 + random.below(10);
+        s.settings.position_iterations = 1 + random.below(10);
+        if (draw % 2 == 0) s.settings.exact_islands = 0;
+        s.materials[0].friction = random.number(0.1, 1);
+        add_ground(s);
+        const double speed = random.number(0.2, 4);
+        add_body(s, box(0.2, 0.05, 0.1), {0, 0.05, 0}).velocity = {speed, 0, 0};
+        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << speed << " m/s, "
+                                        << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        double back = 0;
+        while (simulation.time() < speed / (9.81 * s.materials[0].friction) + 0.2) {
+            simulation.step();
+            back = std::max(back, -simulation.world().bodies.velocity[1].x());
+        }
+        EXPECT_LT(back, 1e-3);
+    }
+}
+
+/// Forbidden friction brakes nothing, whether islands are solved exactly or not.
+TEST_P(Friction, BrakesNothingWhereItIsForbidden) {
+    for (const std::uint32_t exact : {0u, 64u})
+        for (const std::uint32_t substeps : {1u, 4u}) {
+            Scene s = scene();
+            s.settings.forbid = {"friction"};
+            s.settings.substeps = substeps, s.settings.exact_islands = exact;
+            add_ground(s);
+            add_body(s, box(0.2, 0.05, 0.1), {0, 0.05, 0}).velocity = {1, 0, 0};
+            Simulation simulation(s, colliders(), collider());
+            run_for(simulation, 0.5);
+            EXPECT_NEAR(simulation.world().bodies.velocity[1].x(), 1, 1e-6)
+                << exact << ", " << substeps << " substeps";
+        }
+}
+
 /// A ball that slides at first rolls at 5 v₀/7.
 TEST_P(Friction, ASlidingBallComesToRoll) {
     Scene s = scene();

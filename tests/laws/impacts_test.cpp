@@ -205,6 +205,36 @@ TEST_P(Impacts, WithoutRestitutionRowsStayAtAWall) {
     }
 }
 
+/// Nor does a cube that slides into a row of cubes which stand on the ground: the places at which it
+/// touched the ground before do not pull it there.
+TEST_P(Impacts, WithoutRestitutionRowsOnTheGroundStay) {
+    Random random(15);
+    for (int draw = 0; draw < 60; ++draw) {
+        Scene s = scene();
+        s.materials[0].restitution = 0, s.materials[0].friction = random.number(0.1, 1);
+        add_ground(s);
+        const std::uint32_t count = 1 + random.below(8);
+        const double speed = random.number(1, 4);
+        add_body(s, box(0.1, 0.1, 0.1), {-0.2 - random.number(0.001, 0.1), 0.1, 0}).velocity = {
+            speed, 0, 0};
+        for (std::uint32_t i = 0; i < count; ++i)
+            add_body(s, box(0.1, 0.1, 0.1), {0.2 * i, 0.1, 0});
+        if (draw % 3 != 0) add_body(s, box(0.3, 1, 1), {0.2 * count + 0.2, 0, 0}, Motion::fixed);
+        choose_step(s.settings, draw, random);
+        SCOPED_TRACE(testing::Message()
+                     << "draw " << draw << ", " << count << " cubes, " << speed << " m/s, "
+                     << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        double back = 0;
+        while (simulation.time() < 0.4) {
+            simulation.step();
+            for (const Vector& v : simulation.world().bodies.velocity)
+                back = std::max(back, -v.x());
+        }
+        EXPECT_LT(back, 0.01 * speed);
+    }
+}
+
 /// A body that falls on the ground from some times its radius, turning at a rate [rad/s].
 Scene falling(Scene s, Random& random, const Geometry& shape, double radius, double rate) {
     s.materials[0].friction = 0;

@@ -210,7 +210,7 @@ TEST(SelfReference, IteratesImpactsToTheirEnd) {
     scene.settings.duration = 0.4;
     add_ground(scene).placement.position = {0, -0.25, 0};
     const Subject reference =
-        self_referenced(scene, "landing", colliders(), {.substeps = 64, .error = 1});
+        self_referenced(scene, "landing", colliders(), {.substeps = 256, .error = 1});
     Point p = point_at("landing", "leapfrog_start=true");
     p.settings.push_back("dt=" + std::to_string(scene.settings.dt / 100));
     p.settings.push_back("substeps=4");
@@ -219,7 +219,7 @@ TEST(SelfReference, IteratesImpactsToTheirEnd) {
     const Outcome outcome = run_point(reference, p, colliders(), true, {});
     ASSERT_EQ(outcome.status, study::Status::done) << outcome.note;
     EXPECT_LE(outcome.errors[0], reference.metrics[0].reference_error);
-    EXPECT_LT(reference.metrics[0].reference_error, 2e-3);
+    EXPECT_LT(reference.metrics[0].reference_error, 1e-5);
 }
 
 /// References are no finer than what is asked of them.
