@@ -205,8 +205,8 @@ TEST_P(Impacts, WithoutRestitutionRowsStayAtAWall) {
     }
 }
 
-/// Nor does a cube that slides into a row of cubes which stand on the ground: the places at which it
-/// touched the ground before do not pull it there.
+/// Nor does a cube that slides into a row of cubes which stand on the ground: the places at which
+/// it touched the ground before do not pull it there.
 TEST_P(Impacts, WithoutRestitutionRowsOnTheGroundStay) {
     Random random(15);
     for (int draw = 0; draw < 60; ++draw) {
