@@ -16,6 +16,16 @@ namespace {
 /// along both bodies.
 constexpr double kRolledOn = 1e-3;
 
+/// What is no faster along a surface than gravity makes it in this share of a substep creeps; what
+/// is slides.
+constexpr double kCreeps = 0.1;
+
+/// How far what creeps comes in a substep [m].
+double creep_in(const Settings& settings) {
+    const double h = settings.dt / settings.substeps;
+    return kCreeps * h * h * settings.gravity.norm();
+}
+
 /// Where two points of a contact slide past each other, it goes with that of the body that touches
 /// with a point: with what moves along what does not, with what is round along what is sharp, with
 /// the rounder of two that are round; half-way where nobody can tell.
@@ -74,29 +84,25 @@ void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) 
     set_anchors(m, poses, now, Vector3d::Zero());
 }
 
-/// Whether any contact of a pair stuck in the substep before.
-bool stuck(const ContactTable& c, const ContactPair& pair) {
-    const auto first = c.sticks.begin() + pair.first;
-    return std::find(first, first + pair.count, 1) != first + pair.count;
-}
-
-/// How far apart the points have come that met when a contact began to stick. Where none of a pair
-/// stuck in the substep before they have gone along, or those of the step's beginning would pull
-/// back what came to a stand after them. How far the pair had crept until then is not forgotten.
+/// How far apart the points have come that met when a contact began to stick. What has slid in the
+/// substep before took them along, or those of the step's beginning would pull back what comes to a
+/// stand after them. How far it had crept until then is not forgotten.
 void measure_anchor_slips(World& world, bool first_substep) {
     ContactTable& c = world.contacts;
-    if (first_substep) {
-        c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
-        if (world.settings.substeps > 1) c.sticks.assign(c.found.size(), 1);
-    }
+    if (first_substep) c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
+    const double creep = creep_in(world.settings);
+    const auto slid = [creep](const Vector3d& way, const Vector3d& normal) {
+        return way.cross(normal).squaredNorm() > creep * creep;
+    };
     for (const ContactPair& pair : c.pairs) {
         const auto first = c.found.begin() + pair.first;
         if (std::none_of(first, first + pair.count, is_sharp)) continue;
         const PairPoses poses(world.bodies, pair.a, pair.b);
-        const bool went_along = !first_substep && !stuck(c, pair);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
             if (!is_sharp(c.found[i])) continue;
-            if (went_along) set_anchors(c.memory[i], poses, c.point[i], c.anchor_slip[i]);
+            const Vector3d before = c.anchor_slip[i], n = to_eigen(c.found[i].normal);
+            if (!first_substep && slid(anchor_slip_of(poses, c.memory[i]) - before, n))
+                set_anchors(c.memory[i], poses, c.point[i], before);
             if (!c.rims.empty()) let_go_of_what_rolled(world, poses, i);
             c.anchor_slip[i] = anchor_slip_of(poses, c.memory[i]);
         }

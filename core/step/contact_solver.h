@@ -263,15 +263,6 @@ public:
         });
     }
 
-    /// Which contacts stick in this substep.
-    void note_sticking(ContactTable& contacts) {
-        const ContactArrays<Real, W> rows = batches_.arrays();
-        if (!rows.frictions) return;
-        each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
-            contacts.sticks[contact] = does_stick(rows, k, lane, impulse_of(rows, k, lane));
-        });
-    }
-
     void end_step(World& world) override {
         const ContactArrays<Real, W> rows = batches_.arrays();
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
@@ -284,17 +275,12 @@ public:
             memory.missed = missed_after_sweeps(memory.missed);
             if (!rows.frictions) return;
             memory.friction_impulse = p.friction();
-            memory.sticks = does_stick(rows, k, lane, p);
+            memory.sticks = does_stick(p.normal, p.x * p.x + p.y * p.y,
+                                       double(rows.frictions[k].friction[lane]));
         });
     }
 
 private:
-    static bool does_stick(const ContactArrays<Real, W>& rows, std::uint32_t k, std::uint32_t lane,
-                           const RowImpulse& p) {
-        return plumb::does_stick(p.normal, p.x * p.x + p.y * p.y,
-                                 double(rows.frictions[k].friction[lane]));
-    }
-
     /// Overlap, as a share of the smaller body's radius, up to which impulses are carried over in
     /// full, if it is more than what gravity moves in a step. Only bodies that are moved by others
     /// squeeze without end; elsewhere it must be deep indeed, or heaps would creep. What presses on

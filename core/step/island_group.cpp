@@ -741,11 +741,6 @@ void IslandGroup::rest_ties(World& world) {
         });
 }
 
-void IslandGroup::note_sticking(ContactTable& contacts) const {
-    for (std::size_t k = 0; k < points_.size(); ++k)
-        contacts.sticks[contacts_[k]] = does_stick(points_[k]);
-}
-
 void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t k = 0; k < points_.size(); ++k) {
         const IslandPoint& p = points_[k];

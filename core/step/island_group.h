@@ -57,8 +57,6 @@ public:
     /// Once a substep, impulses of ties; once a step, those of contacts.
     void store_tie_impulses(World& world) const;
     void store_impulses(ContactTable& contacts) const;
-    /// Once a substep, for the next: which contacts stick.
-    void note_sticking(ContactTable& contacts) const;
 
     /// After these: which large islands are to be solved in the next step (step/large_islands.h).
     void note_what_misses(World& world, const IslandResiduals& residuals) const;

@@ -224,11 +224,6 @@ public:
         islands_->open_apart(world.bodies);
     }
 
-    void note_sticking(ContactTable& contacts) override {
-        contacts_->note_sticking(contacts);
-        if (islands_) islands_->note_sticking(contacts);
-    }
-
     void end_step(World& world) override {
         for (const auto& group : groups_) group->end_step(world);
         if (!islands_) return;

@@ -60,8 +60,6 @@ public:
 
     /// Once a substep and once a step, after the move: impulses, into the world's tables.
     virtual void end_substep(World& world, Ledger& ledger) = 0;
-    /// Where another substep follows and friction has anchors: which contacts stick.
-    virtual void note_sticking(ContactTable& contacts) = 0;
     virtual void end_step(World& world) = 0;
 };
 

@@ -42,7 +42,6 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     const bool divides = plan.runs(Effect::divided_trees);
     const bool watches = plan.runs(Effect::still_ground);
     const bool touches = plan.runs(Effect::contacts);
-    const bool anchors = plan.runs(Effect::sticking_anchors);
     const bool sleeps = plan.runs(Effect::sleeping);
     bool renews = false;
     ContactSums* sums = stepper.sums ? &*stepper.sums : nullptr;
@@ -130,8 +129,6 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         report.count_open_trees();
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });
         timed(Stage::joints, [&] { solver.end_substep(world, ledger); });
-        if (anchors && i + 1 < world.settings.substeps)
-            timed(Stage::remember, [&] { solver.note_sticking(world.contacts); });
         world.time += h;
     }
     timed(Stage::residual, [&] { report.residual = solver.find_residual(world); });

@@ -100,8 +100,6 @@ struct ContactTable : RememberedContacts {
     std::vector<std::uint8_t> bounced;         ///< whether a collision has consumed its restitution
     std::vector<Vector3d>
         anchor_slip;  ///< how far a sticking contact has left its anchors [m]; else empty
-    std::vector<std::uint8_t> sticks;  ///< whether it did in the substep before; only with anchors
-                                       ///< and several substeps
 
     RememberedContacts fresh;        ///< those that the collider reported in this step
     RememberedContacts copy;         ///< of one pair, while its contacts change
