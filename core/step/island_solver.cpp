@@ -57,6 +57,10 @@ constexpr double kLightShare = 30;
 /// Sweeps of an island that is swept, there and back.
 constexpr int kSweeps = 20;
 
+/// The same of what rounds did not solve, again and again while they leave less than a share of it.
+constexpr int kSweepsOn = 5;
+constexpr double kLeadsOn = 0.5;
+
 /// The same of what is opened apart. Each contact yields by this share of what it pushes: such as
 /// contradict each other then come to a balance, in which nothing shifts any more.
 constexpr int kOpeningSweeps = 10;
@@ -157,6 +161,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
+    sweep_on(report, speed);
     if (report.residual > speed) {
         take_back_impulses();
         sweep_anew(island, [] {});
@@ -228,6 +233,17 @@ void IslandSolver::improve(IslandReport& report, double speed) {
             share /= kSofter;
         else if (report.residual > kSlow * before)
             hard /= kSofter;
+    }
+}
+
+/// What rounds do not find: a ball that rolls off a wall slips along it as fast as it leaves, and
+/// its shift swings to and fro for ever. Sweeps find that, or soon lead no further.
+void IslandSolver::sweep_on(IslandReport& report, double speed) {
+    double before = kInfinity;
+    while (report.residual > kSolved * speed && report.residual < kLeadsOn * before) {
+        before = report.residual;
+        for (int i = 0; i < kSweepsOn; ++i) sweep_both_ways();
+        report.residual = residual();
     }
 }
 

@@ -101,6 +101,7 @@ private:
     void keep_row_impulses(const Island& island);
     bool stands(IslandReport& report, double speed);
     void improve(IslandReport& report, double speed);
+    void sweep_on(IslandReport& report, double speed);
     double most_shift() const;
     double residual() const;
     void take_back_impulses();
