@@ -4,19 +4,56 @@
 #include "measure/measure.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb::app {
+namespace {
+
+double surface_area(const DeformableSpec& surface) {
+    double sum = 0;
+    for (const auto& t : surface.triangles) {
+        const Vector3d& a = surface.points[t[0]];
+        sum += 0.5 * (surface.points[t[1]] - a).cross(surface.points[t[2]] - a).norm();
+    }
+    return sum;
+}
+
+/// What it takes to stretch the skins of balloons until they hold the volumes that they keep, twice
+/// over: they are filled in the first steps [J].
+double filling_energy(const World& world) {
+    double sum = 0;
+    for (const Deformable& d : world.deformables) {
+        if (d.spec.kind != DeformableKind::balloon || d.spec.pressure) continue;
+        const double strain = std::cbrt(d.spec.volume_ratio) - 1;
+        sum += 2 * strain * strain * d.spec.elasticity.youngs_modulus * d.spec.thickness *
+               surface_area(d.spec) / (1 - d.spec.elasticity.poissons_ratio);
+    }
+    return sum;
+}
+
+/// Whether all work that is done on what moves is counted.
+bool counts_all_work(const World& world) {
+    if (world.kinematic_count > 0 || world.settings.wind) return false;
+    const auto drives = [](const JointDrive& drive) {
+        return drive.kind == DriveKind::motor || drive.kind == DriveKind::spring;
+    };
+    const auto is_spring = [](const Link& link) { return link.compliance > 0; };
+    const auto pushes = [](const Vector3d& torque) { return torque.norm() > 0; };
+    return std::none_of(world.joints.drives.begin(), world.joints.drives.end(), drives) &&
+           std::none_of(world.links.begin(), world.links.end(), is_spring) &&
+           std::none_of(world.bodies.torque.begin(), world.bodies.torque.end(), pushes);
+}
+
+}  // namespace
 
 EnergyWatch::EnergyWatch(const World& world)
     : start_(kinetic_energy(world) + potential_energy(world)),
       last_(start_),
       lowest_potential_(potential_energy(world)),
-      // what deforms stores energy that is not in the sum
-      watches_(world.kinematic_count == 0 && world.particles.size() == 0) {
-    for (const Vector3d& torque : world.bodies.torque) watches_ &= torque.norm() == 0;
-    for (const JointDrive& drive : world.joints.drives)
-        watches_ &= drive.kind != DriveKind::motor && drive.kind != DriveKind::spring;
-    for (double m : world.bodies.mass) mass_ += m;
+      pushed_(filling_energy(world)),
+      watches_(counts_all_work(world)) {
+    for (const double m : world.bodies.mass) mass_ += m;
+    for (const double m : world.particles.mass) mass_ += m;
     const double speed = world.settings.recovery_speed;
     slack_ = mass_ * (world.settings.gravity.norm() * 0.1 + 0.5 * speed * speed);
 }

@@ -30,6 +30,12 @@ ends 5 "energy" "$spinner" --collider reference --set gyroscopic=explicit --dt 0
 ends 5 "no longer finite" "$spinner" --collider reference --set gyroscopic=explicit --dt 0.2 --duration 20
 ends 0 "" "$spinner" --collider reference --duration 20
 
+# So it does beside what is made of particles, which gives back no more than it took.
+beside=$source/tests/app/scenes/spinner_and_rope.json
+ends 5 "energy" "$beside" --collider reference --set gyroscopic=explicit
+ends 0 "" "$beside" --collider reference
+ends 0 "" "$source/samples/scenes/balloons.json" --collider ode --duration 2
+
 # Energy that the pushing out of overlap gives is no divergence.
 ends 0 "" "$source/tests/app/scenes/deep_overlap.json" --collider reference
 ends 0 "" "$source/tests/app/scenes/deep_overlap.json" --collider ode --substeps 4
