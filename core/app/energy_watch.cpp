@@ -2,46 +2,49 @@
 #include "app/energy_watch.h"
 
 #include "measure/measure.h"
+#include "world/link_error.h"
 
 #include <algorithm>
-#include <cmath>
 
 namespace plumb::app {
 namespace {
 
-double surface_area(const DeformableSpec& surface) {
-    double sum = 0;
-    for (const auto& t : surface.triangles) {
-        const Vector3d& a = surface.points[t[0]];
-        sum += 0.5 * (surface.points[t[1]] - a).cross(surface.points[t[2]] - a).norm();
-    }
-    return sum;
-}
+/// A link that is farther off than this when a run begins does work as it draws its points together
+/// [m].
+constexpr double kClosed = 1e-3;
 
-/// What it takes to stretch the skins of balloons until they hold the volumes that they keep, twice
-/// over: they are filled in the first steps [J].
-double filling_energy(const World& world) {
-    double sum = 0;
-    for (const Deformable& d : world.deformables) {
-        if (d.spec.kind != DeformableKind::balloon || d.spec.pressure) continue;
-        const double strain = std::cbrt(d.spec.volume_ratio) - 1;
-        sum += 2 * strain * strain * d.spec.elasticity.youngs_modulus * d.spec.thickness *
-               surface_area(d.spec) / (1 - d.spec.elasticity.poissons_ratio);
-    }
-    return sum;
+/// What deforms may be given so much as it is pushed out of what it begins in [J/kg].
+constexpr double kGiven = 10;
+
+bool does_work(const JointDrive& drive) {
+    return drive.kind == DriveKind::motor || drive.kind == DriveKind::spring;
 }
+bool does_work(const World& world, const Link& link) {
+    return link.compliance > 0 || link_error(world, link) > kClosed;
+}
+/// It is pumped up or down to its volume.
+bool does_work(const Deformable& d) { return d.spec.pressure || d.spec.volume_ratio != 1; }
 
 /// Whether all work that is done on what moves is counted.
 bool counts_all_work(const World& world) {
     if (world.kinematic_count > 0 || world.settings.wind) return false;
-    const auto drives = [](const JointDrive& drive) {
-        return drive.kind == DriveKind::motor || drive.kind == DriveKind::spring;
-    };
-    const auto is_spring = [](const Link& link) { return link.compliance > 0; };
-    const auto pushes = [](const Vector3d& torque) { return torque.norm() > 0; };
-    return std::none_of(world.joints.drives.begin(), world.joints.drives.end(), drives) &&
-           std::none_of(world.links.begin(), world.links.end(), is_spring) &&
-           std::none_of(world.bodies.torque.begin(), world.bodies.torque.end(), pushes);
+    const auto& drives = world.joints.drives;
+    const auto& torques = world.bodies.torque;
+    return std::none_of(drives.begin(), drives.end(),
+                        [](const JointDrive& drive) { return does_work(drive); }) &&
+           std::none_of(world.links.begin(), world.links.end(),
+                        [&](const Link& link) { return does_work(world, link); }) &&
+           std::none_of(world.deformables.begin(), world.deformables.end(),
+                        [](const Deformable& d) { return does_work(d); }) &&
+           std::none_of(torques.begin(), torques.end(),
+                        [](const Vector3d& torque) { return torque.norm() > 0; });
+}
+
+double moving_particles(const Particles& p) {
+    double mass = 0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        if (p.inverse_mass[i] > 0) mass += p.mass[i];
+    return mass;
 }
 
 }  // namespace
@@ -50,12 +53,11 @@ EnergyWatch::EnergyWatch(const World& world)
     : start_(kinetic_energy(world) + potential_energy(world)),
       last_(start_),
       lowest_potential_(potential_energy(world)),
-      pushed_(filling_energy(world)),
       watches_(counts_all_work(world)) {
     for (const double m : world.bodies.mass) mass_ += m;
-    for (const double m : world.particles.mass) mass_ += m;
     const double speed = world.settings.recovery_speed;
-    slack_ = mass_ * (world.settings.gravity.norm() * 0.1 + 0.5 * speed * speed);
+    slack_ = mass_ * (world.settings.gravity.norm() * 0.1 + 0.5 * speed * speed) +
+             moving_particles(world.particles) * kGiven;
 }
 
 /// Each clamped contact parts its bodies at the recovery speed at most; in a chain of them the

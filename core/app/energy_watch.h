@@ -9,10 +9,9 @@ namespace plumb::app {
 
 /// Motion and height may have the energy that the run began with, plus a tenth of what could be
 /// turned over so far (start less the lowest potential), plus what the pushing out of overlap has
-/// given. What deforms may take energy, and gives back no more than it took; balloons may have
-/// given what their pressure or their filling does. Scenes where kinematic bodies, constant
-/// torques, wind, motors, or springs of joints and links do work are not watched, since that work
-/// is not counted.
+/// given. What deforms may store energy, which is not counted. Scenes where kinematic bodies,
+/// constant torques, wind, motors, springs, links that begin stretched, or balloons that are pumped
+/// up do work are not watched, since that work is not counted.
 class EnergyWatch {
 public:
     explicit EnergyWatch(const World& world);
@@ -28,7 +27,7 @@ private:
     double push_limit(const World& world, const StepReport& report) const;
 
     double start_, last_, lowest_potential_;  ///< [J]
-    double mass_ = 0;                         ///< of all that moves [kg]
+    double mass_ = 0;                         ///< of all dynamic bodies [kg]
     double slack_ = 0;                        ///< for overlap too shallow to be clamped [J]
     double pushed_ = 0;                       ///< gained while deep overlap was pushed out [J]
     bool watches_;

@@ -16,8 +16,8 @@ namespace {
 /// along both bodies.
 constexpr double kRolledOn = 1e-3;
 
-/// What is no faster along a surface than gravity makes it in this share of a substep creeps; what
-/// is slides.
+/// What is no faster along a surface than gravity makes it in this share of a substep creeps;
+/// anything faster slides, and without gravity nothing creeps.
 constexpr double kCreeps = 0.1;
 
 /// How far what creeps comes in a substep [m].

@@ -2,7 +2,6 @@
 #include "measure/measure.h"
 
 #include "math/fnv1a.h"
-#include "measure/deformation.h"
 #include "step/gaping_joints.h"
 #include "world/body_momentum.h"
 #include "world/link_error.h"
@@ -29,8 +28,6 @@ double potential_energy(const World& world) {
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         sum -= p.mass[i] * world.settings.gravity.dot(p.position[i]);
-    for (const Deformable& d : world.deformables)
-        if (d.spec.pressure) sum -= *d.spec.pressure * volume_inside(world, d);
     return sum;
 }
 

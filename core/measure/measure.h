@@ -11,8 +11,8 @@
 namespace plumb {
 
 double kinetic_energy(const World& world);  ///< [J]
-/// Of gravity and constant forces, against the origin, and of the pressures given to balloons [J].
-double potential_energy(const World& world);
+double potential_energy(
+    const World& world);  ///< of gravity and constant forces, against the origin [J]
 Vector3d linear_momentum(const World& world);   ///< [kg m/s]
 Vector3d angular_momentum(const World& world);  ///< about the origin [kg m²/s]
 

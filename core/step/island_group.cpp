@@ -161,6 +161,7 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.first_point = static_cast<std::uint32_t>(points_.size());
     ties_.begin_island(member.ties);
     member.given_up = false;
+    member.open = 0;
     member.may_be_disputed = choice_.is_loose_heap(island);
     member.is_driven = choice_.is_driven(island);
     member.may_give_up = member.is_driven || !choice_.is_hard(world, island, pairs);

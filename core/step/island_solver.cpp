@@ -161,7 +161,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;
     if (!may_stand || !stands(report, speed)) improve(report, speed);
-    sweep_on(report, speed);
+    if (effort == IslandEffort::full) sweep_on(report, speed);
     if (report.residual > speed) {
         take_back_impulses();
         sweep_anew(island, [] {});
@@ -175,13 +175,26 @@ void IslandSolver::keep_row_impulses(const Island& island) {
     for (const IslandRow& row : island.rows) kept_row_impulse_.push_back(row.impulse);
 }
 
-/// Whether the island stands. Then it solves a convex problem, without de Saxcé's shift: rounds
-/// that are not done yet slip, and would be shifted away from it. Otherwise all is as it was.
-bool IslandSolver::stands(IslandReport& report, double speed) {
+/// Velocities and impulses as they are now.
+void IslandSolver::keep_state() {
     kept_velocity_.assign(island_.velocity.begin(), island_.velocity.end());
     kept_impulse_.clear();
     for (const IslandPoint& p : island_.points) kept_impulse_.push_back(p.impulse);
     keep_row_impulses(island_);
+}
+
+void IslandSolver::restore_state() {
+    std::copy(kept_velocity_.begin(), kept_velocity_.end(), island_.velocity.begin());
+    for (std::size_t k = 0; k < kept_impulse_.size(); ++k)
+        island_.points[k].impulse = kept_impulse_[k];
+    for (std::size_t k = 0; k < kept_row_impulse_.size(); ++k)
+        island_.rows[k].impulse = kept_row_impulse_[k];
+}
+
+/// Whether the island stands. Then it solves a convex problem, without de Saxcé's shift: rounds
+/// that are not done yet slip, and would be shifted away from it. Otherwise all is as it was.
+bool IslandSolver::stands(IslandReport& report, double speed) {
+    keep_state();
     const double residual_before = report.residual;
 
     shifts_ = false;
@@ -191,11 +204,7 @@ bool IslandSolver::stands(IslandReport& report, double speed) {
     report.residual = residual();
     if (report.residual <= kSolved * speed) return true;
 
-    std::copy(kept_velocity_.begin(), kept_velocity_.end(), island_.velocity.begin());
-    for (std::size_t k = 0; k < kept_impulse_.size(); ++k)
-        island_.points[k].impulse = kept_impulse_[k];
-    for (std::size_t k = 0; k < kept_row_impulse_.size(); ++k)
-        island_.rows[k].impulse = kept_row_impulse_[k];
+    restore_state();
     report.residual = residual_before;
     return false;
 }
@@ -237,13 +246,17 @@ void IslandSolver::improve(IslandReport& report, double speed) {
 }
 
 /// What rounds do not find: a ball that rolls off a wall slips along it as fast as it leaves, and
-/// its shift swings to and fro for ever. Sweeps find that, or soon lead no further.
+/// its shift swings to and fro for ever. Sweeps find that, or all is as it was.
 void IslandSolver::sweep_on(IslandReport& report, double speed) {
     double before = kInfinity;
     while (report.residual > kSolved * speed && report.residual < kLeadsOn * before) {
         before = report.residual;
+        keep_state();
         for (int i = 0; i < kSweepsOn; ++i) sweep_both_ways();
         report.residual = residual();
+        if (report.residual < before) continue;
+        restore_state();
+        report.residual = before;
     }
 }
 

@@ -99,6 +99,8 @@ private:
     };
 
     void keep_row_impulses(const Island& island);
+    void keep_state();
+    void restore_state();
     bool stands(IslandReport& report, double speed);
     void improve(IslandReport& report, double speed);
     void sweep_on(IslandReport& report, double speed);

@@ -30,7 +30,7 @@ ends 5 "energy" "$spinner" --collider reference --set gyroscopic=explicit --dt 0
 ends 5 "no longer finite" "$spinner" --collider reference --set gyroscopic=explicit --dt 0.2 --duration 20
 ends 0 "" "$spinner" --collider reference --duration 20
 
-# So it does beside what is made of particles, which gives back no more than it took.
+# So it does beside what is made of particles. What pumps, draws together or pushes out is no divergence.
 beside=$source/tests/app/scenes/spinner_and_rope.json
 ends 5 "energy" "$beside" --collider reference --set gyroscopic=explicit
 ends 0 "" "$beside" --collider reference

@@ -47,17 +47,6 @@ TEST(Deformation, TellsHowMuchAVolumeIsOff) {
     EXPECT_NEAR(volume_errors(world)[0], 1 / 1.331 - 1, 1e-12);
 }
 
-TEST(Deformation, AGivenPressureHasThePotentialOfItsVolume) {
-    Scene scene;
-    scene.settings.gravity.setZero();
-    add_soft(scene, balloon(0.5, 3)).pressure = 200;
-    World world = build_world(scene);
-    const double volume = volume_inside(world, world.deformables[0]);
-    EXPECT_NEAR(potential_energy(world), -200 * volume, 1e-9);
-    for (Vector& p : world.particles.position) p *= 2;
-    EXPECT_NEAR(potential_energy(world), -200 * 8 * volume, 1e-9);
-}
-
 TEST(Deformation, HasItsCentreByMass) {
     const World world = mapped([](const Vector& p) { return Vector(p + Vector(1, 2, 3)); });
     EXPECT_LT((centre_of(world, world.deformables[0]) - Vector(1.5, 2, 3)).norm(), 1e-12);
