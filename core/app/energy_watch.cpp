@@ -40,7 +40,8 @@ bool counts_all_work(const World& world) {
                         [](const Vector3d& torque) { return torque.norm() > 0; });
 }
 
-double moving_particles(const Particles& p) {
+/// Of particles that nothing holds [kg].
+double moving_mass(const Particles& p) {
     double mass = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
         if (p.inverse_mass[i] > 0) mass += p.mass[i];
@@ -57,7 +58,7 @@ EnergyWatch::EnergyWatch(const World& world)
     for (const double m : world.bodies.mass) mass_ += m;
     const double speed = world.settings.recovery_speed;
     slack_ = mass_ * (world.settings.gravity.norm() * 0.1 + 0.5 * speed * speed) +
-             moving_particles(world.particles) * kGiven;
+             moving_mass(world.particles) * kGiven;
 }
 
 /// Each clamped contact parts its bodies at the recovery speed at most; in a chain of them the
