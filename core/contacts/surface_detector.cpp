@@ -107,7 +107,7 @@ void SurfaceDetector::detect(World& world, double dt) {
         low_[i] = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]) - by;
         high_[i] = p.position[a].cwiseMax(p.position[b]).cwiseMax(p.position[c]) + by;
     }
-    world.surface_contacts.reserve(2 * probes_.size());
+    world.surface_contacts.reserve(2 * probes_.size() + kUsuallyNear);
     near_.reserve(kUsuallyNear);
     grid_.build(low_, high_);
     bounds_low_ = low_[0], bounds_high_ = high_[0];
@@ -258,6 +258,12 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
             return n.is_beyond ? Vector3d(-n.apart) : n.apart;
         };
         const Vector3d direction = out_of(*best);
+        if (probe.point.body != kNoIndex && probe.radius > 0) {
+            // what is round lies on all that it faces
+            for (auto n = first; n != last; ++n)
+                if (&*n != best && std::abs(n->facing) >= kFaceOn) add(world, probe, *n);
+            continue;
+        }
         const Near* other = nullptr;
         for (auto n = first; n != last; ++n) {
             if (std::abs(n->facing) < kFaceOn || (other && is_nearer(*other, *n))) continue;

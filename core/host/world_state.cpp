@@ -131,6 +131,11 @@ void each_number_of_particles(Io& io, W& world) {
         for (auto& weight : c.weights) io(weight);
         vector(io, c.normal), io(c.distance), io(c.friction), io(c.side);
     }
+    io.count(world.elastic_impulses);
+    for (auto& kept : world.elastic_impulses) {
+        for (auto& particle : kept.particles) io(particle);
+        io(kept.body), io(kept.part), io(kept.feature), io(kept.order), vector(io, kept.impulse);
+    }
 }
 
 template <class Io, class W>

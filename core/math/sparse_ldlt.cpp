@@ -176,12 +176,13 @@ void SparseLdlt::find_fronts(const Lists& structure) {
     }
 }
 
-SparseLdlt::Slot SparseLdlt::slot(std::uint32_t i, std::uint32_t j) const {
+std::optional<SparseLdlt::Slot> SparseLdlt::find_slot(std::uint32_t i, std::uint32_t j) const {
     const std::uint32_t p = place_[i], q = place_[j];
     const auto first = below_row_.begin() + column_first_[std::min(p, q)],
                last = below_row_.begin() + column_first_[std::min(p, q) + 1];
     const auto at = std::lower_bound(first, last, std::max(p, q));
-    return {static_cast<std::uint32_t>(at - below_row_.begin()), p < q};
+    if (at == last || *at != std::max(p, q)) return std::nullopt;
+    return Slot{static_cast<std::uint32_t>(at - below_row_.begin()), p < q};
 }
 
 // ---- whenever attached rows change

@@ -4,13 +4,14 @@
 ///
 /// Two kinds of block rows: `order` takes those whose pattern stays (the particles), and chooses
 /// the order in which they are eliminated; `attach` takes those that have blocks with many of them
-/// (the pressures of balloons) or come and go, which are eliminated last. Then any number of times: `clear`, add to blocks,
-/// `factor`, `solve`. Definite or quasi-definite systems need no pivoting.
+/// (the pressures of balloons) or come and go, which are eliminated last. Then any number of times:
+/// `clear`, add to blocks, `factor`, `solve`. Definite or quasi-definite systems need no pivoting.
 #pragma once
 
 #include "math/types.h"
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -39,8 +40,12 @@ public:
     /// Multiplications that `factor` takes, about.
     double work() const { return work_; }
 
-    /// The block of a pair below `rows`, of which neither is the other.
-    Slot slot(std::uint32_t i, std::uint32_t j) const;
+    /// The block of a pair below `rows`, of which neither is the other, or none.
+    std::optional<Slot> find_slot(std::uint32_t i, std::uint32_t j) const;
+    /// The same of a pair that was told.
+    Slot slot(std::uint32_t i, std::uint32_t j) const { return *find_slot(i, j); }
+    /// Its block on the diagonal so far, of a row below `rows`.
+    const Matrix3d& diagonal(std::uint32_t row) const { return diagonal_[place_[row]]; }
 
     void clear();
     void add(std::uint32_t row, const Matrix3d& block) {

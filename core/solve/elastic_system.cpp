@@ -15,11 +15,18 @@ constexpr double kFilling = 1e8;
 /// is rounding.
 constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6, kRounding = 1e-12;
 
-/// Factors are kept as long as each step is at most this share of the one before.
-constexpr double kQuick = 0.3;
+/// Factors are kept as long as so many steps with them leave no more than this share to do.
+constexpr int kLook = 5;
+constexpr double kQuick = 0.2;
 
-/// Steps of a call: a substep makes as many calls as position iterations.
-constexpr int kSteps = 4;
+/// Minima of a call, each with the contacts' impulses of the one before.
+constexpr int kRounds = 2;
+/// They have found them where those would change velocities by no more than this times as much as
+/// is enough otherwise.
+constexpr double kEnoughOfContacts = 10;
+
+/// Steps to a minimum, and of a substep, which makes as many calls as position iterations.
+constexpr int kSteps = 20, kStepsOfSubstep = 60;
 
 /// A step of new factors is taken whole where no more than this share is left to do at its end.
 constexpr double kGood = 0.7;
@@ -30,22 +37,22 @@ constexpr int kCuts = 6;
 
 }  // namespace
 
-ElasticSystem::ElasticSystem(const World& world)
-    : elements_(make_elements(world, world.settings.dt / world.settings.substeps, Formulas())) {
+ElasticSystem::ElasticSystem(const World& world, bool has_contacts, bool has_friction)
+    : elements_(make_elements(world, world.settings.dt / world.settings.substeps, Formulas())),
+      contacts_(has_friction),
+      has_contacts_(has_contacts) {
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
     h_ = world.settings.dt / world.settings.substeps;
-    for (auto* column : {&start_, &x_, &v_, &target_, &own_, &elastic_})
+    for (auto* column : {&start_, &x_, &own_, &elastic_})
         column->assign(p.size(), Vector3d::Zero());
     std::vector<SparseLdlt::Pair> pairs;
     for (const auto& elements : elements_) elements->add_pairs(pairs);
     system_.order(particles(), pairs);
     for (const auto& elements : elements_) elements->find_slots(system_);
     make_balloons(world);
-    attach_balloons();
-    for (auto* rows : {&force_, &direction_, &way_})
-        rows->assign(particles() + system_.more(), Vector3d::Zero());
+    attach();
 }
 
 void ElasticSystem::make_balloons(const World& world) {
@@ -59,21 +66,38 @@ void ElasticSystem::make_balloons(const World& world) {
 }
 
 /// The pressure that keeps a balloon's volume is an unknown of its own, for it acts on all its
-/// particles.
-void ElasticSystem::attach_balloons() {
-    std::vector<SparseLdlt::Pair> pairs;
-    std::uint32_t row = particles();
+/// particles; and so are the velocities of bodies that touch any.
+void ElasticSystem::attach() {
+    pairs_.clear();
+    balloon_rows_ = 0;
     for (const Balloon& balloon : balloons_) {
         if (!balloon.keeps_volume()) continue;
         for (std::uint32_t i = 0; i < balloon.count; ++i)
-            pairs.emplace_back(balloon.first + i, row);
-        ++row;
+            pairs_.emplace_back(balloon.first + i, particles() + balloon_rows_);
+        ++balloon_rows_;
     }
-    system_.attach(row - particles(), pairs);
+    balloon_pairs_ = pairs_.size();
+    pairs_.reserve(balloon_pairs_ + contacts_.pairs().capacity());
+    pairs_.insert(pairs_.end(), contacts_.pairs().begin(), contacts_.pairs().end());
+    system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
+    for (auto* rows : {&v_, &target_, &best_, &force_, &direction_, &way_, &before_}) {
+        rows->resize(particles() + system_.more());
+        std::fill(rows->begin(), rows->end(), Vector3d::Zero());
+    }
+    drop_factors();
 }
 
 void ElasticSystem::load(const World& world) {
     const Particles& p = world.particles;
+    if (has_contacts_ && contacts_.load(world, particles() + balloon_rows_)) attach();
+    if (!contacts_.empty()) {
+        drop_factors();
+        for (std::size_t i = 0; i < p.size(); ++i) x_[i] = p.position[i] - p.position[0];
+        for (const auto& elements : elements_) elements->begin(x_, h_);
+        assemble_elements();
+        contacts_.weigh(system_, mass_);
+        return;
+    }
     if (p.factored == factored_) return;
     drop_factors();
     if (p.factored.size() != p.size()) return;
@@ -82,11 +106,14 @@ void ElasticSystem::load(const World& world) {
     factor();
 }
 
-void ElasticSystem::store(Particles& particles) const {
-    if (particles.factored != factored_) particles.factored = factored_;
+/// Factors with contacts in them are not those of the places alone.
+void ElasticSystem::store(World& world) {
+    if (!contacts_.empty()) drop_factors();
+    if (world.particles.factored != factored_) world.particles.factored = factored_;
+    contacts_.store(world.elastic_impulses);
 }
 
-void ElasticSystem::begin(const World& world, double h) {
+void ElasticSystem::begin(const World& world, double h, double stiffness, double recovery) {
     h_ = h;
     const Particles& p = world.particles;
     double fastest = 0, furthest = 0;
@@ -99,6 +126,10 @@ void ElasticSystem::begin(const World& world, double h) {
     enough_ = kEnoughOfGravity * world.settings.gravity.norm() * h +
               kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
     for (const auto& elements : elements_) elements->begin(start_, h);
+    contacts_.begin(world, h, stiffness, recovery);
+    fall_ = h * world.settings.gravity;
+    is_first_ = true;
+    steps_left_ = kStepsOfSubstep;
 }
 
 /// Volume of a balloon at the places now, and its gradient.
@@ -113,7 +144,7 @@ double ElasticSystem::measure(Balloon& balloon) const {
 
 /// What pulls at each row at the velocities now, which is 0 at the minimum; and the energy.
 void ElasticSystem::find_forces() {
-    for (std::size_t i = 0; i < v_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
     std::fill(elastic_.begin(), elastic_.end(), Vector3d::Zero());
     energy_ = 0;
     for (const auto& elements : elements_) energy_ += elements->add_forces(x_, elastic_);
@@ -124,21 +155,23 @@ void ElasticSystem::find_forces() {
         for (std::uint32_t i = 0; i < balloon.count; ++i)
             elastic_[balloon.first + i] += push * balloon.gradient[i];
     }
-    for (std::size_t i = 0; i < v_.size(); ++i) {
+    for (std::size_t i = 0; i < x_.size(); ++i) {
         if (mass_[i] == 0) continue;
         const Vector3d missing = target_[i] - v_[i];
         force_[i] = mass_[i] * missing + h_ * elastic_[i];
         energy_ += 0.5 * mass_[i] * missing.squaredNorm();
     }
+    energy_ += contacts_.add_forces(target_, v_, force_);
+    for (std::size_t i = 0; i < x_.size(); ++i)
+        if (mass_[i] == 0) force_[i].setZero();
 }
 
 /// Second derivatives at the velocities now, without what would make them indefinite.
-void ElasticSystem::assemble() {
+void ElasticSystem::assemble_elements() {
     system_.clear();
     for (std::uint32_t i = 0; i < particles(); ++i)
         system_.add(i, (mass_[i] > 0 ? mass_[i] : 1) * Matrix3d::Identity());
     for (const auto& elements : elements_) elements->add_stiffness(x_, h_ * h_, system_);
-    assemble_balloons();
 }
 
 void ElasticSystem::assemble_balloons() {
@@ -160,7 +193,9 @@ void ElasticSystem::assemble_balloons() {
 }
 
 bool ElasticSystem::factor() {
-    assemble();
+    assemble_elements();
+    assemble_balloons();
+    contacts_.add_stiffness(mass_, balloon_pairs_, system_);
     has_factors_ = system_.factor();
     factored_ = x_;
     if (!has_factors_) drop_factors();
@@ -176,12 +211,23 @@ void ElasticSystem::drop_factors() {
 ElasticSystem::Move ElasticSystem::find_direction() {
     direction_ = force_;
     system_.solve(direction_);
-    double greatest = 0, energy = 0;
-    for (std::size_t i = 0; i < v_.size(); ++i) {
-        const double square = direction_[i].squaredNorm();
-        greatest = std::max(greatest, square), energy += mass_[i] * square;
-    }
-    return {std::sqrt(greatest), std::sqrt(energy)};
+    double greatest = 0;
+    for (std::size_t i = 0; i < x_.size(); ++i)
+        greatest = std::max(greatest, direction_[i].squaredNorm());
+    for (const ElasticContacts::Body& body : contacts_.bodies())
+        greatest = std::max(greatest, direction_[body.row].squaredNorm());
+    return {std::sqrt(greatest), std::sqrt(product(direction_, direction_))};
+}
+
+/// xᵀ M y of velocities [J].
+double ElasticSystem::product(const std::vector<Vector3d>& x,
+                              const std::vector<Vector3d>& y) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < mass_.size(); ++i) sum += mass_[i] * x[i].dot(y[i]);
+    for (const ElasticContacts::Body& body : contacts_.bodies())
+        sum += body.mass * x[body.row].dot(y[body.row]) +
+               x[body.row + 1].dot(body.inertia * y[body.row + 1]);
+    return sum;
 }
 
 /// Along `way_`.
@@ -192,7 +238,7 @@ void ElasticSystem::advance(double step) {
 /// How fast the energy rises along `way_`.
 double ElasticSystem::slope() const {
     double sum = 0;
-    for (std::size_t i = 0; i < v_.size(); ++i) sum -= way_[i].dot(force_[i]);
+    for (std::size_t i = 0; i < way_.size(); ++i) sum -= way_[i].dot(force_[i]);
     return sum;
 }
 
@@ -219,59 +265,102 @@ void ElasticSystem::search_line() {
     }
 }
 
-/// Newton's method. A step is good where the same factors find less left to do at its end (the
-/// natural test of Deuflhard 2011, §3.3): a test by energy would stop at every fold, for what moves
-/// across a stiff sheet stretches it in second order, and the next step takes that back. Where the
-/// end is not reached, the least energy of all steps stands.
-void ElasticSystem::descend() {
+/// Newton's method, in which factors are kept while they lead on, and Anderson's acceleration makes
+/// up for what their stiffness leaves out. A step is good where the same factors find less left to
+/// do at its end (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at every
+/// fold, for what moves across a stiff sheet stretches it in second order, and the next step takes
+/// that back. Where the end is not reached, the least energy of all steps stands; returns whether
+/// it was.
+bool ElasticSystem::descend() {
+    const auto dot = [this](const auto& x, const auto& y) { return product(x, y); };
     find_forces();
-    best_ = v_, least_ = energy_;
+    keep_best();
+    earlier_.clear(v_.size());
     Move move;
-    bool fresh = false, known = false;
-    for (int i = 0; i < kSteps; ++i) {
+    bool known = false;
+    int steps = 0;       // with these factors
+    double at_look = 0;  // how far was left to go
+    for (int i = 0; i < kSteps && steps_left_ > 0; ++i, --steps_left_) {
+        bool fresh = false;
         if (!has_factors_) {
             if (!factor()) break;
             fresh = true, known = false;
+            steps = 0;
+            earlier_.clear(v_.size());
         }
         if (!known) move = find_direction();
+        if (steps == 0) at_look = move.size;
         if (!std::isfinite(move.size)) {
             drop_factors();
             break;
         }
-        std::swap(way_, direction_);
+        earlier_.find(direction_, way_, dot);
+        std::swap(before_, direction_);
         advance(1);
-        if (move.greatest <= enough_) return;
+        if (move.greatest <= enough_) return true;
         find_forces();
         Move next = find_direction();
-        if (!fresh && !(next.size <= kQuick * move.size)) {
-            advance(-1);
-            find_forces();
-            drop_factors();
-            continue;
+        if (!(next.size < kGood * move.size)) {
+            const bool is_worse = !(next.size < move.size);
+            if (is_worse && (!earlier_.empty() || !fresh)) {
+                // back, and on without what was foreseen, or with new factors
+                advance(-1);
+                find_forces();
+                std::swap(before_, direction_);
+                if (earlier_.empty()) drop_factors();
+                earlier_.clear(v_.size());
+                known = has_factors_;
+                continue;
+            }
+            if (earlier_.empty() && slope() > 0) {
+                search_line();
+                next = find_direction();
+            }
         }
-        if (!(next.size < kGood * move.size) && slope() > 0) {
-            search_line();
-            next = find_direction();
+        if (energy_ < least_) keep_best();
+        earlier_.add(way_, before_, direction_, dot);
+        if (++steps % kLook == 0) {
+            if (!(next.size < kQuick * at_look)) drop_factors();
+            at_look = next.size;
         }
-        if (energy_ < least_) best_ = v_, least_ = energy_;
-        known = next.size <= kQuick * move.size;
-        if (!known) drop_factors();
-        fresh = false;
+        known = has_factors_;
         move = next;
     }
     v_ = best_;
+    return false;
 }
 
+void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
+
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
-    for (std::size_t i = 0; i < v_.size(); ++i) {
+    if (steps_left_ == 0) return;
+    for (std::size_t i = 0; i < x_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
         if (mass_[i] > 0) target_[i] -= own_[i] / mass_[i];
     }
-    descend();
-    for (std::size_t i = 0; i < v_.size(); ++i) {
+    std::fill(v_.begin() + particles(), v_.end(), Vector3d::Zero());
+    contacts_.find_targets(v_, target_);
+    if (is_first_) guess_rest();
+    for (int round = 0; round < kRounds; ++round) {
+        const bool is_there = descend();
+        if (contacts_.empty()) break;
+        find_forces();
+        if (is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_) break;
+    }
+    contacts_.match(v_, target_);
+    for (std::size_t i = 0; i < x_.size(); ++i) {
         own_[i] = mass_[i] * (v_[i] - target_[i]);
         velocity[i] = v_[i];
     }
+}
+
+/// Most of what touches is held up by something: it moves on as it did, and does not fall.
+void ElasticSystem::guess_rest() {
+    is_first_ = false;
+    if (contacts_.empty()) return;
+    for (std::size_t i = 0; i < x_.size(); ++i)
+        if (mass_[i] > 0) v_[i] -= fall_;
+    for (const ElasticContacts::Body& body : contacts_.bodies()) v_[body.row] -= fall_;
 }
 
 }  // namespace plumb

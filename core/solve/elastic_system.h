@@ -13,6 +13,8 @@
 #pragma once
 
 #include "constraints/volume.h"
+#include "math/anderson.h"
+#include "solve/elastic_contacts.h"
 #include "solve/elements.h"
 
 #include <memory>
@@ -22,18 +24,22 @@ namespace plumb {
 
 class ElasticSystem {
 public:
-    explicit ElasticSystem(const World& world);
+    /// `has_contacts`: those with bodies are part of it; with friction where `has_friction`.
+    ElasticSystem(const World& world, bool has_contacts, bool has_friction);
 
     /// Once a step: the factors that the step before left, and after it those that it leaves.
     void load(const World& world);
-    void store(Particles& particles) const;
+    void store(World& world);
 
-    /// Once a substep of length h [s], before any call of `solve`.
-    void begin(const World& world, double h);
+    /// Once a substep of length h [s], before any call of `solve`; overlap of contacts as of
+    /// `ElasticContacts::begin`.
+    void begin(const World& world, double h, double stiffness, double recovery);
 
-    /// Improves the velocities of all particles [m/s]. What the system gave them in earlier calls
-    /// of this substep is in them, and is weighed anew.
+    /// Improves the velocities of all particles [m/s], and of the contacts' bodies. What the system
+    /// gave them in earlier calls of this substep is in them, and is weighed anew.
     void solve(std::vector<Vector3d>& velocity);
+
+    ElasticContacts& contacts() { return contacts_; }
 
 private:
     struct Balloon {
@@ -52,10 +58,10 @@ private:
     };
 
     void make_balloons(const World& world);
-    void attach_balloons();
+    void attach();
     double measure(Balloon& balloon) const;
     void find_forces();
-    void assemble();
+    void assemble_elements();
     void assemble_balloons();
     bool factor();
     Move find_direction();
@@ -63,24 +69,36 @@ private:
     void drop_factors();
     double slope() const;
     void search_line();
-    void descend();
+    void guess_rest();
+    bool descend();
+    double product(const std::vector<Vector3d>& x, const std::vector<Vector3d>& y) const;
+    void keep_best();
 
     std::uint32_t particles() const { return static_cast<std::uint32_t>(mass_.size()); }
 
     std::vector<std::unique_ptr<Elements>> elements_;
     std::vector<Balloon> balloons_;
     std::vector<double> mass_;  ///< [particle], 0 of what stays [kg]
+    ElasticContacts contacts_;
+    bool has_contacts_;
+    std::vector<SparseLdlt::Pair> pairs_;  ///< of particles and attached rows, as told
+    std::uint32_t balloon_rows_ = 0;
+    std::size_t balloon_pairs_ = 0;
     SparseLdlt system_;
     bool has_factors_ = false;
     double h_ = 0, enough_ = 0;
+    Vector3d fall_ = Vector3d::Zero();  ///< what gravity does in a substep [m/s]
+    int steps_left_ = 0;                ///< of this substep
+    bool is_first_ = false;             ///< call of `solve` in this substep
 
     ParticlePlaces start_, x_, factored_;
-    std::vector<Vector3d> v_, target_, own_;         ///< [particle]; v̂ [m/s]; impulses [N s]
-    std::vector<Vector3d> elastic_;                  ///< [particle] forces [N]
-    std::vector<Vector3d> force_, direction_, way_;  ///< [row of the system]
-    std::vector<Vector3d> best_;  ///< [particle] velocities of the least energy [m/s]
-    double least_ = 0;            ///< that energy [J]
-    double energy_ = 0;           ///< at the velocities now [J]
+    std::vector<Vector3d> own_, elastic_;  ///< [particle] impulses [N s]; forces [N]
+    /// [row of the system]: velocities and v̂ [m/s]; those of the least energy.
+    std::vector<Vector3d> v_, target_, best_;
+    std::vector<Vector3d> force_, direction_, way_, before_;  ///< [row of the system]
+    Anderson earlier_;                                        ///< steps with these factors
+    double least_ = 0;                                        ///< that energy [J]
+    double energy_ = 0;                                       ///< at the velocities now [J]
 };
 
 }  // namespace plumb

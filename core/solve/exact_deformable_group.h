@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// All that holds deformables together, solved as one system. Contacts, links and attachments stay
-/// with the iterations, in turn with it.
+/// All that holds deformables together, and their contacts with bodies, solved as one system.
+/// Contacts of deformables among themselves, links and attachments stay with the iterations, in
+/// turn with it.
 #pragma once
 
+#include "effects/plan.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/contact_iteration.h"
 #include "solve/elastic_system.h"
 #include "solve/momentum_keeper.h"
 #include "solve/particle_rows.h"
@@ -16,13 +19,13 @@ namespace plumb {
 template <class Real>
 class ExactDeformableGroup final : public ConstraintGroup<Real> {
 public:
-    ExactDeformableGroup(const World& world, Workers& workers)
+    ExactDeformableGroup(const World& world, const Plan& plan, Workers& workers)
         : workers_(workers),
-          system_(world),
+          system_(world, plan.runs(Effect::particle_contacts), plan.runs(Effect::friction)),
           mass_(world.particles),
           keeper_(world, mass_, workers) {
         velocity_.resize(world.particles.size());
-        before_.resize(velocity_.size());
+        inverse_mass_ = world.particles.inverse_mass;
     }
 
     Stage stage() const override { return Stage::particles; }
@@ -30,30 +33,70 @@ public:
 
     void load(const World& world) override { system_.load(world); }
 
-    void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>&,
+    void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>& pass,
                double h) override {
         first_row_ = world.particle_row(0);
         keeper_.begin(world);
-        system_.begin(world, h);
+        system_.begin(world, h, double(pass.stiffness), double(pass.recovery));
+        body_row_.clear();
+        for (const ElasticContacts::Body& body : system_.contacts().bodies())
+            body_row_.push_back(world.bodies.row[body.index]);
     }
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>&,
                            std::uint32_t worker) override {
-        keeper_.note(rows, worker);
         if (worker == 0) solve(rows);
+        workers_.barrier();
+        keeper_.note(rows, worker);
+        if (worker == 0) take_velocities(rows);
         workers_.barrier();
         keeper_.restore(rows, worker);
     }
 
-    void end_step(World& world) override { system_.store(world.particles); }
+    /// Calls visit(contact, RowImpulse) for each contact of a particle, with what it bears in this
+    /// substep.
+    template <class Visit>
+    void each_impulse(Visit visit) {
+        for (const ElasticContacts::Contact& c : system_.contacts().contacts()) {
+            if (c.is_of_surface) continue;
+            const double along = c.applied.dot(c.normal);
+            const Vector3d across = c.applied - along * c.normal;
+            const double size = across.norm();
+            RowImpulse impulse{along};
+            if (size > 0) impulse.x = size, impulse.tangents.x = across / size;
+            visit(c.source, impulse);
+        }
+    }
+
+    void end_step(World& world) override { system_.store(world); }
 
 private:
+    /// Contacts push both sides at once; what elements do, which momentum must not feel, comes
+    /// after.
     void solve(const BodyRows<Real>& rows) {
+        ElasticContacts& contacts = system_.contacts();
+        std::vector<ElasticContacts::Body>& bodies = contacts.bodies();
         for (std::size_t i = 0; i < velocity_.size(); ++i)
-            before_[i] = velocity_[i] = velocity_of(rows, row(i)).v;
+            velocity_[i] = velocity_of(rows, row(i)).v;
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            bodies[i].v = velocity_of(rows, body_row_[i]);
         system_.solve(velocity_);
+        for (ElasticContacts::Contact& c : contacts.contacts()) {
+            const Vector3d change = c.q - c.applied;
+            c.applied = c.q;
+            for (std::uint32_t k = 0; k < c.points; ++k)
+                add_change(rows, row(c.particle[k]),
+                           Vector3d(change * (c.weight[k] * inverse_mass_[c.particle[k]])));
+            if (c.body == kNoIndex) continue;
+            Velocity<double> moved{Vector3d::Zero(), Vector3d::Zero()};
+            apply_impulse<double>(moved, bodies[c.body].inverse, c.arm, -change);
+            add_change(rows, body_row_[c.body], moved);
+        }
+    }
+
+    void take_velocities(const BodyRows<Real>& rows) {
         for (std::size_t i = 0; i < velocity_.size(); ++i)
-            add_change(rows, row(i), Vector3d(velocity_[i] - before_[i]));
+            add_change(rows, row(i), Vector3d(velocity_[i] - velocity_of(rows, row(i)).v));
     }
 
     std::int32_t row(std::size_t particle) const {
@@ -64,7 +107,9 @@ private:
     ElasticSystem system_;
     ParticleMass mass_;
     MomentumKeeper<Real> keeper_;
-    std::vector<Vector3d> velocity_, before_;  ///< [particle] [m/s]
+    std::vector<Vector3d> velocity_;      ///< [particle] [m/s]
+    std::vector<double> inverse_mass_;    ///< [particle] [1/kg]
+    std::vector<std::int32_t> body_row_;  ///< [contacts' body] in the velocity table
     std::int32_t first_row_ = 0;
 };
 

@@ -21,7 +21,10 @@ template <class Real>
 class SurfaceContactGroup final : public ConstraintGroup<Real> {
 public:
     SurfaceContactGroup(const Plan& plan, Workers& workers)
-        : has_friction_(plan.runs(Effect::friction)), workers_(workers) {}
+        : has_friction_(plan.runs(Effect::friction)),
+          has_bodies_(
+              !(plan.runs(Effect::exact_deformables) && plan.runs(Effect::particle_contacts))),
+          workers_(workers) {}
 
     Stage stage() const override { return Stage::surface_contacts; }
     bool empty() const override { return rows_.empty(); }
@@ -38,6 +41,7 @@ public:
             const SurfaceContact& c = world.surface_contacts[i];
             Row& row = rows_[i];
             row = Row();
+            if (!has_bodies_ && c.point.particle == kNoIndex) continue;
             row.normal = c.normal, row.friction = has_friction_ ? c.friction : 0;
             Vector3d place;
             if (c.point.particle != kNoIndex) {
@@ -153,6 +157,7 @@ private:
     }
 
     bool has_friction_;
+    bool has_bodies_;  ///< else what is solved as one system has the contacts of bodies in it
     Workers& workers_;
     std::vector<Row> rows_;
 };

@@ -198,10 +198,11 @@ public:
     void add_impulses(ContactSums& sums) override {
         (shocks_ ? *shock_ : *contacts_).add_impulses(sums);
         if (islands_) islands_->add_impulses(sums);
-        if (!particle_contacts_) return;
-        particle_contacts_->each_impulse([&](std::size_t contact, const RowImpulse& p) {
+        const auto add_of_particle = [&](std::size_t contact, const RowImpulse& p) {
             sums.add_of_particle(contact, p.normal, p.friction());
-        });
+        };
+        if (particle_contacts_) particle_contacts_->each_impulse(add_of_particle);
+        if (exact_deformables_) exact_deformables_->each_impulse(add_of_particle);
     }
 
     void take_changes(World& world) const override {
@@ -260,14 +261,14 @@ private:
         }
         const JoinedBodies<Real>* joined = nullptr;
         if (plan.runs(Effect::exact_deformables))
-            add<ExactDeformableGroup<Real>>(world, workers_);
+            exact_deformables_ = add<ExactDeformableGroup<Real>>(world, plan, workers_);
         else if (plan.runs(Effect::deformables))
             joined = &add<DeformableGroup<Real, W>>(world, workers_)->bodies();
         if (plan.runs(Effect::links))
             add<LinkGroup<Real>>(world, solved_ties_.links, joined, workers_);
         if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
-        if (plan.runs(Effect::particle_contacts))
+        if (plan.runs(Effect::particle_contacts) && !exact_deformables_)
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
         for (const auto& group : groups_) rounds_ = std::max(rounds_, group->rounds());
     }
@@ -375,6 +376,7 @@ private:
     // those of the groups that stages of their own ask for
     ContactSolver<Real, W>* contacts_ = nullptr;
     ParticleContactGroup<Real, W>* particle_contacts_ = nullptr;
+    ExactDeformableGroup<Real>* exact_deformables_ = nullptr;
     Group *joints_ = nullptr, *trees_ = nullptr;  // iterated; solved exactly
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;

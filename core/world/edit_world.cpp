@@ -73,6 +73,8 @@ void forget_contacts(World& world, std::uint32_t slot) {
     world.particle_contacts = {};
     std::erase_if(world.surface_contacts,
                   [slot](const SurfaceContact& x) { return x.point.body == slot; });
+    std::erase_if(world.elastic_impulses,
+                  [slot](const ElasticImpulse& x) { return x.body == slot; });
 }
 
 std::uint32_t insert_joint(World& world, JointDraft draft) {

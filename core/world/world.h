@@ -5,6 +5,7 @@
 #include "scene/scene.h"
 #include "world/bodies.h"
 #include "world/contacts.h"
+#include "world/elastic_impulses.h"
 #include "world/joints.h"
 #include "world/links.h"
 #include "world/particle_contacts.h"
@@ -44,6 +45,7 @@ struct World {
     SleepingContacts asleep;  ///< of bodies of which none moves
     ParticleContactTable particle_contacts;
     std::vector<SurfaceContact> surface_contacts;
+    std::vector<ElasticImpulse> elastic_impulses;  ///< sorted
     ShapeStore shapes;
     std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table,
     std::int32_t kinematic_count = 0;  ///< then particles, kinematic bodies, and one row of zeros

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+/// Contacts of particles and of surfaces with bodies, as part of the elastic system.
+///
+/// Solved in turn with a stiff sheet, a contact of a heavy body never ends: the one lifts a light
+/// point off, the other pulls it back. So bodies that touch what deforms are unknowns of the system
+/// beside the particles, and a contact adds
+///
+///   Ψ = (|q_n|² + φ(q_t)) / 2ρ,  q = P(p − ρ u)
+///
+/// to what is minimised: the augmented Lagrangian of Coulomb's law (Alart and Curnier 1991).
+///
+///   u  velocity of the particles' point against the body's, with what the gap leaves room for
+///      along n [m/s]
+///   p  impulse on the particles' point as found so far [N s]; P takes it into the cone of friction
+///   ρ  some times what the points resist a push with [kg], so that p is found in a few rounds
+///   φ  q_t² within the cone, 2 μ q_n |p_t − ρ u_t| − (μ q_n)² on it
+#pragma once
+
+#include "constraints/connector.h"
+#include "math/sparse_ldlt.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+class ElasticContacts {
+public:
+    /// A dynamic body that touches what deforms. Its velocities are rows of the system.
+    struct Body {
+        std::uint32_t index = 0;                                 ///< in the world's table
+        std::uint32_t row = 0;                                   ///< of v; that of ω comes next
+        double mass = 0;                                         ///< [kg]
+        Matrix3d inertia = Matrix3d::Zero();                     ///< world frame [kg m²]
+        InverseMass<double> inverse{0, {0, 0, 0, 0, 0, 0}};      ///< world frame
+        Velocity<double> v{Vector3d::Zero(), Vector3d::Zero()};  ///< when the system is asked
+        Vector6d missing = Vector6d::Zero();  ///< impulse and its moment that contacts do not give
+        Matrix6d reach = Matrix6d::Zero();    ///< of the contacts' impulses
+    };
+    struct Contact {
+        std::uint32_t source = 0;    ///< in the world's table
+        bool is_of_surface = false;  ///< of `surface_contacts`, or else of `particle_contacts`
+        std::uint32_t points = 1;    ///< 1 or 3
+        std::uint32_t particle[3] = {0, 0, 0};
+        double weight[3] = {1, 0, 0};
+        std::uint32_t body = kNoIndex;    ///< in `bodies`, or none: it does not yield
+        std::size_t pair[3] = {0, 0, 0};  ///< of particle and v; that with ω comes next
+        double friction = 0, rho = 0;
+        Vector3d normal = Vector3d::Zero(),
+                 arm = Vector3d::Zero();    ///< towards the particles; on the body
+        Vector3d given = Vector3d::Zero();  ///< part of u that nothing changes [m/s]
+        Vector3d p = Vector3d::Zero(), q = Vector3d::Zero();
+        bool slides = false;
+        double held = 1;                      ///< q_t is this share of p_t − ρ u_t
+        Vector3d applied = Vector3d::Zero();  ///< part of q that velocities have felt
+    };
+
+    explicit ElasticContacts(bool has_friction) : has_friction_(has_friction) {}
+
+    /// Once a step. Rows of bodies are numbered from `first_row` on; returns whether other rows
+    /// or pairs belong to the system than before.
+    bool load(const World& world, std::uint32_t first_row);
+
+    bool empty() const { return contacts_.empty(); }
+    std::uint32_t rows() const { return static_cast<std::uint32_t>(2 * bodies_.size()); }
+    /// (particle, row) with blocks in the system.
+    const std::vector<SparseLdlt::Pair>& pairs() const { return pairs_; }
+    std::vector<Body>& bodies() { return bodies_; }
+    const std::vector<Body>& bodies() const { return bodies_; }
+    std::vector<Contact>& contacts() { return contacts_; }
+    const std::vector<Contact>& contacts() const { return contacts_; }
+
+    /// How the elements resist a push on each particle [kg], once a step.
+    void weigh(const SparseLdlt& system, const std::vector<double>& mass);
+
+    /// Once a substep of length h [s]: gaps and arms. Of old overlap, `stiffness` is pushed out,
+    /// and no more than `recovery` [m] of it counts.
+    void begin(const World& world, double h, double stiffness, double recovery);
+
+    /// Once a call of the system: velocities of bodies as they are, and without the system's
+    /// impulses, [row of the system].
+    void find_targets(std::vector<Vector3d>& v, std::vector<Vector3d>& target) const;
+
+    /// Adds q to the forces on particles and bodies, [row of the system] times h [N s], and returns
+    /// Ψ [J].
+    double add_forces(const std::vector<Vector3d>& target, const std::vector<Vector3d>& v,
+                      std::vector<Vector3d>& force);
+    /// Adds ∂q/∂v, of the last forces; pairs were told to the system from `first_pair` on.
+    void add_stiffness(const std::vector<double>& mass, std::size_t first_pair,
+                       SparseLdlt& system) const;
+    /// p ← q; returns the greatest |p − q| / ρ before [m/s].
+    double take_forces();
+    /// Makes the impulses on each body those that take it from its target to its velocity, for the
+    /// firmer a contact, the more a small error of velocities is one of its impulse.
+    void match(const std::vector<Vector3d>& v, const std::vector<Vector3d>& target);
+    /// Once a step: what the next one begins from.
+    void store(std::vector<ElasticImpulse>& impulses) const;
+
+private:
+    void find_pairs();
+    void take_kept(const World& world);
+    void find_force(const Vector3d& u, Contact& contact, double& energy) const;
+
+    bool has_friction_;
+    std::vector<Body> bodies_;
+    std::vector<Contact> contacts_;
+    std::vector<SparseLdlt::Pair> pairs_, pairs_before_;
+    std::vector<std::uint32_t> body_of_;  ///< [world's body] in `bodies_`
+    std::vector<ElasticImpulse> keys_;    ///< of the contacts, sorted
+    std::vector<double> resistance_;      ///< [particle] [kg]
+};
+
+}  // namespace plumb
