@@ -258,8 +258,8 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
             return n.is_beyond ? Vector3d(-n.apart) : n.apart;
         };
         const Vector3d direction = out_of(*best);
-        if (probe.point.body != kNoIndex && probe.radius > 0) {
-            // what is round lies on all that it faces
+        if (probe.point.body != kNoIndex && probe.radius > 0 && !closed_[surface_of(nearest)]) {
+            // what is round lies on all of a sheet that it faces
             for (auto n = first; n != last; ++n)
                 if (&*n != best && std::abs(n->facing) >= kFaceOn) add(world, probe, *n);
             continue;

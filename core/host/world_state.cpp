@@ -212,6 +212,9 @@ void read_state(World& world, StateReader& from) {
     world.contacts.list_pairs();
     std::erase_if(world.surface_contacts,
                   [&](const SurfaceContact& c) { return !can_be(c, world); });
+    std::erase_if(world.elastic_impulses,
+                  [](const ElasticImpulse& kept) { return !kept.impulse.allFinite(); });
+    std::sort(world.elastic_impulses.begin(), world.elastic_impulses.end());
     for (Deformable& d : world.deformables)
         if (d.can_tear()) leave_out_torn(d);
 }

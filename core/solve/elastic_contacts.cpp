@@ -63,6 +63,7 @@ bool ElasticContacts::load(const World& world, std::uint32_t first_row) {
     const ParticleContactTable& table = world.particle_contacts;
     for (std::uint32_t i = 0; i < table.found.size(); ++i) {
         const plumb::Contact& found = table.found[i];
+        if (!has_elastic_contacts(world, found.a)) continue;
         Contact c;
         c.source = i, c.particle[0] = found.a;
         c.normal = to_eigen(found.normal);
@@ -72,7 +73,8 @@ bool ElasticContacts::load(const World& world, std::uint32_t first_row) {
     }
     for (std::uint32_t i = 0; i < world.surface_contacts.size(); ++i) {
         const SurfaceContact& found = world.surface_contacts[i];
-        if (found.point.body == kNoIndex) continue;
+        if (found.point.body == kNoIndex || !has_elastic_contacts(world, found.triangle[0]))
+            continue;
         Contact c;
         c.source = i, c.is_of_surface = true, c.points = 3;
         for (int k = 0; k < 3; ++k)
@@ -336,11 +338,10 @@ void ElasticContacts::match(const std::vector<Vector3d>& v, const std::vector<Ve
 void ElasticContacts::store(std::vector<ElasticImpulse>& impulses) const {
     impulses.clear();
     impulses.reserve(contacts_.capacity());
-    for (const ElasticImpulse& key : keys_)
-        if (!contacts_[key.order].p.isZero(0)) {
-            impulses.push_back(key);
-            impulses.back().impulse = contacts_[key.order].p;
-        }
+    for (const ElasticImpulse& key : keys_) {
+        impulses.push_back(key);
+        impulses.back().impulse = contacts_[key.order].p;
+    }
 }
 
 }  // namespace plumb

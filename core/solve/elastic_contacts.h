@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// Contacts of particles and of surfaces with bodies, as part of the elastic system.
+/// Contacts of sheets with bodies, as part of the elastic system.
 ///
 /// Solved in turn with a stiff sheet, a contact of a heavy body never ends: the one lifts a light
-/// point off, the other pulls it back. So bodies that touch what deforms are unknowns of the system
+/// point off, the other pulls it back. So bodies that touch sheets are unknowns of the system
 /// beside the particles, and a contact adds
 ///
 ///   Ψ = (|q_n|² + φ(q_t)) / 2ρ,  q = P(p − ρ u)
@@ -24,9 +24,17 @@
 
 namespace plumb {
 
+/// Whether contacts of a particle with bodies are part of the system that holds it together, where
+/// there is one. Those of solids, balloons and ropes are iterated: a thin solid or a balloon that
+/// nothing holds is thrown by what Newton's method leaves.
+inline bool has_elastic_contacts(const World& world, std::uint32_t particle) {
+    return world.deformables[world.particles.deformable[particle]].spec.kind ==
+           DeformableKind::cloth;
+}
+
 class ElasticContacts {
 public:
-    /// A dynamic body that touches what deforms. Its velocities are rows of the system.
+    /// A dynamic body that touches a sheet. Its velocities are rows of the system.
     struct Body {
         std::uint32_t index = 0;                                 ///< in the world's table
         std::uint32_t row = 0;                                   ///< of v; that of ω comes next
@@ -49,6 +57,7 @@ public:
         Vector3d normal = Vector3d::Zero(),
                  arm = Vector3d::Zero();    ///< towards the particles; on the body
         Vector3d given = Vector3d::Zero();  ///< part of u that nothing changes [m/s]
+        /// As above; once `match` has corrected it, q is what both sides are given.
         Vector3d p = Vector3d::Zero(), q = Vector3d::Zero();
         bool slides = false;
         double held = 1;                      ///< q_t is this share of p_t − ρ u_t

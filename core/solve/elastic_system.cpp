@@ -66,7 +66,7 @@ void ElasticSystem::make_balloons(const World& world) {
 }
 
 /// The pressure that keeps a balloon's volume is an unknown of its own, for it acts on all its
-/// particles; and so are the velocities of bodies that touch any.
+/// particles; and so are the velocities of bodies that touch sheets.
 void ElasticSystem::attach() {
     pairs_.clear();
     balloon_rows_ = 0;
@@ -345,6 +345,7 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
         const bool is_there = descend();
         if (contacts_.empty()) break;
         find_forces();
+        // short of the minimum, forces of contacts are not near those that hold anything up
         if (is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_) break;
     }
     contacts_.match(v_, target_);

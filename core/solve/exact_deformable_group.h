@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// All that holds deformables together, and their contacts with bodies, solved as one system.
-/// Contacts of deformables among themselves, links and attachments stay with the iterations, in
-/// turn with it.
+/// All that holds deformables together, and contacts of sheets with bodies, solved as one system.
+/// Other contacts, links and attachments stay with the iterations, in turn with it.
 #pragma once
 
 #include "effects/plan.h"

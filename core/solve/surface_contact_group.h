@@ -8,6 +8,7 @@
 #include "effects/plan.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
+#include "solve/elastic_contacts.h"
 #include "solve/particle_rows.h"
 
 #include <Eigen/LU>
@@ -22,8 +23,8 @@ class SurfaceContactGroup final : public ConstraintGroup<Real> {
 public:
     SurfaceContactGroup(const Plan& plan, Workers& workers)
         : has_friction_(plan.runs(Effect::friction)),
-          has_bodies_(
-              !(plan.runs(Effect::exact_deformables) && plan.runs(Effect::particle_contacts))),
+          sheets_apart_(plan.runs(Effect::exact_deformables) &&
+                        plan.runs(Effect::particle_contacts)),
           workers_(workers) {}
 
     Stage stage() const override { return Stage::surface_contacts; }
@@ -41,7 +42,9 @@ public:
             const SurfaceContact& c = world.surface_contacts[i];
             Row& row = rows_[i];
             row = Row();
-            if (!has_bodies_ && c.point.particle == kNoIndex) continue;
+            if (sheets_apart_ && c.point.particle == kNoIndex &&
+                has_elastic_contacts(world, c.triangle[0]))
+                continue;
             row.normal = c.normal, row.friction = has_friction_ ? c.friction : 0;
             Vector3d place;
             if (c.point.particle != kNoIndex) {
@@ -157,7 +160,7 @@ private:
     }
 
     bool has_friction_;
-    bool has_bodies_;  ///< else what is solved as one system has the contacts of bodies in it
+    bool sheets_apart_;  ///< their contacts with bodies are part of the elastic system
     Workers& workers_;
     std::vector<Row> rows_;
 };

@@ -268,7 +268,7 @@ private:
             add<LinkGroup<Real>>(world, solved_ties_.links, joined, workers_);
         if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
-        if (plan.runs(Effect::particle_contacts) && !exact_deformables_)
+        if (plan.runs(Effect::particle_contacts))
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
         for (const auto& group : groups_) rounds_ = std::max(rounds_, group->rounds());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// What contacts bore that are solved as one with what deforms, from one substep to the next.
+/// What contacts bore that are solved as one with sheets, from one step to the next.
 #pragma once
 
 #include "math/types.h"
