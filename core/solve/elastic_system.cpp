@@ -25,8 +25,8 @@ constexpr int kRounds = 2;
 /// is enough otherwise.
 constexpr double kEnoughOfContacts = 10;
 
-/// Steps to a minimum, and of a substep, which makes as many calls as position iterations.
-constexpr int kSteps = 20, kStepsOfSubstep = 60;
+/// Steps to a minimum: a substep makes as many calls as position iterations.
+constexpr int kSteps = 20;
 
 /// A step of new factors is taken whole where no more than this share is left to do at its end.
 constexpr double kGood = 0.7;
@@ -129,7 +129,6 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     contacts_.begin(world, h, stiffness, recovery);
     fall_ = h * world.settings.gravity;
     is_first_ = true;
-    steps_left_ = kStepsOfSubstep;
 }
 
 /// Volume of a balloon at the places now, and its gradient.
@@ -280,7 +279,7 @@ bool ElasticSystem::descend() {
     bool known = false;
     int steps = 0;       // with these factors
     double at_look = 0;  // how far was left to go
-    for (int i = 0; i < kSteps && steps_left_ > 0; ++i, --steps_left_) {
+    for (int i = 0; i < kSteps; ++i) {
         bool fresh = false;
         if (!has_factors_) {
             if (!factor()) break;
@@ -333,7 +332,6 @@ bool ElasticSystem::descend() {
 void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
-    if (steps_left_ == 0) return;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
         if (mass_[i] > 0) target_[i] -= own_[i] / mass_[i];

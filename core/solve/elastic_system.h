@@ -88,7 +88,6 @@ private:
     bool has_factors_ = false;
     double h_ = 0, enough_ = 0;
     Vector3d fall_ = Vector3d::Zero();  ///< what gravity does in a substep [m/s]
-    int steps_left_ = 0;                ///< of this substep
     bool is_first_ = false;             ///< call of `solve` in this substep
 
     ParticlePlaces start_, x_, factored_;
