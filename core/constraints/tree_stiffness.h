@@ -3,6 +3,7 @@
 #pragma once
 
 #include "math/lanes.h"
+#include "math/matrices.h"
 #include "math/symmetric.h"
 
 #include <Eigen/Eigenvalues>
@@ -34,9 +35,7 @@ inline T least_minor(const Symmetric3<T>& m) {
 
 /// Without its negative principal values.
 inline Symmetric3<double> non_negative_part(const Symmetric3<double>& g) {
-    Matrix3d m;
-    m << g.xx, g.xy, g.xz, g.xy, g.yy, g.yz, g.xz, g.yz, g.zz;
-    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(m);
+    const Eigen::SelfAdjointEigenSolver<Matrix3d> solver(matrix_of(g));
     return rotated_diagonal(solver.eigenvectors(), solver.eigenvalues().cwiseMax(0));
 }
 

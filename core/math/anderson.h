@@ -14,7 +14,6 @@
 #include <Eigen/Cholesky>
 
 #include <array>
-#include <utility>
 #include <vector>
 
 namespace plumb {

@@ -2,6 +2,7 @@
 #include "solve/elastic_contacts.h"
 
 #include "constraints/contact.h"
+#include "math/matrices.h"
 #include "world/point_place.h"
 
 #include <Eigen/Eigenvalues>
@@ -18,13 +19,6 @@ constexpr double kFirm = 3;
 
 /// Directions in which the points of a body can push it: by eigenvalues against the greatest.
 constexpr double kWithinReach = 1e-6;
-
-Matrix3d cross_matrix(const Vector3d& a) {
-    return (Matrix3d() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
-}
-Matrix3d full(const Symmetric3<double>& m) {
-    return (Matrix3d() << m.xx, m.xy, m.xz, m.xy, m.yy, m.yz, m.xz, m.yz, m.zz).finished();
-}
 
 /// Points of a surface that no element has in common are held no less than the whole.
 void add_between(std::uint32_t i, std::uint32_t j, const Matrix3d& block, SparseLdlt& system) {
@@ -154,7 +148,7 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
     for (Body& body : bodies_) {
         body.inverse = {b.inverse_mass[body.index], b.world_inverse_inertia[body.index]};
         body.mass = 1 / body.inverse.mass;
-        body.inertia = full(inverse(body.inverse.inertia));
+        body.inertia = matrix_of(inverse(body.inverse.inertia));
     }
     for (Contact& c : contacts_) {
         Vector3d place = Vector3d::Zero(), apart;
@@ -262,7 +256,7 @@ void ElasticContacts::add_stiffness(const std::vector<double>& mass, std::size_t
             // along its way what slides is not held, across it as a force that turns with it
             d += c.rho * c.held *
                  (Matrix3d::Identity() - n - across * across.transpose() / (size * size));
-        const Matrix3d turn = c.body == kNoIndex ? Matrix3d::Zero().eval() : cross_matrix(c.arm);
+        const Matrix3d turn = c.body == kNoIndex ? Matrix3d::Zero().eval() : skew(c.arm);
         const Matrix3d d_turn = d * turn;
         for (std::uint32_t k = 0; k < c.points; ++k) {
             if (mass[c.particle[k]] == 0) continue;
@@ -306,7 +300,7 @@ void ElasticContacts::match(const std::vector<Vector3d>& v, const std::vector<Ve
         if (!is_felt(c)) continue;
         Body& body = bodies_[c.body];
         body.missing.head<3>() -= c.q, body.missing.tail<3>() -= c.arm.cross(c.q);
-        const Matrix3d turn = cross_matrix(c.arm);
+        const Matrix3d turn = skew(c.arm);
         body.reach.topLeftCorner<3, 3>() += Matrix3d::Identity();
         body.reach.bottomLeftCorner<3, 3>() += turn;
         body.reach.topRightCorner<3, 3>() += turn.transpose();

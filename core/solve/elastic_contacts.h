@@ -17,6 +17,7 @@
 #pragma once
 
 #include "constraints/connector.h"
+#include "effects/plan.h"
 #include "math/sparse_ldlt.h"
 #include "world/world.h"
 
@@ -24,6 +25,10 @@
 
 namespace plumb {
 
+/// Whether the plan has an elastic system with contacts in it.
+inline bool has_elastic_contacts(const Plan& plan) {
+    return plan.runs(Effect::exact_deformables) && plan.runs(Effect::particle_contacts);
+}
 /// Whether contacts of a particle with bodies are part of the system that holds it together, where
 /// there is one. Those of solids, balloons and ropes are iterated: a thin solid or a balloon that
 /// nothing holds is thrown by what Newton's method leaves.

@@ -20,11 +20,10 @@ class ExactDeformableGroup final : public ConstraintGroup<Real> {
 public:
     ExactDeformableGroup(const World& world, const Plan& plan, Workers& workers)
         : workers_(workers),
-          system_(world, plan.runs(Effect::particle_contacts), plan.runs(Effect::friction)),
+          system_(world, has_elastic_contacts(plan), plan.runs(Effect::friction)),
           mass_(world.particles),
           keeper_(world, mass_, workers) {
         velocity_.resize(world.particles.size());
-        inverse_mass_ = world.particles.inverse_mass;
     }
 
     Stage stage() const override { return Stage::particles; }
@@ -85,7 +84,7 @@ private:
             c.applied = c.q;
             for (std::uint32_t k = 0; k < c.points; ++k)
                 add_change(rows, row(c.particle[k]),
-                           Vector3d(change * (c.weight[k] * inverse_mass_[c.particle[k]])));
+                           Vector3d(change * (c.weight[k] * mass_.inverse[c.particle[k]])));
             if (c.body == kNoIndex) continue;
             Velocity<double> moved{Vector3d::Zero(), Vector3d::Zero()};
             apply_impulse<double>(moved, bodies[c.body].inverse, c.arm, -change);
@@ -107,7 +106,6 @@ private:
     ParticleMass mass_;
     MomentumKeeper<Real> keeper_;
     std::vector<Vector3d> velocity_;      ///< [particle] [m/s]
-    std::vector<double> inverse_mass_;    ///< [particle] [1/kg]
     std::vector<std::int32_t> body_row_;  ///< [contacts' body] in the velocity table
     std::int32_t first_row_ = 0;
 };

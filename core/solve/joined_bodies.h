@@ -11,6 +11,7 @@
 #pragma once
 
 #include "constraints/connector.h"
+#include "math/matrices.h"
 #include "solve/particle_rows.h"
 #include "world/world.h"
 
@@ -108,11 +109,8 @@ private:
             const Vector3d& inertia = world.bodies.inverse_inertia[j.body];
             const InverseMass<double> inverse{world.bodies.inverse_mass[j.body],
                                               {inertia.x(), inertia.y(), inertia.z(), 0, 0, 0}};
-            const Symmetric3<double> k = point_response(inverse, j.local);
-            const Matrix3d response =
-                (Matrix3d() << k.xx, k.xy, k.xz, k.xy, k.yy, k.yz, k.xz, k.yz, k.zz).finished();
-            const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(response,
-                                                                    Eigen::EigenvaluesOnly);
+            const Eigen::SelfAdjointEigenSolver<Matrix3d> principal(
+                matrix_of(point_response(inverse, j.local)), Eigen::EigenvaluesOnly);
             Body& body = bodies[j.body];
             ++body.points, body.response = std::max(body.response, principal.eigenvalues()[2]);
         }

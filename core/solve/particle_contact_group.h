@@ -20,7 +20,7 @@ template <class Real, int W>
 class ParticleContactGroup final : public ConstraintGroup<Real> {
 public:
     ParticleContactGroup(const Plan& plan, Workers& workers)
-        : sheets_apart_(plan.runs(Effect::exact_deformables)),
+        : sheets_apart_(has_elastic_contacts(plan)),
           variant_(plan.runs(Effect::friction) ? ContactVariant::friction
                                                : ContactVariant::frictionless),
           kernels_(contact_kernels<Real, W>(variant_)),

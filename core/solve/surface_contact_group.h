@@ -23,8 +23,7 @@ class SurfaceContactGroup final : public ConstraintGroup<Real> {
 public:
     SurfaceContactGroup(const Plan& plan, Workers& workers)
         : has_friction_(plan.runs(Effect::friction)),
-          sheets_apart_(plan.runs(Effect::exact_deformables) &&
-                        plan.runs(Effect::particle_contacts)),
+          sheets_apart_(has_elastic_contacts(plan)),
           workers_(workers) {}
 
     Stage stage() const override { return Stage::surface_contacts; }

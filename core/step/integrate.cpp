@@ -6,6 +6,7 @@
 /// (math/free_rotation.h). With a leapfrog start the very first push is half of one: velocities are
 /// then those in the middle of substeps, for which the same formulas are of second order.
 #include "kernels/contact_kernels.h"
+#include "math/matrices.h"
 #include "step/body_columns.h"
 #include "step/stages.h"
 
@@ -17,11 +18,6 @@ namespace {
 /// One Newton step of ω₁ = ω₀ − h I⁻¹(ω₁ × I ω₁), in the body frame.
 Vector3d implicit_rate(const Vector3d& w0, const Vector3d& inertia, double h) {
     const Vector3d l = inertia.cwiseProduct(w0);
-    auto skew = [](const Vector3d& v) {
-        Matrix3d m;
-        m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-        return m;
-    };
     const Matrix3d i = inertia.asDiagonal();
     const Matrix3d jacobian = i + h * (skew(w0) * i - skew(l));
     return w0 - jacobian.partialPivLu().solve(h * w0.cross(l));

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_solver.h"
 
+#include "math/matrices.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -72,13 +74,6 @@ constexpr double kFast = 2, kClear = 100;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr int kLineSteps = 20;
-
-/// [r]ₓ: what multiplies ω to give r × ω.
-Matrix3d skew(const Vector3d& r) {
-    Matrix3d m;
-    m << 0, -r.z(), r.y(), r.z(), 0, -r.x(), -r.y(), r.x(), 0;
-    return m;
-}
 
 Matrix6d mass_matrix(const IslandBody& b) {
     Matrix6d m = Matrix6d::Zero();
