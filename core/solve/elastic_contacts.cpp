@@ -146,6 +146,7 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
     const Bodies& b = world.bodies;
     const Particles& p = world.particles;
     for (Body& body : bodies_) {
+        body.table_row = b.row[body.index];
         body.inverse = {b.inverse_mass[body.index], b.world_inverse_inertia[body.index]};
         body.mass = 1 / body.inverse.mass;
         body.inertia = matrix_of(inverse(body.inverse.inertia));

@@ -43,6 +43,7 @@ public:
     struct Body {
         std::uint32_t index = 0;                                 ///< in the world's table
         std::uint32_t row = 0;                                   ///< of v; that of ω comes next
+        std::int32_t table_row = 0;                              ///< in the velocity table
         double mass = 0;                                         ///< [kg]
         Matrix3d inertia = Matrix3d::Zero();                     ///< world frame [kg m²]
         InverseMass<double> inverse{0, {0, 0, 0, 0, 0, 0}};      ///< world frame

@@ -81,6 +81,8 @@ void ElasticSystem::attach() {
     pairs_.insert(pairs_.end(), contacts_.pairs().begin(), contacts_.pairs().end());
     system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
     for (auto* rows : {&v_, &target_, &best_, &force_, &direction_, &way_, &before_}) {
+        // as many as if all bodies touched
+        rows->reserve(particles() + balloon_rows_ + 2 * contacts_.bodies().capacity());
         rows->resize(particles() + system_.more());
         std::fill(rows->begin(), rows->end(), Vector3d::Zero());
     }

@@ -36,9 +36,6 @@ public:
         first_row_ = world.particle_row(0);
         keeper_.begin(world);
         system_.begin(world, h, double(pass.stiffness), double(pass.recovery));
-        body_row_.clear();
-        for (const ElasticContacts::Body& body : system_.contacts().bodies())
-            body_row_.push_back(world.bodies.row[body.index]);
     }
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>&,
@@ -76,8 +73,7 @@ private:
         std::vector<ElasticContacts::Body>& bodies = contacts.bodies();
         for (std::size_t i = 0; i < velocity_.size(); ++i)
             velocity_[i] = velocity_of(rows, row(i)).v;
-        for (std::size_t i = 0; i < bodies.size(); ++i)
-            bodies[i].v = velocity_of(rows, body_row_[i]);
+        for (ElasticContacts::Body& body : bodies) body.v = velocity_of(rows, body.table_row);
         system_.solve(velocity_);
         for (ElasticContacts::Contact& c : contacts.contacts()) {
             const Vector3d change = c.q - c.applied;
@@ -86,9 +82,10 @@ private:
                 add_change(rows, row(c.particle[k]),
                            Vector3d(change * (c.weight[k] * mass_.inverse[c.particle[k]])));
             if (c.body == kNoIndex) continue;
+            const ElasticContacts::Body& body = bodies[c.body];
             Velocity<double> moved{Vector3d::Zero(), Vector3d::Zero()};
-            apply_impulse<double>(moved, bodies[c.body].inverse, c.arm, -change);
-            add_change(rows, body_row_[c.body], moved);
+            apply_impulse<double>(moved, body.inverse, c.arm, -change);
+            add_change(rows, body.table_row, moved);
         }
     }
 
@@ -105,8 +102,7 @@ private:
     ElasticSystem system_;
     ParticleMass mass_;
     MomentumKeeper<Real> keeper_;
-    std::vector<Vector3d> velocity_;      ///< [particle] [m/s]
-    std::vector<std::int32_t> body_row_;  ///< [contacts' body] in the velocity table
+    std::vector<Vector3d> velocity_;  ///< [particle] [m/s]
     std::int32_t first_row_ = 0;
 };
 
