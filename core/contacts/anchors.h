@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// What a contact's friction holds on to: the points of both bodies that met when it began to
-/// stick.
+/// What a contact leaves for the next step: its impulse, and what its friction holds on to, the
+/// points of both bodies that met when it began to stick.
 #pragma once
 
 #include "contacts/pair_poses.h"
@@ -13,6 +13,16 @@ inline bool does_stick(double normal, double across_squared, double friction) {
     constexpr double kBelow = 1 - 1e-5;  // of its bound
     const double most = kBelow * friction * normal;
     return across_squared < most * most;
+}
+
+/// What a contact bore that no exact island solved, until the next step; nothing turns or disputes
+/// it.
+inline void remember_impulse(ContactMemory& memory, double normal, const Vector3d& friction) {
+    memory.normal_impulse = normal;
+    memory.friction_impulse = friction;
+    memory.rolling_impulse.setZero();
+    memory.sticks = memory.exact = false;
+    memory.disputed = memory.settling = 0;
 }
 
 /// A contact begins to stick at `point`, with a slip behind it already [m].

@@ -2,10 +2,10 @@
 #include "solve/elastic_contacts.h"
 
 #include "constraints/contact.h"
+#include "contacts/anchors.h"
+#include "contacts/contact_measures.h"
 #include "math/matrices.h"
 #include "world/point_place.h"
-
-#include <Eigen/Eigenvalues>
 
 #include <algorithm>
 #include <cmath>
@@ -17,8 +17,10 @@ namespace {
 /// less, and more digits are lost with more.
 constexpr double kFirm = 3;
 
-/// Directions in which the points of a body can push it: by eigenvalues against the greatest.
-constexpr double kWithinReach = 1e-6;
+/// Impulses are matched by least squares, so many times in turn, in which this share of the
+/// mean diagonal is added to the diagonal: what no impulse can change is left as it is.
+constexpr double kBeyondReach = 1e-7;
+constexpr int kMatches = 3;
 
 /// Points of a surface that no element has in common are held no less than the whole.
 void add_between(std::uint32_t i, std::uint32_t j, const Matrix3d& block, SparseLdlt& system) {
@@ -27,113 +29,6 @@ void add_between(std::uint32_t i, std::uint32_t j, const Matrix3d& block, Sparse
 }
 
 }  // namespace
-
-bool ElasticContacts::load(const World& world, std::uint32_t first_row) {
-    const Bodies& b = world.bodies;
-    bodies_.clear(), contacts_.clear();
-    contacts_.reserve(world.particle_contacts.found.capacity() + world.surface_contacts.capacity());
-    bodies_.reserve(b.size());
-    std::swap(pairs_, pairs_before_);
-    pairs_.clear();
-    body_of_.assign(b.size(), kNoIndex);
-    const auto add = [&](Contact& c, std::uint32_t body) {
-        double moves = b.inverse_mass[body];
-        for (std::uint32_t k = 0; k < c.points; ++k)
-            moves += world.particles.inverse_mass[c.particle[k]];
-        if (!(moves > 0)) return;
-        c.body = kNoIndex;
-        if (b.inverse_mass[body] > 0) {
-            if (body_of_[body] == kNoIndex) {
-                body_of_[body] = static_cast<std::uint32_t>(bodies_.size());
-                Body added;
-                added.index = body, added.row = first_row + rows();
-                bodies_.push_back(added);
-            }
-            c.body = body_of_[body];
-        }
-        if (!has_friction_) c.friction = 0;
-        contacts_.push_back(c);
-    };
-    const ParticleContactTable& table = world.particle_contacts;
-    for (std::uint32_t i = 0; i < table.found.size(); ++i) {
-        const plumb::Contact& found = table.found[i];
-        if (!has_elastic_contacts(world, found.a)) continue;
-        Contact c;
-        c.source = i, c.particle[0] = found.a;
-        c.normal = to_eigen(found.normal);
-        c.friction =
-            world.surface_of(world.particles.material[found.a], b.material[found.b]).friction;
-        add(c, found.b);
-    }
-    for (std::uint32_t i = 0; i < world.surface_contacts.size(); ++i) {
-        const SurfaceContact& found = world.surface_contacts[i];
-        if (found.point.body == kNoIndex || !has_elastic_contacts(world, found.triangle[0]))
-            continue;
-        Contact c;
-        c.source = i, c.is_of_surface = true, c.points = 3;
-        for (int k = 0; k < 3; ++k)
-            c.particle[k] = found.triangle[k], c.weight[k] = found.weights[k];
-        c.normal = -found.normal, c.friction = found.friction;
-        add(c, found.point.body);
-    }
-    find_pairs();
-    take_kept(world);
-    return pairs_ != pairs_before_;
-}
-
-/// The pairs of a particle and a body, once for all contacts of theirs.
-void ElasticContacts::find_pairs() {
-    std::size_t most = 0;
-    for (const Contact& c : contacts_) most += 2 * c.points;
-    for (auto* pairs : {&pairs_, &pairs_before_})
-        if (pairs->capacity() < most) pairs->reserve(2 * most);
-    for (const Contact& c : contacts_)
-        if (c.body != kNoIndex)
-            for (std::uint32_t k = 0; k < c.points; ++k)
-                for (std::uint32_t i = 0; i < 2; ++i)
-                    pairs_.emplace_back(c.particle[k], bodies_[c.body].row + i);
-    std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-    for (Contact& c : contacts_)
-        if (c.body != kNoIndex)
-            for (std::uint32_t k = 0; k < c.points; ++k) {
-                const SparseLdlt::Pair pair(c.particle[k], bodies_[c.body].row);
-                const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
-                c.pair[k] = static_cast<std::size_t>(at - pairs_.begin());
-            }
-}
-
-/// p of what touched in the step before.
-void ElasticContacts::take_kept(const World& world) {
-    keys_.clear();
-    keys_.reserve(contacts_.capacity());
-    for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
-        const Contact& c = contacts_[i];
-        if (c.is_of_surface) {
-            keys_.push_back({{c.particle[0], c.particle[1], c.particle[2]},
-                             world.surface_contacts[c.source].point.body,
-                             0,
-                             0,
-                             i,
-                             Vector3d::Zero()});
-        } else {
-            const plumb::Contact& found = world.particle_contacts.found[c.source];
-            keys_.push_back({{found.a, kNoIndex, kNoIndex},
-                             found.b,
-                             found.part_b,
-                             found.feature,
-                             i,
-                             Vector3d::Zero()});
-        }
-    }
-    std::sort(keys_.begin(), keys_.end());
-    auto kept = world.elastic_impulses.begin();
-    for (const ElasticImpulse& now : keys_) {
-        while (kept != world.elastic_impulses.end() && kept->key() < now.key()) ++kept;
-        if (kept == world.elastic_impulses.end()) break;
-        if (kept->key() == now.key()) contacts_[now.order].p = (kept++)->impulse;
-    }
-}
 
 void ElasticContacts::weigh(const SparseLdlt& system, const std::vector<double>& mass) {
     resistance_.assign(mass.size(), 0);
@@ -152,36 +47,60 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
         body.inertia = matrix_of(inverse(body.inverse.inertia));
     }
     for (Contact& c : contacts_) {
-        Vector3d place = Vector3d::Zero(), apart;
+        Vector3d place = Vector3d::Zero();
         double yields = 0, gap = 0;
         for (std::uint32_t k = 0; k < c.points; ++k) {
             place += c.weight[k] * p.position[c.particle[k]];
             if (p.inverse_mass[c.particle[k]] > 0)
                 yields += c.weight[k] * c.weight[k] / resistance_[c.particle[k]];
         }
-        std::uint32_t body;
-        if (c.is_of_surface) {
+        c.given.setZero();
+        if (c.of == Source::bodies) {
+            place = world.contacts.point[c.source];
+            gap = gap_to_solve_for(world, c.source, recovery);
+        } else if (c.of == Source::surface) {
             const SurfaceContact& found = world.surface_contacts[c.source];
-            body = found.point.body;
-            gap = c.normal.dot(place - in_world(b, body, found.point.position)) - found.distance;
+            gap = c.normal.dot(place - in_world(b, found.point.body, found.point.position)) -
+                  found.distance;
         } else {
             const plumb::Contact& found = world.particle_contacts.found[c.source];
-            body = found.b;
-            gap = c.normal.dot(place - in_world(b, body, world.particle_contacts.track[c.source])) -
+            gap = c.normal.dot(place -
+                               in_world(b, found.b, world.particle_contacts.track[c.source])) -
                   found.radius_a - found.radius_b;
         }
-        c.arm = place - b.position[body];
         // what may be left of an overlap at the end
         const double left = overlap_left(gap, recovery);
         const double rest = left + (1 - stiffness) * (std::min(gap, 0.0) - left);
         c.given = (gap - rest) / h * c.normal;
-        if (c.body == kNoIndex)
-            c.given -= velocity_at<double>({b.velocity[body], b.angular_velocity[body]}, c.arm);
-        else
-            yields += response<double>(bodies_[c.body].inverse, c.arm, c.normal, c.normal);
+        if (c.of == Source::bodies) begin_bodies(world, h, c);
+        for (int i = 0; i < 2; ++i) {
+            Side& side = c.sides[i];
+            if (side.index == kNoIndex) continue;
+            side.arm = place - b.position[side.index];
+            if (side.body == kNoIndex)
+                c.given += kSign[i] *
+                           velocity_at<double>(
+                               {b.velocity[side.index], b.angular_velocity[side.index]}, side.arm);
+            else
+                yields +=
+                    response<double>(bodies_[side.body].inverse, side.arm, c.normal, c.normal);
+        }
         c.rho = yields > 0 ? kFirm / yields : 0;
         c.applied.setZero();
     }
+}
+
+/// What contacts of bodies ask besides: that they bounce, that friction pulls back to where it
+/// began to stick, and that velocities are those over the whole substep.
+void ElasticContacts::begin_bodies(const World& world, double h, Contact& c) const {
+    const ContactTable& table = world.contacts;
+    const double bounce = restitution_velocity_of(table, c.source);
+    if (bounce > 0) c.given = -bounce * c.normal;
+    if (!table.anchor_slip.empty()) {
+        const Vector3d& slip = table.anchor_slip[c.source];
+        c.given += world.settings.anchor_stiffness / h * (slip - slip.dot(c.normal) * c.normal);
+    }
+    if (!table.bend.empty()) c.given += table.bend[c.source];
 }
 
 void ElasticContacts::find_targets(std::vector<Vector3d>& v, std::vector<Vector3d>& target) const {
@@ -189,13 +108,15 @@ void ElasticContacts::find_targets(std::vector<Vector3d>& v, std::vector<Vector3
         v[body.row] = target[body.row] = body.v.v;
         v[body.row + 1] = target[body.row + 1] = body.v.w;
     }
-    for (const Contact& c : contacts_) {
-        if (c.body == kNoIndex) continue;
-        const Body& body = bodies_[c.body];
-        Velocity<double> without{target[body.row], target[body.row + 1]};
-        apply_impulse<double>(without, body.inverse, c.arm, c.applied);
-        target[body.row] = without.v, target[body.row + 1] = without.w;
-    }
+    for (const Contact& c : contacts_)
+        for (int i = 0; i < 2; ++i) {
+            const Side& side = c.sides[i];
+            if (side.body == kNoIndex) continue;
+            const Body& body = bodies_[side.body];
+            Velocity<double> without{target[body.row], target[body.row + 1]};
+            apply_impulse<double>(without, body.inverse, side.arm, -kSign[i] * c.applied);
+            target[body.row] = without.v, target[body.row + 1] = without.w;
+        }
 }
 
 double ElasticContacts::add_forces(const std::vector<Vector3d>& target,
@@ -210,16 +131,19 @@ double ElasticContacts::add_forces(const std::vector<Vector3d>& target,
     for (Contact& c : contacts_) {
         Vector3d u = c.given;
         for (std::uint32_t k = 0; k < c.points; ++k) u += c.weight[k] * v[c.particle[k]];
-        if (c.body != kNoIndex) {
-            const std::uint32_t row = bodies_[c.body].row;
-            u -= velocity_at<double>({v[row], v[row + 1]}, c.arm);
+        for (int i = 0; i < 2; ++i) {
+            if (c.sides[i].body == kNoIndex) continue;
+            const std::uint32_t row = bodies_[c.sides[i].body].row;
+            u += kSign[i] * velocity_at<double>({v[row], v[row + 1]}, c.sides[i].arm);
         }
         find_force(u, c, energy);
         for (std::uint32_t k = 0; k < c.points; ++k) force[c.particle[k]] += c.weight[k] * c.q;
-        if (c.body == kNoIndex) continue;
-        const std::uint32_t row = bodies_[c.body].row;
-        force[row] -= c.q;
-        force[row + 1] -= c.arm.cross(c.q);
+        for (int i = 0; i < 2; ++i) {
+            if (c.sides[i].body == kNoIndex) continue;
+            const std::uint32_t row = bodies_[c.sides[i].body].row;
+            force[row] += kSign[i] * c.q;
+            force[row + 1] += kSign[i] * c.sides[i].arm.cross(c.q);
+        }
     }
     return energy;
 }
@@ -257,8 +181,6 @@ void ElasticContacts::add_stiffness(const std::vector<double>& mass, std::size_t
             // along its way what slides is not held, across it as a force that turns with it
             d += c.rho * c.held *
                  (Matrix3d::Identity() - n - across * across.transpose() / (size * size));
-        const Matrix3d turn = c.body == kNoIndex ? Matrix3d::Zero().eval() : skew(c.arm);
-        const Matrix3d d_turn = d * turn;
         for (std::uint32_t k = 0; k < c.points; ++k) {
             if (mass[c.particle[k]] == 0) continue;
             system.add(c.particle[k], c.weight[k] * c.weight[k] * d);
@@ -266,16 +188,27 @@ void ElasticContacts::add_stiffness(const std::vector<double>& mass, std::size_t
                 if (mass[c.particle[l]] > 0)
                     add_between(c.particle[k], c.particle[l], c.weight[k] * c.weight[l] * d,
                                 system);
-            if (c.body == kNoIndex) continue;
+            const Side& side = c.sides[1];
+            if (side.body == kNoIndex) continue;
             system.add_pair(first_pair + c.pair[k], -c.weight[k] * d);
-            system.add_pair(first_pair + c.pair[k] + 1, c.weight[k] * d_turn);
+            system.add_pair(first_pair + c.pair[k] + 1, c.weight[k] * d * skew(side.arm));
         }
-        if (c.body == kNoIndex) continue;
-        const std::uint32_t row = bodies_[c.body].row;
-        system.add(row, d);
-        system.add_more(row, row + 1, -d_turn);
-        system.add(row + 1, turn.transpose() * d_turn);
+        for (const Side& side : c.sides)
+            if (side.body != kNoIndex) add_stiffness(d, side, side, system);
+        if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex)
+            add_stiffness(-d, c.sides[0], c.sides[1], system);
     }
+}
+
+/// Of a contact that holds u by d, where each side's point moves with v − r × ω.
+void ElasticContacts::add_stiffness(const Matrix3d& d, const Side& a, const Side& b,
+                                    SparseLdlt& system) const {
+    const std::uint32_t i = bodies_[a.body].row, j = bodies_[b.body].row;
+    const Matrix3d of_a = skew(a.arm), d_b = d * skew(b.arm);
+    system.add_more(i, j, d);
+    system.add_more(i, j + 1, -d_b);
+    if (i != j) system.add_more(i + 1, j, of_a * d);
+    system.add_more(i + 1, j + 1, -of_a * d_b);
 }
 
 double ElasticContacts::take_forces() {
@@ -287,55 +220,79 @@ double ElasticContacts::take_forces() {
     return most;
 }
 
-/// By the least changes, in the mean of the squares. A single point can give a body no torque, so
-/// some of its velocity may remain without an impulse.
-void ElasticContacts::match(const std::vector<Vector3d>& v, const std::vector<Vector3d>& target) {
-    for (Body& body : bodies_) {
-        const Vector3d push = body.mass * (v[body.row] - target[body.row]),
-                       turn = body.inertia * (v[body.row + 1] - target[body.row + 1]);
-        body.missing << -push, -turn;
-        body.reach.setZero();
-    }
-    const auto is_felt = [](const Contact& c) { return c.body != kNoIndex && !c.q.isZero(0); };
-    for (const Contact& c : contacts_) {
-        if (!is_felt(c)) continue;
-        Body& body = bodies_[c.body];
-        body.missing.head<3>() -= c.q, body.missing.tail<3>() -= c.arm.cross(c.q);
-        const Matrix3d turn = skew(c.arm);
-        body.reach.topLeftCorner<3, 3>() += Matrix3d::Identity();
-        body.reach.bottomLeftCorner<3, 3>() += turn;
-        body.reach.topRightCorner<3, 3>() += turn.transpose();
-        body.reach.bottomRightCorner<3, 3>() += turn * turn.transpose();
-    }
-    for (Body& body : bodies_) {
-        // lengths against the body's own, so that forces and torques are of one kind
-        const double size = std::sqrt(body.inertia.trace() / body.mass);
-        Vector6d scale;
-        scale << 1, 1, 1, 1 / size, 1 / size, 1 / size;
-        const Matrix6d reach = scale.asDiagonal() * body.reach * scale.asDiagonal();
-        const Eigen::SelfAdjointEigenSolver<Matrix6d> principal(reach);
-        const Vector6d wish =
-            principal.eigenvectors().transpose() * (scale.asDiagonal() * body.missing);
-        const double least = kWithinReach * principal.eigenvalues()[5];
-        Vector6d found = Vector6d::Zero();
-        for (int k = 0; k < 6; ++k)
-            if (principal.eigenvalues()[k] > least)
-                found += wish[k] / principal.eigenvalues()[k] * principal.eigenvectors().col(k);
-        body.missing = scale.asDiagonal() * found;
-    }
-    for (Contact& c : contacts_)
-        if (is_felt(c)) {
-            const Vector6d& more = bodies_[c.body].missing;
-            c.q += more.head<3>() + more.tail<3>().cross(c.arm);
-        }
+/// How the point of a side moves with its body's velocities, of which the angular one is times
+/// `size`.
+Eigen::Matrix<double, 3, 6> ElasticContacts::motion_of(const Side& side) const {
+    Eigen::Matrix<double, 3, 6> m;
+    m << Matrix3d::Identity(), -skew(side.arm) / bodies_[side.body].size;
+    return m;
 }
 
-void ElasticContacts::store(std::vector<ElasticImpulse>& impulses) const {
-    impulses.clear();
-    impulses.reserve(contacts_.capacity());
+/// Gᵀ G, where G is how the points of all contacts that push move with the bodies.
+void ElasticContacts::factor_reach() {
+    reach_.clear();
+    double most = 0;
+    for (const Contact& c : contacts_) {
+        if (c.q.isZero(0)) continue;
+        for (const Side& side : c.sides) {
+            if (side.body == kNoIndex) continue;
+            const Eigen::Matrix<double, 3, 6> motion = motion_of(side);
+            const Matrix6d own = motion.transpose() * motion;
+            reach_.add(side.body, own);
+            most += own.trace();
+        }
+        if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex)
+            reach_.add(c.sides[0].body, c.sides[1].body,
+                       -motion_of(c.sides[0]).transpose() * motion_of(c.sides[1]));
+    }
+    const double apart = kBeyondReach * (most > 0 ? most / double(bodies_.size()) : 1);
+    for (std::uint32_t i = 0; i < bodies_.size(); ++i) reach_.add(i, apart * Matrix6d::Identity());
+    reach_.factor();
+}
+
+/// By the least changes, in the mean of the squares: each q changes by G λ, where λ is an impulse
+/// and its moment a body, and G what the contact's points do not see of them. A single point can
+/// give a body no torque, so some of its velocity may remain without an impulse.
+void ElasticContacts::match(const std::vector<Vector3d>& v, const std::vector<Vector3d>& target) {
+    if (bodies_.empty()) return;
+    for (Body& body : bodies_) body.size = std::sqrt(body.inertia.trace() / body.mass);
+    factor_reach();
+    for (int round = 0; round < kMatches; ++round) {
+        for (std::size_t i = 0; i < bodies_.size(); ++i) {
+            const Body& body = bodies_[i];
+            missing_[i] << body.mass * (v[body.row] - target[body.row]),
+                body.inertia * (v[body.row + 1] - target[body.row + 1]) / body.size;
+        }
+        for (const Contact& c : contacts_)
+            for (int i = 0; i < 2; ++i)
+                if (c.sides[i].body != kNoIndex)
+                    missing_[c.sides[i].body] -= kSign[i] * motion_of(c.sides[i]).transpose() * c.q;
+        reach_.solve(missing_);
+        for (Contact& c : contacts_) {
+            if (c.q.isZero(0)) continue;
+            Vector3d more = Vector3d::Zero();
+            for (int i = 0; i < 2; ++i)
+                if (c.sides[i].body != kNoIndex)
+                    more += kSign[i] * motion_of(c.sides[i]) * missing_[c.sides[i].body];
+            c.q += more;
+        }
+    }
+}
+void ElasticContacts::store(World& world) const {
+    world.elastic_impulses.clear();
+    world.elastic_impulses.reserve(contacts_.capacity());
     for (const ElasticImpulse& key : keys_) {
-        impulses.push_back(key);
-        impulses.back().impulse = contacts_[key.order].p;
+        world.elastic_impulses.push_back(key);
+        world.elastic_impulses.back().impulse = contacts_[key.order].p;
+    }
+    for (const Contact& c : contacts_) {
+        if (c.of != Source::bodies) continue;
+        const double along = c.applied.dot(c.normal);
+        const Vector3d across = c.applied - along * c.normal;
+        ContactMemory& memory = world.contacts.memory[c.source];
+        remember_impulse(memory, along, across);
+        memory.missed = 0;
+        memory.sticks = does_stick(along, across.squaredNorm(), c.friction);
     }
 }
 

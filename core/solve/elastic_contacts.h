@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: MIT
-/// Contacts of sheets with bodies, as part of the elastic system.
+/// Contacts of sheets with bodies, and of those with each other, as part of the elastic system.
 ///
 /// Solved in turn with a stiff sheet, a contact of a heavy body never ends: the one lifts a light
-/// point off, the other pulls it back. So bodies that touch sheets are unknowns of the system
-/// beside the particles, and a contact adds
+/// point off, the other pulls it back. So bodies that touch sheets, with what lies on or beside
+/// them, are unknowns of the system beside the particles, and a contact adds
 ///
 ///   Ψ = (|q_n|² + φ(q_t)) / 2ρ,  q = P(p − ρ u)
 ///
 /// to what is minimised: the augmented Lagrangian of Coulomb's law (Alart and Curnier 1991).
 ///
-///   u  velocity of the particles' point against the body's, with what the gap leaves room for
-///      along n [m/s]
-///   p  impulse on the particles' point as found so far [N s]; P takes it into the cone of friction
+///   u  velocity of one side's point, particles' or a body's, against the other's, which is a
+///      body's, with what the gap leaves room for along n [m/s]
+///   p  impulse on the first side as found so far [N s]; P takes it into the cone of friction
 ///   ρ  some times what the points resist a push with [kg], so that p is found in a few rounds
 ///   φ  q_t² within the cone, 2 μ q_n |p_t − ρ u_t| − (μ q_n)² on it
 #pragma once
 
 #include "constraints/connector.h"
 #include "effects/plan.h"
+#include "math/block_cholesky.h"
 #include "math/sparse_ldlt.h"
+#include "schedule/colouring.h"
 #include "world/world.h"
 
 #include <vector>
@@ -39,30 +41,39 @@ inline bool has_elastic_contacts(const World& world, std::uint32_t particle) {
 
 class ElasticContacts {
 public:
-    /// A dynamic body that touches a sheet. Its velocities are rows of the system.
+    /// Of what a side's point moves by, in u, and of q on it.
+    static constexpr double kSign[2] = {1, -1};
+
+    /// A dynamic body of the system. Its velocities are rows of it.
     struct Body {
         std::uint32_t index = 0;                                 ///< in the world's table
         std::uint32_t row = 0;                                   ///< of v; that of ω comes next
         std::int32_t table_row = 0;                              ///< in the velocity table
         double mass = 0;                                         ///< [kg]
+        double size = 0;                                         ///< radius of gyration, about [m]
         Matrix3d inertia = Matrix3d::Zero();                     ///< world frame [kg m²]
         InverseMass<double> inverse{0, {0, 0, 0, 0, 0, 0}};      ///< world frame
         Velocity<double> v{Vector3d::Zero(), Vector3d::Zero()};  ///< when the system is asked
-        Vector6d missing = Vector6d::Zero();  ///< impulse and its moment that contacts do not give
-        Matrix6d reach = Matrix6d::Zero();    ///< of the contacts' impulses
+    };
+    /// What the first side of a contact is: a particle, a triangle's point, or a body.
+    enum class Source : std::uint8_t { particle, surface, bodies };
+    /// A side that is a body.
+    struct Side {
+        std::uint32_t index = kNoIndex;   ///< in the world's table; or it is of particles
+        std::uint32_t body = kNoIndex;    ///< in `bodies`; or it does not yield
+        Vector3d arm = Vector3d::Zero();  ///< from its centre [m]
     };
     struct Contact {
-        std::uint32_t source = 0;    ///< in the world's table
-        bool is_of_surface = false;  ///< of `surface_contacts`, or else of `particle_contacts`
-        std::uint32_t points = 1;    ///< 1 or 3
+        Source of = Source::particle;
+        std::uint32_t source = 0;  ///< in the world's table of these
+        std::uint32_t points = 0;  ///< particles: 0, 1 or 3
         std::uint32_t particle[3] = {0, 0, 0};
         double weight[3] = {1, 0, 0};
-        std::uint32_t body = kNoIndex;    ///< in `bodies`, or none: it does not yield
-        std::size_t pair[3] = {0, 0, 0};  ///< of particle and v; that with ω comes next
+        Side sides[2];
+        std::size_t pair[3] = {0, 0, 0};  ///< of particle and body's v; that with ω comes next
         double friction = 0, rho = 0;
-        Vector3d normal = Vector3d::Zero(),
-                 arm = Vector3d::Zero();    ///< towards the particles; on the body
-        Vector3d given = Vector3d::Zero();  ///< part of u that nothing changes [m/s]
+        Vector3d normal = Vector3d::Zero();  ///< towards the first side
+        Vector3d given = Vector3d::Zero();   ///< part of u that nothing changes [m/s]
         /// As above; once `match` has corrected it, q is what both sides are given.
         Vector3d p = Vector3d::Zero(), q = Vector3d::Zero();
         bool slides = false;
@@ -70,11 +81,12 @@ public:
         Vector3d applied = Vector3d::Zero();  ///< part of q that velocities have felt
     };
 
-    explicit ElasticContacts(bool has_friction) : has_friction_(has_friction) {}
+    explicit ElasticContacts(const Plan& plan);
 
-    /// Once a step. Rows of bodies are numbered from `first_row` on; returns whether other rows
-    /// or pairs belong to the system than before.
-    bool load(const World& world, std::uint32_t first_row);
+    /// Once a step. Takes out of `pairs`, of bodies, those that are solved here. Rows of bodies are
+    /// numbered from `first_row` on; returns whether other rows or pairs belong to the system than
+    /// before.
+    bool load(const World& world, std::uint32_t first_row, std::vector<BodyPair>& pairs);
 
     bool empty() const { return contacts_.empty(); }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(2 * bodies_.size()); }
@@ -105,24 +117,41 @@ public:
                        SparseLdlt& system) const;
     /// p ← q; returns the greatest |p − q| / ρ before [m/s].
     double take_forces();
-    /// Makes the impulses on each body those that take it from its target to its velocity, for the
-    /// firmer a contact, the more a small error of velocities is one of its impulse.
+    /// Makes the impulses on the bodies those that take them from their targets to their
+    /// velocities, for the firmer a contact, the more a small error of velocities is one of its
+    /// impulse.
     void match(const std::vector<Vector3d>& v, const std::vector<Vector3d>& target);
     /// Once a step: what the next one begins from.
-    void store(std::vector<ElasticImpulse>& impulses) const;
+    void store(World& world) const;
 
 private:
+    void add_sheet_contacts(const World& world);
+    void find_members(const World& world, const std::vector<BodyPair>& pairs);
+    void take_bodies(const World& world, std::vector<BodyPair>& pairs);
+    void add(const World& world, Contact& contact, std::uint32_t a, std::uint32_t b);
+    std::uint32_t body_of(const World& world, std::uint32_t body);
     void find_pairs();
+    void find_reach();
     void take_kept(const World& world);
+    void begin_bodies(const World& world, double h, Contact& contact) const;
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
+    void add_stiffness(const Matrix3d& d, const Side& a, const Side& b, SparseLdlt& system) const;
+    Eigen::Matrix<double, 3, 6> motion_of(const Side& side) const;
+    void factor_reach();
 
     bool has_friction_;
+    bool takes_bodies_;  ///< contacts of bodies with each other are solved here, too
+    std::uint32_t first_row_ = 0;
     std::vector<Body> bodies_;
     std::vector<Contact> contacts_;
     std::vector<SparseLdlt::Pair> pairs_, pairs_before_;
-    std::vector<std::uint32_t> body_of_;  ///< [world's body] in `bodies_`
-    std::vector<ElasticImpulse> keys_;    ///< of the contacts, sorted
-    std::vector<double> resistance_;      ///< [particle] [kg]
+    std::vector<std::uint32_t> body_of_;                 ///< [world's body] in `bodies_`
+    std::vector<std::uint8_t> member_;                   ///< [world's body] whether it belongs here
+    std::vector<ElasticImpulse> keys_;                   ///< of the contacts, sorted
+    std::vector<double> resistance_;                     ///< [particle] [kg]
+    BlockCholesky::Pattern touching_, touching_before_;  ///< pairs of `bodies_`
+    BlockCholesky reach_;                                ///< of all impulses, see `match`
+    std::vector<Vector6d> missing_;  ///< [`bodies_`] impulse, and its moment over `size` [N s]
 };
 
 }  // namespace plumb

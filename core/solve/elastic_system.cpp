@@ -37,10 +37,10 @@ constexpr int kCuts = 6;
 
 }  // namespace
 
-ElasticSystem::ElasticSystem(const World& world, bool has_contacts, bool has_friction)
+ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
     : elements_(make_elements(world, world.settings.dt / world.settings.substeps, Formulas())),
-      contacts_(has_friction),
-      has_contacts_(has_contacts) {
+      contacts_(plan),
+      has_contacts_(has_elastic_contacts(plan)) {
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
@@ -89,9 +89,9 @@ void ElasticSystem::attach() {
     drop_factors();
 }
 
-void ElasticSystem::load(const World& world) {
+void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
     const Particles& p = world.particles;
-    if (has_contacts_ && contacts_.load(world, particles() + balloon_rows_)) attach();
+    if (has_contacts_ && contacts_.load(world, particles() + balloon_rows_, pairs)) attach();
     if (!contacts_.empty()) {
         drop_factors();
         for (std::size_t i = 0; i < p.size(); ++i) x_[i] = p.position[i] - p.position[0];
@@ -112,7 +112,7 @@ void ElasticSystem::load(const World& world) {
 void ElasticSystem::store(World& world) {
     if (!contacts_.empty()) drop_factors();
     if (world.particles.factored != factored_) world.particles.factored = factored_;
-    contacts_.store(world.elastic_impulses);
+    contacts_.store(world);
 }
 
 void ElasticSystem::begin(const World& world, double h, double stiffness, double recovery) {

@@ -24,11 +24,11 @@ namespace plumb {
 
 class ElasticSystem {
 public:
-    /// `has_contacts`: those with bodies are part of it; with friction where `has_friction`.
-    ElasticSystem(const World& world, bool has_contacts, bool has_friction);
+    ElasticSystem(const World& world, const Plan& plan);
 
-    /// Once a step: the factors that the step before left, and after it those that it leaves.
-    void load(const World& world);
+    /// Once a step: the factors that the step before left, and after it those that it leaves. Takes
+    /// out of `pairs`, of bodies, those that are solved here.
+    void load(const World& world, std::vector<BodyPair>& pairs);
     void store(World& world);
 
     /// Once a substep of length h [s], before any call of `solve`; overlap of contacts as of
@@ -40,6 +40,7 @@ public:
     void solve(std::vector<Vector3d>& velocity);
 
     ElasticContacts& contacts() { return contacts_; }
+    const ElasticContacts& contacts() const { return contacts_; }
 
 private:
     struct Balloon {

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// All that holds deformables together, and contacts of sheets with bodies, solved as one system.
-/// Other contacts, links and attachments stay with the iterations, in turn with it.
+/// All that holds deformables together, and contacts of sheets with bodies and of these with each
+/// other, solved as one system. Other contacts, links and attachments stay with the iterations, in
+/// turn with it.
 #pragma once
 
+#include "contacts/contact_sums.h"
 #include "effects/plan.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
-#include "solve/contact_iteration.h"
 #include "solve/elastic_system.h"
 #include "solve/momentum_keeper.h"
 #include "solve/particle_rows.h"
@@ -20,7 +21,7 @@ class ExactDeformableGroup final : public ConstraintGroup<Real> {
 public:
     ExactDeformableGroup(const World& world, const Plan& plan, Workers& workers)
         : workers_(workers),
-          system_(world, has_elastic_contacts(plan), plan.runs(Effect::friction)),
+          system_(world, plan),
           mass_(world.particles),
           keeper_(world, mass_, workers) {
         velocity_.resize(world.particles.size());
@@ -29,7 +30,8 @@ public:
     Stage stage() const override { return Stage::particles; }
     bool empty() const override { return velocity_.empty(); }
 
-    void load(const World& world) override { system_.load(world); }
+    /// Once a step: takes the pairs of bodies that it solves out of `pairs`.
+    void take(const World& world, std::vector<BodyPair>& pairs) { system_.load(world, pairs); }
 
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>& pass,
                double h) override {
@@ -48,18 +50,17 @@ public:
         keeper_.restore(rows, worker);
     }
 
-    /// Calls visit(contact, RowImpulse) for each contact of a particle, with what it bears in this
-    /// substep.
-    template <class Visit>
-    void each_impulse(Visit visit) {
+    /// Adds what the contacts bear in this substep.
+    void add_impulses(ContactSums& sums) const {
+        using Source = ElasticContacts::Source;
         for (const ElasticContacts::Contact& c : system_.contacts().contacts()) {
-            if (c.is_of_surface) continue;
+            if (c.of == Source::surface) continue;
             const double along = c.applied.dot(c.normal);
             const Vector3d across = c.applied - along * c.normal;
-            const double size = across.norm();
-            RowImpulse impulse{along};
-            if (size > 0) impulse.x = size, impulse.tangents.x = across / size;
-            visit(c.source, impulse);
+            if (c.of == Source::bodies)
+                sums.add(c.source, along, across);
+            else
+                sums.add_of_particle(c.source, along, across);
         }
     }
 
@@ -81,11 +82,15 @@ private:
             for (std::uint32_t k = 0; k < c.points; ++k)
                 add_change(rows, row(c.particle[k]),
                            Vector3d(change * (c.weight[k] * mass_.inverse[c.particle[k]])));
-            if (c.body == kNoIndex) continue;
-            const ElasticContacts::Body& body = bodies[c.body];
-            Velocity<double> moved{Vector3d::Zero(), Vector3d::Zero()};
-            apply_impulse<double>(moved, body.inverse, c.arm, -change);
-            add_change(rows, body.table_row, moved);
+            for (int i = 0; i < 2; ++i) {
+                const ElasticContacts::Side& side = c.sides[i];
+                if (side.body == kNoIndex) continue;
+                const ElasticContacts::Body& body = bodies[side.body];
+                Velocity<double> moved{Vector3d::Zero(), Vector3d::Zero()};
+                apply_impulse<double>(moved, body.inverse, side.arm,
+                                      ElasticContacts::kSign[i] * change);
+                add_change(rows, body.table_row, moved);
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 /// particle, whose connector has neither arm nor inertia (§7).
 #pragma once
 
+#include "contacts/contact_sums.h"
 #include "effects/plan.h"
 #include "kernels/contact_kernels.h"
 #include "schedule/contact_batches.h"
@@ -88,12 +89,13 @@ public:
         iterate(kernels_.solve_positions, bodies, cold(pass, pass.iteration + pass.round), worker);
     }
 
-    /// Calls visit(contact, RowImpulse) for all contacts, with what they bear in this substep.
-    template <class Visit>
-    void each_impulse(Visit visit) {
+    /// Adds what the contacts bear in this substep.
+    void add_impulses(ContactSums& sums) {
         const ContactArrays<Real, W> rows = batches_.arrays();
-        each_contact(
-            [&](const ContactPlace& at) { visit(at.contact, impulse_of(rows, at.row, at.lane)); });
+        each_contact([&](const ContactPlace& at) {
+            const RowImpulse p = impulse_of(rows, at.row, at.lane);
+            sums.add_of_particle(at.contact, p.normal, p.friction());
+        });
     }
 
 private:

@@ -51,11 +51,14 @@ public:
     const std::vector<BodyPair>& pairs() const { return pairs_; }
 
     /// Rows for the pairs; `levels` (may be null) makes the lower body of a pair immovable.
-    /// `exact` (may be null) takes those that it solves.
-    void load(const World& world, const std::vector<std::uint32_t>* levels, IslandGroup* exact) {
+    /// `exact` (may be null) takes those that it solves, `take` after it.
+    template <class Take>
+    void load(const World& world, const std::vector<std::uint32_t>* levels, IslandGroup* exact,
+              Take take) {
         levels_ = levels;
         find_pairs(world, levels, pairs_);
         if (exact) exact->load(world, pairs_);
+        take(pairs_);
         lay_out(world);
         trusted_.resize(pairs_.size());
         const double fall = fall_in_step(world.settings);
@@ -268,13 +271,9 @@ public:
         each_contact([&](std::size_t contact, std::uint32_t k, std::uint32_t lane) {
             ContactMemory& memory = world.contacts.memory[contact];
             const RowImpulse p = impulse_of(rows, k, lane);
-            memory.normal_impulse = p.normal;
-            memory.rolling_impulse.setZero();
-            memory.sticks = memory.exact = false;
-            memory.disputed = memory.settling = 0;
+            remember_impulse(memory, p.normal, p.friction());
             memory.missed = missed_after_sweeps(memory.missed);
             if (!rows.frictions) return;
-            memory.friction_impulse = p.friction();
             memory.sticks = does_stick(p.normal, p.x * p.x + p.y * p.y,
                                        double(rows.frictions[k].friction[lane]));
         });

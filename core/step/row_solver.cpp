@@ -59,7 +59,9 @@ public:
 
     void load(const World& world) override {
         IslandGroup* exact = islands_ ? &*islands_ : nullptr;
-        contacts_->load(world, nullptr, exact);
+        contacts_->load(world, nullptr, exact, [&](std::vector<BodyPair>& pairs) {
+            if (exact_deformables_) exact_deformables_->take(world, pairs);
+        });
         if (has_impacts_) energy_.load(world, contacts_->pairs());
         for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
@@ -70,7 +72,7 @@ public:
         }
         if (!shocks_) return;
         find_levels(world, levels_);
-        shock_->load(world, &levels_, nullptr);
+        shock_->load(world, &levels_, nullptr, [](std::vector<BodyPair>&) {});
     }
 
     std::uint32_t begin_substep(const World& world, double h, Ledger& ledger) override {
@@ -198,11 +200,8 @@ public:
     void add_impulses(ContactSums& sums) override {
         (shocks_ ? *shock_ : *contacts_).add_impulses(sums);
         if (islands_) islands_->add_impulses(sums);
-        const auto add_of_particle = [&](std::size_t contact, const RowImpulse& p) {
-            sums.add_of_particle(contact, p.normal, p.friction());
-        };
-        if (particle_contacts_) particle_contacts_->each_impulse(add_of_particle);
-        if (exact_deformables_) exact_deformables_->each_impulse(add_of_particle);
+        if (particle_contacts_) particle_contacts_->add_impulses(sums);
+        if (exact_deformables_) exact_deformables_->add_impulses(sums);
     }
 
     void take_changes(World& world) const override {

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: MIT
+/// Which contacts are part of the elastic system, once a step.
+#include "contacts/contact_measures.h"
+#include "solve/elastic_contacts.h"
+
+#include <algorithm>
+
+namespace plumb {
+namespace {
+
+/// Bodies of the system have blocks with each other in the factors. Where more than this hang
+/// together on a sheet, only those that touch it are part of the system, each by itself.
+constexpr std::uint32_t kMostBodies = 64;
+
+/// What collides is brought to rest as such, what moves by itself or resists rolling is iterated.
+bool belongs(const World& world, const BodyPair& pair) {
+    const Bodies& b = world.bodies;
+    const Contact& first = world.contacts.found[pair.first];
+    if (b.motion[first.a] == Motion::kinematic || b.motion[first.b] == Motion::kinematic)
+        return false;
+    const SurfacePair& surface = world.surface_pair(first.a, first.b);
+    if (surface.rolling_friction > 0 || surface.spinning_friction > 0) return false;
+    const double fast = -collision_threshold(world.settings);
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
+        if (separating_velocity(b, world.contacts.found[i], world.contacts.point[i]) < fast)
+            return false;
+    return true;
+}
+
+}  // namespace
+
+ElasticContacts::ElasticContacts(const Plan& plan)
+    : has_friction_(plan.runs(Effect::friction)),
+      takes_bodies_(plan.runs(Effect::exact_islands) && !plan.runs(Effect::shock_propagation)) {}
+
+bool ElasticContacts::load(const World& world, std::uint32_t first_row,
+                           std::vector<BodyPair>& pairs) {
+    const std::uint32_t rows_before = rows();
+    first_row_ = first_row;
+    bodies_.clear(), contacts_.clear();
+    contacts_.reserve(world.particle_contacts.found.capacity() + world.surface_contacts.capacity() +
+                      world.contacts.found.capacity());
+    bodies_.reserve(world.bodies.size());
+    body_of_.assign(world.bodies.size(), kNoIndex);
+    add_sheet_contacts(world);
+    if (takes_bodies_ && !bodies_.empty()) take_bodies(world, pairs);
+    find_pairs();
+    find_reach();
+    take_kept(world);
+    return rows() != rows_before || pairs_ != pairs_before_;
+}
+
+std::uint32_t ElasticContacts::body_of(const World& world, std::uint32_t body) {
+    if (!(world.bodies.inverse_mass[body] > 0)) return kNoIndex;
+    if (body_of_[body] == kNoIndex) {
+        Body added;
+        added.index = body, added.row = first_row_ + rows();
+        body_of_[body] = static_cast<std::uint32_t>(bodies_.size());
+        bodies_.push_back(added);
+    }
+    return body_of_[body];
+}
+
+void ElasticContacts::add(const World& world, Contact& c, std::uint32_t a, std::uint32_t b) {
+    const auto is_held = [&](std::uint32_t i) {
+        return i == kNoIndex || !(world.bodies.inverse_mass[i] > 0);
+    };
+    double moves = 0;
+    for (std::uint32_t k = 0; k < c.points; ++k)
+        moves += world.particles.inverse_mass[c.particle[k]];
+    if (!(moves > 0) && is_held(a) && is_held(b)) return;
+    if (a != kNoIndex) c.sides[0].index = a, c.sides[0].body = body_of(world, a);
+    c.sides[1].index = b, c.sides[1].body = body_of(world, b);
+    if (!has_friction_) c.friction = 0;
+    contacts_.push_back(c);
+}
+
+void ElasticContacts::add_sheet_contacts(const World& world) {
+    const ParticleContactTable& table = world.particle_contacts;
+    for (std::uint32_t i = 0; i < table.found.size(); ++i) {
+        const plumb::Contact& found = table.found[i];
+        if (!has_elastic_contacts(world, found.a)) continue;
+        Contact c;
+        c.of = Source::particle, c.source = i;
+        c.points = 1, c.particle[0] = found.a;
+        c.normal = to_eigen(found.normal);
+        c.friction =
+            world.surface_of(world.particles.material[found.a], world.bodies.material[found.b])
+                .friction;
+        add(world, c, kNoIndex, found.b);
+    }
+    for (std::uint32_t i = 0; i < world.surface_contacts.size(); ++i) {
+        const SurfaceContact& found = world.surface_contacts[i];
+        if (found.point.body == kNoIndex || !has_elastic_contacts(world, found.triangle[0]))
+            continue;
+        Contact c;
+        c.of = Source::surface, c.source = i, c.points = 3;
+        for (int k = 0; k < 3; ++k)
+            c.particle[k] = found.triangle[k], c.weight[k] = found.weights[k];
+        c.normal = -found.normal, c.friction = found.friction;
+        add(world, c, kNoIndex, found.point.body);
+    }
+}
+
+/// What lies on or beside a body that touches a sheet belongs to it.
+void ElasticContacts::find_members(const World& world, const std::vector<BodyPair>& pairs) {
+    member_.assign(world.bodies.size(), 0);
+    for (const Body& body : bodies_) member_[body.index] = 1;
+    std::size_t count = bodies_.size();
+    for (bool grows = true; grows;) {
+        grows = false;
+        for (const BodyPair& pair : pairs) {
+            const plumb::Contact& c = world.contacts.found[pair.first];
+            if (member_[c.a] == member_[c.b] || !belongs(world, pair)) continue;
+            const std::uint32_t other = member_[c.a] ? c.b : c.a;
+            if (!(world.bodies.inverse_mass[other] > 0)) continue;
+            member_[other] = 1, ++count;
+            grows = true;
+        }
+    }
+    if (count <= std::min(kMostBodies, world.settings.exact_islands)) return;
+    std::fill(member_.begin(), member_.end(), std::uint8_t(0));
+}
+
+void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pairs) {
+    find_members(world, pairs);
+    std::size_t kept = 0;
+    for (const BodyPair& pair : pairs) {
+        const plumb::Contact& first = world.contacts.found[pair.first];
+        if ((member_[first.a] || member_[first.b]) && belongs(world, pair)) {
+            for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+                Contact c;
+                c.of = Source::bodies, c.source = i;
+                c.normal = to_eigen(world.contacts.found[i].normal);
+                c.friction = world.surface_pair(first.a, first.b).friction;
+                add(world, c, first.a, first.b);
+            }
+        } else {
+            pairs[kept++] = pair;
+        }
+    }
+    pairs.resize(kept);
+}
+
+/// The pairs of a particle and a body, once for all contacts of theirs.
+void ElasticContacts::find_pairs() {
+    std::swap(pairs_, pairs_before_);
+    pairs_.clear();
+    std::size_t most = 0;
+    for (const Contact& c : contacts_) most += 2 * c.points;
+    for (auto* pairs : {&pairs_, &pairs_before_})
+        if (pairs->capacity() < most) pairs->reserve(2 * most);
+    const auto row_of = [&](const Contact& c) { return bodies_[c.sides[1].body].row; };
+    for (const Contact& c : contacts_)
+        for (std::uint32_t k = 0; k < c.points; ++k)
+            if (c.sides[1].body != kNoIndex)
+                for (std::uint32_t i = 0; i < 2; ++i)
+                    pairs_.emplace_back(c.particle[k], row_of(c) + i);
+    std::sort(pairs_.begin(), pairs_.end());
+    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
+    for (Contact& c : contacts_)
+        for (std::uint32_t k = 0; k < c.points; ++k)
+            if (c.sides[1].body != kNoIndex) {
+                const SparseLdlt::Pair pair(c.particle[k], row_of(c));
+                const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
+                c.pair[k] = static_cast<std::size_t>(at - pairs_.begin());
+            }
+}
+
+/// The pattern of what `match` solves.
+void ElasticContacts::find_reach() {
+    std::swap(touching_, touching_before_);
+    touching_.clear();
+    for (const Contact& c : contacts_)
+        if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex) {
+            const std::pair now(c.sides[0].body, c.sides[1].body);
+            if (touching_.empty() || touching_.back() != now) touching_.push_back(now);
+        }
+    missing_.resize(bodies_.size());
+    if (reach_.rows() != bodies_.size() || touching_ != touching_before_)
+        reach_.analyse(static_cast<std::uint32_t>(bodies_.size()), touching_);
+}
+
+/// p of what touched in the step before.
+void ElasticContacts::take_kept(const World& world) {
+    keys_.clear();
+    keys_.reserve(contacts_.capacity());
+    for (std::uint32_t i = 0; i < contacts_.size(); ++i) {
+        Contact& c = contacts_[i];
+        if (c.of == Source::bodies) {
+            const ContactMemory& memory = world.contacts.memory[c.source];
+            if (world.settings.warm_start && memory.matched)
+                c.p = memory.normal_impulse * c.normal + memory.friction_impulse;
+        } else if (c.of == Source::surface) {
+            keys_.push_back({{c.particle[0], c.particle[1], c.particle[2]},
+                             c.sides[1].index,
+                             0,
+                             0,
+                             i,
+                             Vector3d::Zero()});
+        } else {
+            const plumb::Contact& found = world.particle_contacts.found[c.source];
+            keys_.push_back({{found.a, kNoIndex, kNoIndex},
+                             found.b,
+                             found.part_b,
+                             found.feature,
+                             i,
+                             Vector3d::Zero()});
+        }
+    }
+    std::sort(keys_.begin(), keys_.end());
+    auto kept = world.elastic_impulses.begin();
+    for (const ElasticImpulse& now : keys_) {
+        while (kept != world.elastic_impulses.end() && kept->key() < now.key()) ++kept;
+        if (kept == world.elastic_impulses.end()) break;
+        if (kept->key() == now.key()) contacts_[now.order].p = (kept++)->impulse;
+    }
+}
+
+}  // namespace plumb
