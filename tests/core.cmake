@@ -12,8 +12,9 @@ plumb_add_tests(plumb_unit_tests unit
   measure/contact_comparison_test.cpp measure/deformation_test.cpp measure/mesh_resolution_test.cpp host/choose_collider_test.cpp host/remote_source_test.cpp
   host/edit_bodies_test.cpp host/edit_equal_test.cpp host/edit_errors_test.cpp host/edit_joints_test.cpp
   host/contacts_test.cpp host/log_test.cpp host/names_test.cpp host/state_test.cpp
-  contacts/contact_work_test.cpp host/kept_contacts_test.cpp step/gaping_joints_test.cpp step/residual_test.cpp)
-# Deformables take the reader's shapes.
-target_link_libraries(plumb_unit_tests PRIVATE plumb::reader)
+  contacts/contact_work_test.cpp host/kept_contacts_test.cpp step/gaping_joints_test.cpp step/residual_test.cpp
+  host/capture_test.cpp)
+# Deformables take the reader's shapes; what frames tell is followed into recordings.
+target_link_libraries(plumb_unit_tests PRIVATE plumb::reader plumb::output)
 # Their helpers are named as what they test: Random is another class elsewhere, plane() a shape of scenes.
 set_source_files_properties(geometry/hull_test.cpp measure/contact_comparison_test.cpp PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -139,6 +139,7 @@ StepReport Simulation::step() {
     parts_->placed = false;
     parts_->outdated = report.torn_elements > 0;
     parts_->stats = parts_->proximity.stats();
+    parts_->residual = report.residual;
     parts_->tell_step(report);
     if (parts_->record) parts_->record->take(parts_->world, parts_->stepper);
     return report;
@@ -158,7 +159,10 @@ const std::vector<IslandResidual>& Simulation::island_residuals() const {
 const std::string& Simulation::collider_name() const { return parts_->collider_name; }
 const std::string& Simulation::collider_version() const { return parts_->collider_version; }
 const std::string& Simulation::collider_reason() const { return parts_->collider_reason; }
-void Simulation::capture(Frame& frame) const { plumb::capture(parts_->world, frame); }
+void Simulation::capture(Frame& frame) const {
+    plumb::capture(parts_->world, frame);
+    frame.residual = parts_->residual;
+}
 
 Simulation::JointMotion Simulation::joint_motion(std::uint32_t joint, std::uint32_t axis) const {
     const World& world = parts_->world;

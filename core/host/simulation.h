@@ -74,6 +74,8 @@ public:
     const std::string& collider_version() const;
     const std::string& collider_reason() const;  ///< why "auto" took it; empty where it was named
 
+    /// The bodies as they are, with the residual of the last step: NaN before the first, and in a
+    /// state that was restored.
     void capture(Frame& frame) const;
 
     /// From the next step on, contacts and events are kept for the members below, until

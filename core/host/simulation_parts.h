@@ -35,6 +35,7 @@ struct Simulation::Parts {
     std::vector<std::uint8_t> broken;     ///< [joint] whether it was, when the stepper was made
     std::optional<ContactRecord> record;  ///< where contacts are watched
     DetectStats stats{};                  ///< of the last step
+    FrameResidual residual;               ///< of the last step, where there was one
     Names body_names, joint_names;
     std::vector<std::string> told;  ///< warnings of the plan that were logged
 

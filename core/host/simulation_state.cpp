@@ -139,6 +139,7 @@ void Simulation::restore(std::string_view bytes) {
     read_state(p.world, reader);
     p.renew_at(broken);
     p.placed = false;
+    p.residual = {};
     std::vector<ContactRecord::Pair> touching;
     each_number_of_pairs(reader, touching);
     if (p.record) p.record->start_from(std::move(touching));

@@ -196,6 +196,8 @@ std::string header_to_json(const RecordingHeader& header) {
     j["bodies"] = json::array();
     for (const RecordedBody& body : header.bodies) j["bodies"].push_back(body_to_json(body));
     put_deformables(j, header);
+    if (header.residuals)
+        j["residual"] = {{"force_of_weight", "1"}, {"force", "N"}, {"error", "m"}};
     return j.dump(-1, ' ', false, json::error_handler_t::replace);
 }
 
@@ -214,6 +216,7 @@ RecordingHeader header_from_json(std::string_view text) {
     for (const json& g : j.at("geometries")) header.geometries.push_back(geometry_from_json(g));
     for (const json& body : j.at("bodies")) header.bodies.push_back(body_from_json(body));
     take_deformables(j, header);
+    header.residuals = j.contains("residual");
     return header;
 }
 

@@ -17,8 +17,11 @@ namespace plumb {
 namespace {
 
 constexpr std::string_view kMagic = "PLUMBREC";
-constexpr std::uint32_t kVersion = 3, kVersionWithoutTears = 2, kVersionWithoutDeformables = 1;
-constexpr std::size_t kFrameBytes = 48;  // of a payload, without its bodies and deformables
+constexpr std::uint32_t kVersion = 4, kVersionWithoutResiduals = 3, kVersionWithoutTears = 2,
+                        kVersionWithoutDeformables = 1;
+constexpr std::size_t kFrameBytes =
+    48;  // of a payload without its residual, bodies and deformables
+constexpr std::size_t kResidualBytes = 12;
 constexpr std::size_t kBodyBytes = 44;
 constexpr std::size_t kParticleBytes = 6;  // at the least
 
@@ -101,15 +104,36 @@ bool take_torn(ByteReader& reader, const RecordingHeader& header, Frame& frame) 
     return std::is_sorted(frame.torn.begin(), frame.torn.end());
 }
 
+/// The lowest that has all that the header calls for.
+std::uint32_t version_of(const RecordingHeader& header) {
+    if (header.residuals) return kVersion;
+    if (tears(header)) return kVersionWithoutResiduals;
+    const bool plain = header.deformables.empty() && header.links.empty();
+    return plain ? kVersionWithoutDeformables : kVersionWithoutTears;
+}
+
+void put_residual(std::string& bytes, const FrameResidual& residual) {
+    put_vector(bytes, {residual.force_of_weight, residual.force, residual.error});
+}
+
+FrameResidual take_residual(ByteReader& reader) {
+    const Eigen::Vector3d numbers = take_vector(reader);
+    FrameResidual residual;
+    residual.force_of_weight = numbers[0], residual.force = numbers[1], residual.error = numbers[2];
+    return residual;
+}
+
 std::string frame_payload(const Frame& frame, const RecordingHeader& header) {
     std::string bytes;
-    bytes.reserve(kFrameBytes + kBodyBytes * frame.bodies.size() + 8 * frame.particles.size());
+    bytes.reserve(kFrameBytes + kResidualBytes + kBodyBytes * frame.bodies.size() +
+                  8 * frame.particles.size());
     put(bytes, frame.step);
     put(bytes, frame.time);
     put(bytes, frame.contacts);
     put(bytes, frame.kinetic_energy);
     put(bytes, frame.potential_energy);
     put(bytes, frame.deepest_penetration);
+    if (header.residuals) put_residual(bytes, frame.residual);
     put(bytes, static_cast<std::uint32_t>(frame.bodies.size()));
     for (const BodyState& body : frame.bodies) {
         put_vector(bytes, body.placement.position - header.origin);
@@ -129,8 +153,9 @@ std::string frame_payload(const Frame& frame, const RecordingHeader& header) {
 std::optional<Frame> frame_from_payload(std::string_view payload, const RecordingHeader& header) {
     const std::size_t count = header.bodies.size();
     const std::size_t particles = particle_count(header.deformables);
-    if (payload.size() < kFrameBytes + kBodyBytes * count + kParticleBytes * particles)
-        return std::nullopt;
+    const std::size_t least = kFrameBytes + (header.residuals ? kResidualBytes : 0) +
+                              kBodyBytes * count + kParticleBytes * particles;
+    if (payload.size() < least) return std::nullopt;
     ByteReader reader(payload);
     Frame frame;
     frame.step = reader.take<std::uint64_t>();
@@ -139,6 +164,7 @@ std::optional<Frame> frame_from_payload(std::string_view payload, const Recordin
     frame.kinetic_energy = reader.take<double>();
     frame.potential_energy = reader.take<double>();
     frame.deepest_penetration = reader.take<double>();
+    if (header.residuals) frame.residual = take_residual(reader);
     if (reader.take<std::uint32_t>() != count) return std::nullopt;
     frame.bodies.resize(count);
     for (BodyState& body : frame.bodies) {
@@ -210,6 +236,7 @@ RecordingHeader recording_header(const Scene& scene, const Metadata& metadata) {
     }
     header.deformables = recorded_deformables(scene);
     header.links = recorded_links(scene);
+    header.residuals = true;
     header.view = scene.view;
     header.origin = middle(scene);
     header.metadata = metadata;
@@ -232,10 +259,7 @@ void expect_bodies_of(const RecordingHeader& header, const Frame& frame, const s
 RecordingWriter::RecordingWriter(std::string path, RecordingHeader header)
     : header_(std::move(header)), file_(std::move(path)) {
     std::string bytes(kMagic);
-    const bool plain = header_.deformables.empty() && header_.links.empty();
-    put(bytes, plain            ? kVersionWithoutDeformables
-               : tears(header_) ? kVersion
-                                : kVersionWithoutTears);
+    put(bytes, version_of(header_));
     file_.append(bytes + framed(header_to_json(header_)));
 }
 

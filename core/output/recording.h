@@ -9,7 +9,10 @@
 ///         header (JSON)
 ///     then, for each frame: u32 length of payload  u32 checksum of length and payload  payload
 ///     payload: u64 step  f64 time  u32 contacts  f64 kinetic, potential, penetration
-///         u32 bodies  bodies  deformables  torn
+///         residual  u32 bodies  bodies  deformables  torn
+///     residual, 12 bytes, where the header has that key, which names the units: f32 force as a
+///         share of the worst island's weight  f32 worst force [N]  f32 worst error [m], of the
+///         step that ended at the frame (effects/residual.h); NaN where there was none
 ///     body, 44 bytes: 3 × f32 position less origin  u64 rotation  3 × f32 velocity
 ///         3 × f32 angular velocity
 ///     rotation: 2 bits index of the largest component, then three times 20 bits (rotation_code.h)
@@ -19,8 +22,9 @@
 ///         u32 element, of those that have torn since the start, sorted
 ///
 /// The checksum is the CRC-32 of zlib. The origin, in the header, is a point near the bodies and
-/// deformables at the start. Files with deformables or links are of version 2, with some that tear
-/// of version 3; those without have nothing that version 1 had not, and are of version 1.
+/// deformables at the start. Files with residuals are of version 4, as all are that a run writes.
+/// What was made of an older one has none: with deformables or links it is of version 2, with some
+/// that tear of version 3, else of version 1.
 #pragma once
 
 #include "measure/frame.h"
@@ -64,6 +68,7 @@ struct RecordingHeader {
     std::vector<RecordedBody> bodies;
     std::vector<RecordedDeformable> deformables;
     std::vector<RecordedLink> links;
+    bool residuals = false;  ///< frames tell how far their steps were from being solved
     std::optional<View> view;
     Eigen::Vector3d origin =
         Eigen::Vector3d::Zero();  ///< recorded positions are relative to it [m]

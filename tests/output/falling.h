@@ -134,6 +134,9 @@ inline Frame falling_frame(const Scene& scene, std::uint64_t step, double time) 
     frame.kinetic_energy = 1234.5 * std::exp(-time);
     frame.potential_energy = 9876.5 - 100 * time;
     frame.deepest_penetration = 0.0012 * time;
+    frame.residual.force_of_weight = 0.3 * std::exp(-3 * time);
+    frame.residual.force = 700 * frame.residual.force_of_weight;
+    frame.residual.error = 1e-3 * frame.residual.force_of_weight;
     return frame;
 }
 

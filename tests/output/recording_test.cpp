@@ -2,12 +2,15 @@
 #include "output/recording.h"
 
 #include "falling.h"
+#include "math/bytes.h"
 #include "output/error.h"
+#include "output/exporters.h"
 #include "output/rotation_code.h"
 #include "temporary_folder.h"
 
 #include <sys/wait.h>
 #include <unistd.h>
+#include <zlib.h>
 #include <csignal>
 #include <fstream>
 #include <iterator>
@@ -40,6 +43,8 @@ void expect_near(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double boun
     EXPECT_LE((a - b).cwiseAbs().maxCoeff(), bound);
 }
 
+double as_float(double x) { return static_cast<double>(static_cast<float>(x)); }
+
 /// Half a unit in the last place of a float of this size.
 double float_bound(double size) {
     return std::max(size, 1e-30) * static_cast<double>(std::numeric_limits<float>::epsilon());
@@ -67,6 +72,10 @@ TEST_F(RecordingTest, FramesComeBackWithinTheFormatsBounds) {
         EXPECT_EQ(recording.frames[f].kinetic_energy, frames[f].kinetic_energy);
         EXPECT_EQ(recording.frames[f].potential_energy, frames[f].potential_energy);
         EXPECT_EQ(recording.frames[f].deepest_penetration, frames[f].deepest_penetration);
+        const FrameResidual &told = frames[f].residual, &read = recording.frames[f].residual;
+        EXPECT_EQ(read.force_of_weight, as_float(told.force_of_weight));
+        EXPECT_EQ(read.force, as_float(told.force));
+        EXPECT_EQ(read.error, as_float(told.error));
         ASSERT_EQ(recording.frames[f].bodies.size(), frames[f].bodies.size());
         for (std::size_t i = 2; i < frames[f].bodies.size(); ++i) {
             const BodyState &a = frames[f].bodies[i], &b = recording.frames[f].bodies[i];
@@ -207,18 +216,140 @@ TEST_F(RecordingTest, StateThatIsNotFiniteDoesNotHurtTheOthers) {
     expect_near(back.bodies[3].placement.position, frame.bodies[3].placement.position, 1e-6);
 }
 
+TEST_F(RecordingTest, ResidualTakesTwelveBytesAFrameAndMayBeLeftOut) {
+    const Scene scene = falling_scene(1);
+    RecordingHeader without = recording_header(scene, {});
+    EXPECT_TRUE(without.residuals);
+    without.residuals = false;
+    const auto bytes_of_a_frame = [&](const RecordingHeader& header) {
+        RecordingWriter writer(path("run.plumb"), header);
+        const auto before = std::filesystem::file_size(path("run.plumb"));
+        Frame frame = falling_frame(scene, 0, 0);
+        frame.residual = {};
+        writer.append(frame);
+        return std::filesystem::file_size(path("run.plumb")) - before;
+    };
+    EXPECT_EQ(bytes_of_a_frame(without), 8 + 48 + 44 * scene.bodies.size());
+    EXPECT_EQ(bytes_of_a_frame(recording_header(scene, {})), 8 + 60 + 44 * scene.bodies.size());
+    const Recording recording = read_recording(path("run.plumb"));
+    EXPECT_TRUE(recording.header.residuals);
+    EXPECT_TRUE(std::isnan(recording.frames.at(0).residual.force));
+}
+
+TEST_F(RecordingTest, HeaderTellsTheUnitsOfResiduals) {
+    record(falling_scene(1), 0);
+    EXPECT_NE(content_of(path("run.plumb"))
+                  .find(R"("residual":{"error":"m","force":"N","force_of_weight":"1"})"),
+              std::string::npos);
+}
+
+/// A file by the text of the format: a ball that nothing draws, recorded by some version.
+class HandMade {
+public:
+    HandMade(std::uint32_t version, const std::string& more_of_header) : bytes_("PLUMBREC") {
+        put(bytes_, version);
+        add(R"({"bodies":[{"color":0,"geometry":4294967295,"motion":2,"name":"ball"}],)"
+            R"("collider":"ode","description":"","dt":0.01,"geometries":[],)"
+            R"("gravity":[0.0,-9.81,0.0],)"
+            R"("metadata":{},"method":"pbd","name":"old","origin":[1.0,0.0,0.0])" +
+            more_of_header + "}");
+    }
+
+    /// A frame in which the ball is at a height; `residual`: its bytes.
+    void add_frame(float height, const std::string& residual) {
+        std::string payload;
+        put(payload, std::uint64_t{7});
+        put(payload, 0.07);
+        put(payload, std::uint32_t{3});
+        for (const double energy_or_depth : {1.5, 2.5, 0.125}) put(payload, energy_or_depth);
+        payload += residual;
+        put(payload, std::uint32_t{1});
+        for (const float place : {0.f, height, 0.f}) put(payload, place);
+        const std::uint64_t upright = 1 << 19;  // a part that is 0, of 20 bits
+        put(payload, ((3ull << 20 | upright) << 20 | upright) << 20 | upright);
+        for (int i = 0; i < 6; ++i) put(payload, 0.5f);
+        add(payload);
+    }
+
+    const std::string& bytes() const { return bytes_; }
+
+private:
+    void add(const std::string& payload) {
+        std::string framed;
+        put(framed, static_cast<std::uint32_t>(payload.size()));
+        const auto sum = [](uLong before, const std::string& of) {
+            return crc32(before, reinterpret_cast<const Bytef*>(of.data()),
+                         static_cast<uInt>(of.size()));
+        };
+        put(framed, static_cast<std::uint32_t>(sum(sum(0, framed), payload)));
+        bytes_ += framed + payload;
+    }
+
+    std::string bytes_;
+};
+
+const std::string kResidualKey = R"(,"residual":{"error":"m","force":"N","force_of_weight":"1"})";
+
+std::string residual_bytes(float of_weight, float force, float error) {
+    std::string bytes;
+    put(bytes, of_weight), put(bytes, force), put(bytes, error);
+    return bytes;
+}
+
+TEST_F(RecordingTest, FilesFromBeforeResidualsAreReadWithoutThemAndStayOfTheirVersion) {
+    HandMade old(1, "");
+    old.add_frame(2.25f, ""), old.add_frame(2.5f, "");
+    write("old.plumb", old.bytes());
+    const Recording recording = read_recording(path("old.plumb"));
+    EXPECT_FALSE(recording.header.residuals);
+    EXPECT_EQ(recording.dropped_bytes, 0u);
+    ASSERT_EQ(recording.frames.size(), 2u);
+    EXPECT_EQ(recording.frames[1].bodies[0].placement.position, Eigen::Vector3d(1, 2.5, 0));
+    EXPECT_EQ(recording.frames[1].deepest_penetration, 0.125);
+    EXPECT_TRUE(std::isnan(recording.frames[1].residual.force_of_weight));
+    EXPECT_TRUE(std::isnan(recording.frames[1].residual.force));
+    EXPECT_TRUE(std::isnan(recording.frames[1].residual.error));
+
+    export_recording(path("again.plumb"), recording);
+    EXPECT_EQ(content_of(path("again.plumb")), old.bytes());
+}
+
+TEST_F(RecordingTest, ResidualsThatAreNotFiniteAreReadAsSuchAndOnesThatAreMissingEndTheFile) {
+    const float infinite = std::numeric_limits<float>::infinity();
+    HandMade file(4, kResidualKey);
+    file.add_frame(2, residual_bytes(0.25f, 3, 0.5f));
+    file.add_frame(2, residual_bytes(std::nanf(""), infinite, -infinite));
+    const std::size_t sound = file.bytes().size();
+    file.add_frame(2, residual_bytes(0.25f, 3, 0.5f).substr(4));
+    write("run.plumb", file.bytes());
+    const Recording recording = read_recording(path("run.plumb"));
+    ASSERT_EQ(recording.frames.size(), 2u);
+    EXPECT_EQ(recording.frames[0].residual.force_of_weight, 0.25);
+    EXPECT_EQ(recording.frames[0].residual.force, 3);
+    EXPECT_EQ(recording.frames[0].residual.error, 0.5);
+    EXPECT_TRUE(std::isnan(recording.frames[1].residual.force_of_weight));
+    EXPECT_EQ(recording.frames[1].residual.force, std::numeric_limits<double>::infinity());
+    EXPECT_EQ(recording.frames[1].residual.error, -std::numeric_limits<double>::infinity());
+    EXPECT_EQ(recording.dropped_bytes, file.bytes().size() - sound);
+
+    HandMade without(4, "");  // bytes that the header does not speak of
+    without.add_frame(2, residual_bytes(0.25f, 3, 0.5f));
+    write("without.plumb", without.bytes());
+    EXPECT_EQ(read_recording(path("without.plumb")).frames.size(), 0u);
+}
+
 TEST_F(RecordingTest, OtherFilesAndVersionsAreRefused) {
     write("other.plumb", "PNG or whatever else");
     EXPECT_THROW(read_recording(path("other.plumb")), OutputError);
     record(falling_scene(1), 1);
     std::string newer = content_of(path("run.plumb"));
-    newer[8] = 4;
+    newer[8] = 5;
     write("newer.plumb", newer);
     try {
         read_recording(path("newer.plumb"));
         FAIL() << "nothing was thrown";
     } catch (const OutputError& error) {
-        EXPECT_NE(std::string(error.what()).find("version 4"), std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("version 5"), std::string::npos);
     }
 }
 
