@@ -155,6 +155,17 @@ json frames_to_json(const std::vector<Frame>& notes) {
     return j;
 }
 
+/// NaN becomes null.
+json residuals_to_json(const std::vector<Frame>& notes) {
+    json j{{"force_of_weight", json::array()}, {"force", json::array()}, {"error", json::array()}};
+    for (const Frame& frame : notes) {
+        j["force_of_weight"].push_back(frame.residual.force_of_weight);
+        j["force"].push_back(frame.residual.force);
+        j["error"].push_back(frame.residual.error);
+    }
+    return j;
+}
+
 json view_to_json(const View& view, const Eigen::Vector3d& origin) {
     return {{"eye", to_json(view.eye - origin)},
             {"target", to_json(view.target - origin)},
@@ -185,6 +196,7 @@ ReplayParts replay_parts(const RecordingHeader& header, const std::vector<Frame>
     }
     scene["bodies"] = bodies_to_json(header);
     scene["frames"] = frames_to_json(notes);
+    if (header.residuals) scene["frames"]["residual"] = residuals_to_json(notes);
     put_motion(scene, parts.motion, header, motions.bodies);
     put_deformables(scene, parts, header, notes, motions.deformables);
     parts.scene = safe_text(scene);

@@ -24,6 +24,24 @@ for file in html png csv plumb; do [ -s "$work/x.$file" ]; done
   /residual/island_at_end/bodies /state_hash /effects/0/name /effects/0/ran /effects/0/why /effects/0/ms /build/compiler
 [ "$("$json_has" "$work/summary.json" --print /fallen_through)" = 0 ]
 
+# each frame has its step's residual: in a replay to the last digit, in a recording as floats, and of the same bits on any
+# threads; a replay of the recording shows it
+scene_of() { sed -n 's:.*<script id="plumb-scene"[^>]*>\(.*\)</script>.*:\1:p' "$1"; }
+scene_of "$work/x.html" >"$work/replay.json"
+last=$(($("$json_has" "$work/replay.json" --print /frames/step | tr -cd , | wc -c)))
+for key in force_of_weight force error; do
+  case $key in force) unit=_n ;; error) unit=_m ;; *) unit= ;; esac
+  end=$("$json_has" "$work/summary.json" --print "/residual/$key$unit/end")
+  [ "$("$json_has" "$work/replay.json" --print "/frames/residual/$key/$last")" = "$end" ]
+  [ "$("$json_has" "$work/replay.json" --print "/frames/residual/$key/0")" = null ]
+done
+"$plumb" export "$work/x.plumb" --out "$work/again.html" >"$work/said.txt"
+scene_of "$work/again.html" >"$work/again.json"
+"$json_has" "$work/again.json" --print "/frames/residual/error/$last" |
+  awk -v end="$end" '{ exit !(end > 0 && $1 / end > 1 - 1e-7 && $1 / end < 1 + 1e-7) }'
+"$plumb" run "$small" --quiet --threads 2 --lanes 4 --out "$work/threads.plumb"
+cmp "$work/x.plumb" "$work/threads.plumb"
+
 # who detects and why: the cheapest for the pile by the plugins' tables, told in the summary and on stderr
 why=$("$json_has" "$work/summary.json" --print /collider/why)
 echo "$why" | grep -qE '^"supports all [0-9]+ pairs of shapes, about 0\.[0-9]+ of [a-z]+.s cost, '

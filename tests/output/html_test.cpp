@@ -114,9 +114,28 @@ TEST_F(HtmlTest, NumbersOfTheFramesAndBodiesAtRestAreInThePage) {
     EXPECT_EQ(replay.scene["frames"]["contacts"][3], frames[3].contacts);
     EXPECT_EQ(replay.scene["frames"]["kinetic"][3], frames[3].kinetic_energy);
     EXPECT_EQ(replay.scene["frames"]["penetration"][3], frames[3].deepest_penetration);
+    const nlohmann::json& residual = replay.scene["frames"]["residual"];
+    EXPECT_EQ(residual["force_of_weight"][3], frames[3].residual.force_of_weight);
+    EXPECT_EQ(residual["force"][3], frames[3].residual.force);
+    EXPECT_EQ(residual["error"][3], frames[3].residual.error);
     EXPECT_NEAR(replay.scene["bodies"][1]["pose"][0].get<double>(), -7.5, 1e-6);
     EXPECT_FALSE(replay.scene["bodies"][2].contains("pose"));
     EXPECT_EQ(replay.scene["bodies"][2]["color"], body_color({}, 2));
+}
+
+TEST_F(HtmlTest, ResidualsThatNobodyToldAreNullAndOldRecordingsHaveNone) {
+    const Scene scene = falling_scene(1);
+    std::vector<Frame> frames = falling_frames(scene, 2);
+    frames[0].residual = {};
+    const nlohmann::json told = Replay(page(scene, frames)).scene["frames"]["residual"];
+    for (const char* key : {"force_of_weight", "force", "error"}) {
+        EXPECT_TRUE(told[key][0].is_null()) << key;
+        EXPECT_GT(told[key][1].get<double>(), 0) << key;
+    }
+    RecordingHeader old = recording_header(scene, {});
+    old.residuals = false;
+    export_recording(path("old.html"), {old, frames, 0});
+    EXPECT_FALSE(Replay(read_file(path("old.html"))).scene["frames"].contains("residual"));
 }
 
 TEST_F(HtmlTest, PageAsksForNothingFromOutside) {

@@ -12,11 +12,12 @@ canvas { position: fixed; inset: 0; width: 100%; height: 100%; display: block; t
 #about h1 { margin: 0; font-size: 17px; font-weight: 650; overflow-wrap: anywhere; }
 #about p { margin: 2px 0 0; color: var(--soft); overflow-wrap: anywhere; }
 #about p:empty { display: none; }
-#numbers { margin: 0; top: 16px; right: 16px; min-width: 210px; display: grid; grid-template-columns: auto auto;
+#numbers { margin: 0; top: 16px; right: 16px; min-width: 256px; display: grid; grid-template-columns: auto auto;
     gap: 3px 18px; font-variant-numeric: tabular-nums; }
 #numbers dt { color: var(--soft); margin: 0; }
 #numbers dd { margin: 0; text-align: right; font-weight: 550; }
-#numbers.rigid .soft-only { display: none; }
+#numbers.rigid .soft-only, #unsolved.untold, #curve.untold { display: none; }
+#unsolved { grid-column: 1 / 3; font-size: 12px; color: var(--soft); white-space: nowrap; }
 #picked { display: none; grid-column: 1 / 3; border-top: 1px solid rgba(20,30,40,.12); margin-top: 6px;
     padding-top: 6px; max-width: 260px; overflow-wrap: anywhere; }
 #controls { left: 50%; bottom: 18px; transform: translateX(-50%); width: min(900px, calc(100vw - 32px));
@@ -28,7 +29,10 @@ button:hover, select:hover { background: rgba(20,30,40,.08); }
 button:focus-visible, select:focus-visible, input:focus-visible { outline: 2px solid var(--accent); outline-offset: 1px; }
 #play { background: var(--ink); color: #fff; border-radius: 50%; width: 38px; height: 38px; flex: none; }
 #play:hover { background: #33414e; }
-#scrub { flex: 1; min-width: 60px; accent-color: var(--accent); height: 22px; cursor: pointer; }
+#timeline { flex: 1; min-width: 60px; }
+#curve { display: block; width: calc(100% - 16px); height: 14px; margin: 0 8px; overflow: visible; }
+#curve path { fill: none; stroke: var(--soft); stroke-width: 1; vector-effect: non-scaling-stroke; }
+#scrub { display: block; width: 100%; margin: 0; accent-color: var(--accent); height: 22px; cursor: pointer; }
 #clock { font-variant-numeric: tabular-nums; white-space: nowrap; text-align: right; min-width: 118px; }
 #clock small { color: var(--soft); display: block; font-size: 12px; line-height: 1.2; }
 #failure { inset: 0; margin: auto; width: min(480px, 90vw); height: max-content; }

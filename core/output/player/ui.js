@@ -22,18 +22,42 @@ export function withUnit(value, unit) {
     return `${(value / factor).toPrecision(3)} ${prefix}${unit}`;
 }
 
+/// "0.31 %"
+function percent(share) {
+    const value = 100 * share;
+    if (value < 1e-6) return '0 %';
+    return `${value < 100 ? Number(value.toPrecision(2)) : Math.round(value).toLocaleString('en')} %`;
+}
+
+/// The height of the curve of what is left unsolved, in [0, 1]: from a millionth of the weight to all of it, by powers of ten.
+const heightOf = (share) => Math.min(1, Math.max(0, 1 + Math.log10(share) / 6));
+
+/// That curve as the path of an SVG, 1000 wide and 100 high, with gaps where nobody told.
+function curvePath(times, shares) {
+    const start = times[0], length = times.at(-1) - start || 1;
+    let path = '', stroke = 'M';
+    shares.forEach((share, i) => {
+        if (share !== null) {
+            path += `${stroke}${(1000 * (times[i] - start) / length).toFixed(1)} ${(100 - 100 * heightOf(share)).toFixed(1)}`;
+        }
+        stroke = share === null ? 'M' : 'L';
+    });
+    return path;
+}
+
 const kPage = `
 <canvas tabindex="0" aria-label="The scene; drag to turn, wheel to zoom"></canvas>
 <section id="about" class="panel"><h1></h1><p id="description"></p><p id="made"></p></section>
 <dl id="numbers" class="panel">
   <dt>Bodies</dt><dd id="bodies"></dd><dt class="soft-only">Particles</dt><dd id="particles" class="soft-only"></dd><dt>Contacts</dt><dd id="contacts"></dd>
   <dt>Kinetic energy</dt><dd id="kinetic"></dd><dt>Potential energy</dt><dd id="potential"></dd>
-  <dt>Penetration</dt><dd id="penetration"></dd><div id="picked"></div></dl>
+  <dt>Penetration</dt><dd id="penetration"></dd><div id="unsolved"></div><div id="picked"></div></dl>
 <nav id="controls" class="panel" aria-label="Replay">
   <button id="play" title="Play or pause (space)" aria-label="Play">${icon('play')}</button>
   <button id="back" title="One frame back (←)" aria-label="One frame back">${icon('back')}</button>
   <button id="forth" title="One frame on (→)" aria-label="One frame on">${icon('forth')}</button>
-  <input id="scrub" type="range" min="0" max="1" step="any" value="0" aria-label="Time">
+  <div id="timeline"><svg id="curve" viewBox="0 0 1000 100" preserveAspectRatio="none"><title>Unsolved, as a share of the weight: from 0.0001 % to 100 %, by powers of ten</title><path/></svg>
+    <input id="scrub" type="range" min="0" max="1" step="any" value="0" aria-label="Time"></div>
   <div id="clock"></div>
   <select id="speed" title="Speed" aria-label="Speed">${kSpeeds.map((s) =>
         `<option value="${s}"${s === 1 ? ' selected' : ''}>${s}×</option>`).join('')}</select>
@@ -66,6 +90,15 @@ export class Interface {
         this.numbers.classList.toggle('rigid', particles === 0);
         this.scrub.min = this.times[0] ?? 0;
         this.scrub.max = this.times.at(-1) ?? 0;
+        this.describeResidual(scene.frames.residual);
+    }
+
+    /// What a recording from before there were any, or a program that told none, lacks is not shown.
+    describeResidual(residual) {
+        const path = curvePath(this.times, residual?.force_of_weight ?? []);
+        this.curve.querySelector('path').setAttribute('d', path);
+        this.curve.classList.toggle('untold', path === '');
+        this.unsolved.classList.toggle('untold', path === '');
     }
 
     showPlaying(playing) {
@@ -82,6 +115,16 @@ export class Interface {
         this.kinetic.textContent = withUnit(frames.kinetic[frame], 'J');
         this.potential.textContent = withUnit(frames.potential[frame], 'J');
         this.penetration.textContent = withUnit(frames.penetration[frame], 'm');
+        if (frames.residual) this.showResidual(frame);
+    }
+
+    /// "Unsolved: 0.31 % of weight, 2.00 µm"; the force itself where the pointer rests on it.
+    showResidual(frame) {
+        const { force_of_weight: shares, force, error } = this.frames.residual;
+        const share = shares[frame] ?? null;
+        this.unsolved.textContent = 'Unsolved: '
+            + (share === null ? '–' : `${percent(share)} of weight, ${withUnit(error[frame], 'm')}`);
+        this.unsolved.title = share === null ? '' : `at the most ${withUnit(force[frame], 'N')}`;
     }
 
     showPicked(text) {
