@@ -2,6 +2,7 @@
 /// Hands out kernels, and only those that this processor runs.
 #include "kernels/body_kernels.h"
 #include "kernels/contact_kernels.h"
+#include "kernels/front_kernels.h"
 #include "kernels/joint_kernels.h"
 #include "kernels/kernel_tables.h"
 #include "kernels/point_kernels.h"
@@ -72,6 +73,17 @@ const BodyKernels& body_kernels(int lanes) {
             return *kernels::body_kernel_table<8>();
         default:
             return *kernels::body_kernel_table<16>();
+    }
+}
+
+const FrontKernels& front_kernels() {
+    switch (widest_lanes()) {
+        case 4:
+            return *kernels::front_kernel_table<2>();
+        case 8:
+            return *kernels::front_kernel_table<4>();
+        default:
+            return *kernels::front_kernel_table<8>();
     }
 }
 

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "kernels/body_kernels.h"
+#include "math/dense_front.h"
 
 namespace plumb::kernels {
 
@@ -16,5 +17,8 @@ const Table* kernel_table();
 /// `Lanes`: of the rows' kernels of the same unit.
 template <int Lanes>
 const BodyKernels* body_kernel_table();
+/// `W`: doubles in a register of the unit.
+template <int W>
+const FrontKernels* front_kernel_table();
 
 }  // namespace plumb::kernels

@@ -53,4 +53,10 @@ const TreeKernels<8>* kernel_table() {
     return &table;
 }
 
+template <>
+const FrontKernels* front_kernel_table<4>() {
+    static constexpr auto table = front_kernels_of<4>();
+    return &table;
+}
+
 }  // namespace plumb::kernels

@@ -53,4 +53,10 @@ const TreeKernels<16>* kernel_table() {
     return &table;
 }
 
+template <>
+const FrontKernels* front_kernel_table<8>() {
+    static constexpr auto table = front_kernels_of<8>();
+    return &table;
+}
+
 }  // namespace plumb::kernels

@@ -97,4 +97,10 @@ const TreeKernels<4>* kernel_table() {
     return &table;
 }
 
+template <>
+const FrontKernels* front_kernel_table<2>() {
+    static constexpr auto table = front_kernels_of<2>();
+    return &table;
+}
+
 }  // namespace plumb::kernels

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "math/lanes.h"
+#include "math/types.h"
 
 #include <cmath>
 #include <cstddef>
@@ -18,51 +19,58 @@ namespace front {
 
 inline constexpr std::uint32_t kPanel = 24;
 
-using Four = Lanes<double, 4>;
-
 /// Of any alignment.
-inline Four read(const double* from) {
-    Four x;
+template <int W>
+Lanes<double, W> read(const double* from) {
+    Lanes<double, W> x;
     __builtin_memcpy(&x, from, sizeof x);
     return x;
 }
 
-/// Rows [row, n) of `kColumns` columns from `column` on: C −= A Bᵀ, with A the panel's columns
-/// [first, last) and B theirs times the pivots, `scaled`[k][column].
-template <int kColumns>
-inline void take_off(double* f, std::uint32_t n, std::uint32_t first, std::uint32_t last,
-                     std::uint32_t column, const double* scaled) {
+/// Rows from `row` on, kParts times W at once as long as there are so many, of `kColumns` columns
+/// from `column` on: C −= A Bᵀ, with A the panel's columns [first, last) and B theirs times the
+/// pivots, `scaled`[k][column]. Returns the row after them.
+template <int W, int kParts, int kColumns>
+std::uint32_t take_off_rows(double* f, std::uint32_t n, std::uint32_t row, std::uint32_t first,
+                            std::uint32_t last, std::uint32_t column, const double* scaled) {
     const std::size_t ld = n;
-    std::uint32_t row = column;
-    for (; row + 4 <= n; row += 4) {
-        Four sum[kColumns];
-        for (int c = 0; c < kColumns; ++c) sum[c] = read(f + (column + c) * ld + row);
+    for (; row + kParts * W <= n; row += kParts * W) {
+        Lanes<double, W> sum[kColumns][kParts];
+        for (int c = 0; c < kColumns; ++c)
+            for (int p = 0; p < kParts; ++p)
+                sum[c][p] = read<W>(f + (column + c) * ld + row + p * W);
         for (std::uint32_t k = first; k < last; ++k) {
-            const Four a = read(f + k * ld + row);
             const double* b = scaled + (k - first) * ld + column;
-            for (int c = 0; c < kColumns; ++c) sum[c] -= a * Four(b[c]);
+            Lanes<double, W> a[kParts];
+            for (int p = 0; p < kParts; ++p) a[p] = read<W>(f + k * ld + row + p * W);
+            for (int c = 0; c < kColumns; ++c)
+                for (int p = 0; p < kParts; ++p) sum[c][p] -= a[p] * Lanes<double, W>(b[c]);
         }
         for (int c = 0; c < kColumns; ++c)
-            __builtin_memcpy(f + (column + c) * ld + row, &sum[c], sizeof sum[c]);
+            for (int p = 0; p < kParts; ++p)
+                __builtin_memcpy(f + (column + c) * ld + row + p * W, &sum[c][p], sizeof sum[c][p]);
     }
-    for (; row < n; ++row)
-        for (int c = 0; c < kColumns; ++c) {
-            double sum = f[(column + c) * ld + row];
-            for (std::uint32_t k = first; k < last; ++k)
-                sum -= f[k * ld + row] * scaled[(k - first) * ld + column + c];
-            f[(column + c) * ld + row] = sum;
-        }
+    return row;
 }
 
-}  // namespace front
+/// Those of all rows from `column` on.
+template <int W, int kColumns>
+void take_off(double* f, std::uint32_t n, std::uint32_t first, std::uint32_t last,
+              std::uint32_t column, const double* scaled) {
+    std::uint32_t row = take_off_rows<W, 2, kColumns>(f, n, column, first, last, column, scaled);
+    row = take_off_rows<W, 1, kColumns>(f, n, row, first, last, column, scaled);
+    row = take_off_rows<2, 1, kColumns>(f, n, row, first, last, column, scaled);
+    take_off_rows<1, 1, kColumns>(f, n, row, first, last, column, scaled);
+}
 
 /// L D Lᵀ of the first `pivots` columns in place: L below the diagonal, D on it; the rest becomes
-/// the Schur complement. `memory` has 24 n numbers. Returns whether all pivots were finite and not
-/// 0.
-inline bool factor_front(double* f, std::uint32_t n, std::uint32_t pivots, double* memory) {
+/// the Schur complement. `memory` has kPanel n numbers. Returns whether all pivots were finite and
+/// not 0.
+template <int W>
+bool factor(double* f, std::uint32_t n, std::uint32_t pivots, double* memory) {
     const std::size_t ld = n;
-    for (std::uint32_t first = 0; first < pivots; first += front::kPanel) {
-        const std::uint32_t last = first + front::kPanel < pivots ? first + front::kPanel : pivots;
+    for (std::uint32_t first = 0; first < pivots; first += kPanel) {
+        const std::uint32_t last = first + kPanel < pivots ? first + kPanel : pivots;
         for (std::uint32_t j = first; j < last; ++j) {
             double* column = f + j * ld;
             for (std::uint32_t k = first; k < j; ++k) {
@@ -80,10 +88,101 @@ inline bool factor_front(double* f, std::uint32_t n, std::uint32_t pivots, doubl
             }
         }
         std::uint32_t column = last;
-        for (; column + 4 <= n; column += 4) front::take_off<4>(f, n, first, last, column, memory);
-        for (; column < n; ++column) front::take_off<1>(f, n, first, last, column, memory);
+        for (; column + 4 <= n; column += 4) take_off<W, 4>(f, n, first, last, column, memory);
+        for (; column < n; ++column) take_off<W, 1>(f, n, first, last, column, memory);
     }
     return true;
+}
+
+/// Three columns of a front's factors, for all that is read of x and written to it is then read and
+/// written once for them all.
+struct BlockColumn {
+    const double* of[3];
+
+    BlockColumn(const double* factors, std::uint32_t n, std::uint32_t first) {
+        for (std::uint32_t k = 0; k < 3; ++k) of[k] = factors + std::size_t(first + k) * n;
+    }
+    /// y += L x, of `count` rows from `first` on.
+    void add_to(std::uint32_t first, std::uint32_t count, const Vector3d& x, double* y) const {
+        const double *a = of[0] + first, *b = of[1] + first, *c = of[2] + first;
+        const double x0 = x[0], x1 = x[1], x2 = x[2];
+        for (std::uint32_t r = 0; r < count; ++r) y[r] += (a[r] * x0 + b[r] * x1) + c[r] * x2;
+    }
+    /// Lᵀ y, of the same. Rows in turn go to eight sums, which need not wait for each other.
+    template <int W>
+    Vector3d sum(std::uint32_t first, std::uint32_t count, const double* y) const {
+        constexpr int kSums = 8;
+        const double* const l[3] = {of[0] + first, of[1] + first, of[2] + first};
+        Lanes<double, W> sums[3][kSums / W];
+        for (auto& row : sums)
+            for (auto& part : row) part = 0;
+        std::uint32_t r = 0;
+        for (; r + kSums <= count; r += kSums)
+            for (int p = 0; p < kSums / W; ++p) {
+                const Lanes<double, W> here = read<W>(y + r + p * W);
+                for (int k = 0; k < 3; ++k) sums[k][p] += read<W>(l[k] + r + p * W) * here;
+            }
+        Vector3d all;
+        for (int k = 0; k < 3; ++k) {
+            double each[kSums];
+            __builtin_memcpy(each, &sums[k], sizeof each);
+            for (int half = kSums / 2; half > 0; half /= 2)
+                for (int i = 0; i < half; ++i) each[i] += each[i + half];
+            all[k] = each[0];
+        }
+        for (; r < count; ++r)
+            for (int k = 0; k < 3; ++k) all[k] += l[k][r] * y[r];
+        return all;
+    }
+};
+
+/// With the factors of `pivots` columns, a multiple of three: L⁻¹ of their own rows in place, and
+/// what is to be taken off those below, of which there are n − pivots.
+inline void solve_down(const double* factors, std::uint32_t n, std::uint32_t pivots, double* own,
+                       double* below) {
+    for (std::uint32_t i = 0; i < n - pivots; ++i) below[i] = 0;
+    for (std::uint32_t c = 0; c < pivots; c += 3) {
+        const BlockColumn l(factors, n, c);
+        double* here = own + c;
+        here[1] -= l.of[0][c + 1] * here[0];
+        here[2] -= l.of[0][c + 2] * here[0] + l.of[1][c + 2] * here[1];
+        l.add_to(c + 3, pivots - (c + 3), {-here[0], -here[1], -here[2]}, here + 3);
+        l.add_to(pivots, n - pivots, {here[0], here[1], here[2]}, below);
+    }
+}
+
+/// And on to (D Lᵀ)⁻¹ of their own, where those below are known.
+template <int W>
+void solve_up(const double* factors, std::uint32_t n, std::uint32_t pivots, double* own,
+              const double* below) {
+    for (std::uint32_t c = pivots; c > 0;) {
+        c -= 3;
+        const BlockColumn l(factors, n, c);
+        double* here = own + c;
+        const Vector3d sum =
+            l.sum<W>(c + 3, pivots - (c + 3), here + 3) + l.sum<W>(pivots, n - pivots, below);
+        here[2] = here[2] / l.of[2][c + 2] - sum[2];
+        here[1] = here[1] / l.of[1][c + 1] - sum[1] - l.of[1][c + 2] * here[2];
+        here[0] =
+            here[0] / l.of[0][c] - sum[0] - l.of[0][c + 1] * here[1] - l.of[0][c + 2] * here[2];
+    }
+}
+
+}  // namespace front
+
+/// What works on one front. They give the same bits, whatever they were compiled for.
+struct FrontKernels {
+    bool (*factor)(double* f, std::uint32_t n, std::uint32_t pivots, double* memory);
+    void (*solve_down)(const double* factors, std::uint32_t n, std::uint32_t pivots, double* own,
+                       double* below);
+    void (*solve_up)(const double* factors, std::uint32_t n, std::uint32_t pivots, double* own,
+                     const double* below);
+};
+
+/// W numbers, one register, at a time.
+template <int W>
+constexpr FrontKernels front_kernels_of() {
+    return {front::factor<W>, front::solve_down, front::solve_up<W>};
 }
 
 }  // namespace plumb

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "math/sparse_ldlt.h"
 
-#include "math/dense_front.h"
-
 #include <Eigen/OrderingMethods>
 #include <Eigen/SparseCore>
 
@@ -87,36 +85,10 @@ std::vector<std::uint32_t> children_first(const Lists& structure) {
     return order;
 }
 
-/// Three columns of a front's factors, for all that is read of x and written to it is then read and
-/// written once for them all.
-struct BlockColumn {
-    const double* of[3];
-
-    BlockColumn(const double* factors, std::uint32_t size, std::uint32_t first) {
-        for (std::uint32_t k = 0; k < 3; ++k) of[k] = factors + std::size_t(first + k) * size;
-    }
-    /// y += L x, of `count` rows from `first` on.
-    void add_to(std::uint32_t first, std::uint32_t count, const Vector3d& x, double* y) const {
-        const double *a = of[0] + first, *b = of[1] + first, *c = of[2] + first;
-        const double x0 = x[0], x1 = x[1], x2 = x[2];
-        for (std::uint32_t r = 0; r < count; ++r) y[r] += (a[r] * x0 + b[r] * x1) + c[r] * x2;
-    }
-    /// Lᵀ y, of the same. Rows in turn go to two sums, which need not wait for each other.
-    Vector3d sum(std::uint32_t first, std::uint32_t count, const double* y) const {
-        const double *a = of[0] + first, *b = of[1] + first, *c = of[2] + first;
-        double even[3] = {0, 0, 0}, odd[3] = {0, 0, 0};
-        std::uint32_t r = 0;
-        for (; r + 2 <= count; r += 2) {
-            even[0] += a[r] * y[r], even[1] += b[r] * y[r], even[2] += c[r] * y[r];
-            odd[0] += a[r + 1] * y[r + 1], odd[1] += b[r + 1] * y[r + 1];
-            odd[2] += c[r + 1] * y[r + 1];
-        }
-        if (r < count) even[0] += a[r] * y[r], even[1] += b[r] * y[r], even[2] += c[r] * y[r];
-        return {even[0] + odd[0], even[1] + odd[1], even[2] + odd[2]};
-    }
-};
-
 }  // namespace
+
+SparseLdlt::SparseLdlt() : SparseLdlt(front_kernels_of<2>()) {}
+SparseLdlt::SparseLdlt(const FrontKernels& kernels) : kernels_(kernels) {}
 
 // ---- once a pattern
 
@@ -306,7 +278,7 @@ bool SparseLdlt::factor() {
         else
             pair = gather(f, pair);
         for (const std::uint32_t child : children_[i]) add_child(fronts_[child], left_[child], i);
-        if (!factor_front(front_.data(), f.size, width(i), memory_.data())) return false;
+        if (!kernels_.factor(front_.data(), f.size, width(i), memory_.data())) return false;
         std::copy_n(front_.begin(), std::size_t(width(i)) * f.size, factors_.begin() + f.factors);
         const std::uint32_t left = f.size - width(i);
         for (std::uint32_t c = 0; c < left; ++c)
@@ -394,38 +366,19 @@ void SparseLdlt::solve(std::vector<Vector3d>& x) {
     double* below = memory_.data();
     for (std::uint32_t i = 0; i < fronts_.size(); ++i) {
         const Front& f = fronts_[i];
-        const std::uint32_t w = width(i), left = f.size - w;
-        double* own = x_.data() + 3 * f.first;
-        std::fill_n(below, left, 0.0);
-        for (std::uint32_t c = 0; c < w; c += 3) {
-            const BlockColumn l(factors_.data() + f.factors, f.size, c);
-            double* here = own + c;
-            here[1] -= l.of[0][c + 1] * here[0];
-            here[2] -= l.of[0][c + 2] * here[0] + l.of[1][c + 2] * here[1];
-            l.add_to(c + 3, w - (c + 3), {-here[0], -here[1], -here[2]}, here + 3);
-            l.add_to(w, left, {here[0], here[1], here[2]}, below);
-        }
+        kernels_.solve_down(factors_.data() + f.factors, f.size, width(i), x_.data() + 3 * f.first,
+                            below);
         each_row_below(f, [&](std::uint32_t k, std::uint32_t place) {
             for (int c = 0; c < 3; ++c) x_[3 * place + c] -= below[3 * k + c];
         });
     }
     for (std::uint32_t i = static_cast<std::uint32_t>(fronts_.size()); i-- > 0;) {
         const Front& f = fronts_[i];
-        const std::uint32_t w = width(i), left = f.size - w;
-        double* own = x_.data() + 3 * f.first;
         each_row_below(f, [&](std::uint32_t k, std::uint32_t place) {
             for (int c = 0; c < 3; ++c) below[3 * k + c] = x_[3 * place + c];
         });
-        for (std::uint32_t c = w; c > 0;) {
-            c -= 3;
-            const BlockColumn l(factors_.data() + f.factors, f.size, c);
-            double* here = own + c;
-            const Vector3d sum = l.sum(c + 3, w - (c + 3), here + 3) + l.sum(w, left, below);
-            here[2] = here[2] / l.of[2][c + 2] - sum[2];
-            here[1] = here[1] / l.of[1][c + 1] - sum[1] - l.of[1][c + 2] * here[2];
-            here[0] =
-                here[0] / l.of[0][c] - sum[0] - l.of[0][c + 1] * here[1] - l.of[0][c + 2] * here[2];
-        }
+        kernels_.solve_up(factors_.data() + f.factors, f.size, width(i), x_.data() + 3 * f.first,
+                          below);
     }
     for (std::uint32_t p = 0; p < rows_ + more_; ++p)
         for (int k = 0; k < 3; ++k) x[row_at(p)][k] = x_[3 * p + k];

@@ -8,6 +8,7 @@
 /// `clear`, add to blocks, `factor`, `solve`. Definite or quasi-definite systems need no pivoting.
 #pragma once
 
+#include "math/dense_front.h"
 #include "math/types.h"
 
 #include <cstdint>
@@ -26,6 +27,10 @@ public:
         std::uint32_t index = 0;
         bool transposed = false;
     };
+
+    SparseLdlt();
+    /// The quickest that the processor runs (kernels/front_kernels.h).
+    explicit SparseLdlt(const FrontKernels& kernels);
 
     /// `rows` block rows, and the pairs of them that have blocks; a pair may come more than once,
     /// in either order.
@@ -105,6 +110,7 @@ private:
         return i == root() ? 3 * more_ : 3 * (fronts_[i].last - fronts_[i].first);
     }
 
+    FrontKernels kernels_;
     std::uint32_t rows_ = 0, more_ = 0;
     double work_ = 0;
     std::vector<std::uint32_t> order_, place_;             // [place] row; [row] place

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "solve/elastic_system.h"
 
+#include "kernels/front_kernels.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -40,7 +42,8 @@ constexpr int kCuts = 6;
 ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
     : elements_(make_elements(world, world.settings.dt / world.settings.substeps, Formulas())),
       contacts_(plan),
-      has_contacts_(has_elastic_contacts(plan)) {
+      has_contacts_(has_elastic_contacts(plan)),
+      system_(front_kernels()) {
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
