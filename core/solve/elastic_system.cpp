@@ -21,8 +21,9 @@ constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6, kRounding = 1e-
 constexpr int kLook = 5;
 constexpr double kQuick = 0.2;
 
-/// Minima of a call, each with the contacts' impulses of the one before.
-constexpr int kRounds = 2;
+/// Minima of a substep, each with the contacts' impulses of the one before: shared among its calls,
+/// but no fewer than the least in each.
+constexpr std::uint32_t kRounds = 10, kLeastRounds = 2;
 /// They have found them where those would change velocities by no more than this times as much as
 /// is enough otherwise.
 constexpr double kEnoughOfContacts = 10;
@@ -44,6 +45,8 @@ ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
       contacts_(plan),
       has_contacts_(has_elastic_contacts(plan)),
       system_(front_kernels()) {
+    const std::uint32_t calls = std::max(1u, world.settings.position_iterations);
+    rounds_ = std::max(kLeastRounds, kRounds / calls);
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
@@ -344,7 +347,7 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
     std::fill(v_.begin() + particles(), v_.end(), Vector3d::Zero());
     contacts_.find_targets(v_, target_);
     if (is_first_) guess_rest();
-    for (int round = 0; round < kRounds; ++round) {
+    for (std::uint32_t round = 0; round < rounds_; ++round) {
         const bool is_there = descend();
         if (contacts_.empty()) break;
         find_forces();

@@ -82,6 +82,7 @@ private:
     std::vector<double> mass_;  ///< [particle], 0 of what stays [kg]
     ElasticContacts contacts_;
     bool has_contacts_;
+    std::uint32_t rounds_ = 0;             ///< of a call, at the most
     std::vector<SparseLdlt::Pair> pairs_;  ///< of particles and attached rows, as told
     std::uint32_t balloon_rows_ = 0;
     std::size_t balloon_pairs_ = 0;
