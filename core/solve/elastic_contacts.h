@@ -147,7 +147,8 @@ private:
     std::vector<SparseLdlt::Pair> pairs_, pairs_before_;
     std::vector<std::uint32_t> body_of_;                 ///< [world's body] in `bodies_`
     std::vector<std::uint8_t> member_;                   ///< [world's body] whether it belongs here
-    std::vector<ElasticImpulse> keys_;                   ///< of the contacts, sorted
+    std::vector<ElasticImpulse> keys_;                   ///< of contacts with sheets, sorted
+    std::vector<const ElasticImpulse*> now_, before_;    ///< those without a match so far
     std::vector<double> resistance_;                     ///< [particle] [kg]
     BlockCholesky::Pattern touching_, touching_before_;  ///< pairs of `bodies_`
     BlockCholesky reach_;                                ///< of all impulses, see `match`

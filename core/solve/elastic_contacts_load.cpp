@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 /// Which contacts are part of the elastic system, once a step.
 #include "contacts/contact_measures.h"
+#include "math/fnv1a.h"
 #include "solve/elastic_contacts.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace plumb {
 namespace {
@@ -25,6 +27,53 @@ bool belongs(const World& world, const BodyPair& pair) {
         if (separating_velocity(b, world.contacts.found[i], world.contacts.point[i]) < fast)
             return false;
     return true;
+}
+
+/// By what a contact is known from step to step.
+ElasticImpulse key_of(const World& world, const ElasticContacts::Contact& c, std::uint32_t order) {
+    ElasticImpulse key{
+        {c.particle[0], kNoIndex, kNoIndex}, c.sides[1].index, 0, 0, order, {0, 0, 0}};
+    if (c.of == ElasticContacts::Source::surface) {
+        key.particles = {c.particle[0], c.particle[1], c.particle[2]};
+        const Vector3d& point = world.surface_contacts[c.source].point.position;
+        Fnv1a hash;
+        hash.add(point.data(), 3 * sizeof(double));
+        key.feature = hash.value();
+    } else {
+        const plumb::Contact& found = world.particle_contacts.found[c.source];
+        key.part = found.part_b, key.feature = found.feature;
+    }
+    return key;
+}
+
+/// Body and particle, or body and the body's point.
+std::tuple<std::uint32_t, std::uint32_t, std::uint64_t> place_of(const ElasticImpulse& x) {
+    const bool is_particle = x.particles[1] == kNoIndex;
+    return {x.body, is_particle ? x.particles[0] : kNoIndex, is_particle ? 0 : x.feature};
+}
+
+using References = std::vector<const ElasticImpulse*>;
+
+void list(const std::vector<ElasticImpulse>& all, References& references) {
+    references.clear();
+    for (const ElasticImpulse& x : all) references.push_back(&x);
+}
+
+/// Of two lists sorted by `key`, calls take(x, y) for those with the same one, in their order, and
+/// leaves the others.
+template <class Key, class Take>
+void pair_off(References& now, References& before, Key key, Take take) {
+    auto x = now.begin(), x_left = x;
+    auto y = before.begin(), y_left = y;
+    while (x != now.end() && y != before.end()) {
+        if (key(**x) < key(**y))
+            *x_left++ = *x++;
+        else if (key(**y) < key(**x))
+            *y_left++ = *y++;
+        else
+            take(**x++, **y++);
+    }
+    now.erase(x_left, x), before.erase(y_left, y);
 }
 
 }  // namespace
@@ -181,7 +230,8 @@ void ElasticContacts::find_reach() {
         reach_.analyse(static_cast<std::uint32_t>(bodies_.size()), touching_);
 }
 
-/// p of what touched in the step before.
+/// p of what touched in the step before. A point that has come to lie on the next triangle, or a
+/// particle on the next side of a body, takes its impulse along.
 void ElasticContacts::take_kept(const World& world) {
     keys_.clear();
     keys_.reserve(contacts_.capacity());
@@ -191,30 +241,23 @@ void ElasticContacts::take_kept(const World& world) {
             const ContactMemory& memory = world.contacts.memory[c.source];
             if (world.settings.warm_start && memory.matched)
                 c.p = memory.normal_impulse * c.normal + memory.friction_impulse;
-        } else if (c.of == Source::surface) {
-            keys_.push_back({{c.particle[0], c.particle[1], c.particle[2]},
-                             c.sides[1].index,
-                             0,
-                             0,
-                             i,
-                             Vector3d::Zero()});
         } else {
-            const plumb::Contact& found = world.particle_contacts.found[c.source];
-            keys_.push_back({{found.a, kNoIndex, kNoIndex},
-                             found.b,
-                             found.part_b,
-                             found.feature,
-                             i,
-                             Vector3d::Zero()});
+            keys_.push_back(key_of(world, c, i));
         }
     }
     std::sort(keys_.begin(), keys_.end());
-    auto kept = world.elastic_impulses.begin();
-    for (const ElasticImpulse& now : keys_) {
-        while (kept != world.elastic_impulses.end() && kept->key() < now.key()) ++kept;
-        if (kept == world.elastic_impulses.end()) break;
-        if (kept->key() == now.key()) contacts_[now.order].p = (kept++)->impulse;
-    }
+    list(keys_, now_), list(world.elastic_impulses, before_);
+    const auto take = [&](const ElasticImpulse& now, const ElasticImpulse& kept) {
+        contacts_[now.order].p = kept.impulse;
+    };
+    pair_off(
+        now_, before_, [](const ElasticImpulse& x) { return x.key(); }, take);
+    const auto by_place = [](const ElasticImpulse* x, const ElasticImpulse* y) {
+        return std::tuple(place_of(*x), x->order) < std::tuple(place_of(*y), y->order);
+    };
+    std::sort(now_.begin(), now_.end(), by_place);
+    std::sort(before_.begin(), before_.end(), by_place);
+    pair_off(now_, before_, place_of, take);
 }
 
 }  // namespace plumb
