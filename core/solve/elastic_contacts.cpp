@@ -13,8 +13,8 @@
 namespace plumb {
 namespace {
 
-/// ρ is so many times what the points of a contact resist a push with: more rounds are needed with
-/// less, and more digits are lost with more.
+/// ρ is so many times what the points of a contact resist a push with, of two bodies the heavier
+/// one: more rounds are needed with less, and more digits are lost with more.
 constexpr double kFirm = 3;
 
 /// Impulses are matched by least squares, so many times in turn, in which this share of the
@@ -48,7 +48,7 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
     }
     for (Contact& c : contacts_) {
         Vector3d place = Vector3d::Zero();
-        double yields = 0, gap = 0;
+        double yields = 0, of_body[2] = {0, 0}, gap = 0;
         for (std::uint32_t k = 0; k < c.points; ++k) {
             place += c.weight[k] * p.position[c.particle[k]];
             if (p.inverse_mass[c.particle[k]] > 0)
@@ -82,9 +82,14 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
                            velocity_at<double>(
                                {b.velocity[side.index], b.angular_velocity[side.index]}, side.arm);
             else
-                yields +=
+                of_body[i] =
                     response<double>(bodies_[side.body].inverse, side.arm, c.normal, c.normal);
         }
+        // a light body under a heavy one bears its weight
+        if (of_body[0] > 0 && of_body[1] > 0)
+            yields = std::min(of_body[0], of_body[1]);
+        else
+            yields += of_body[0] + of_body[1];
         c.rho = yields > 0 ? kFirm / yields : 0;
         c.applied.setZero();
     }
@@ -209,6 +214,23 @@ void ElasticContacts::add_stiffness(const Matrix3d& d, const Side& a, const Side
     system.add_more(i, j + 1, -d_b);
     if (i != j) system.add_more(i + 1, j, of_a * d);
     system.add_more(i + 1, j + 1, -of_a * d_b);
+}
+
+double ElasticContacts::push_out_energy() const {
+    double energy = 0;
+    for (const Contact& c : contacts_) {
+        const double speed = std::min(0.0, c.given.dot(c.normal));
+        energy += 0.5 * c.rho * speed * speed;
+    }
+    return energy;
+}
+
+void ElasticContacts::forget() {
+    for (Contact& c : contacts_) c.p.setZero(), c.q.setZero();
+}
+
+void ElasticContacts::let_go() {
+    for (Contact& c : contacts_) c.rho = 0;
 }
 
 double ElasticContacts::take_forces() {

@@ -117,6 +117,11 @@ public:
                        SparseLdlt& system) const;
     /// p ← q; returns the greatest |p − q| / ρ before [m/s].
     double take_forces();
+    /// What contacts may give to get out of each other, about [J].
+    double push_out_energy() const;
+    /// All p are 0 again; none push any more in this substep.
+    void forget();
+    void let_go();
     /// Makes the impulses on the bodies those that take them from their targets to their
     /// velocities, for the firmer a contact, the more a small error of velocities is one of its
     /// impulse.

@@ -28,6 +28,9 @@ constexpr std::uint32_t kRounds = 10, kLeastRounds = 2;
 /// is enough otherwise.
 constexpr double kEnoughOfContacts = 10;
 
+/// A call that has gained more than this share of the energy before is not taken.
+constexpr double kGain = 0.1;
+
 /// Steps to a minimum: a substep makes as many calls as position iterations.
 constexpr int kSteps = 20;
 
@@ -86,7 +89,7 @@ void ElasticSystem::attach() {
     pairs_.reserve(balloon_pairs_ + contacts_.pairs().capacity());
     pairs_.insert(pairs_.end(), contacts_.pairs().begin(), contacts_.pairs().end());
     system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
-    for (auto* rows : {&v_, &target_, &best_, &force_, &direction_, &way_, &before_}) {
+    for (auto* rows : {&v_, &target_, &best_, &begin_, &force_, &direction_, &way_, &before_}) {
         // as many as if all bodies touched
         rows->reserve(particles() + balloon_rows_ + 2 * contacts_.bodies().capacity());
         rows->resize(particles() + system_.more());
@@ -135,6 +138,11 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
               kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
     for (const auto& elements : elements_) elements->begin(start_, h);
     contacts_.begin(world, h, stiffness, recovery);
+    if (!contacts_.empty()) {
+        x_ = start_;
+        find_elastic_forces();
+        elastic_start_ = elastic_energy_;
+    }
     fall_ = h * world.settings.gravity;
     is_first_ = true;
 }
@@ -149,19 +157,25 @@ double ElasticSystem::measure(Balloon& balloon) const {
         &balloon.gradient);
 }
 
-/// What pulls at each row at the velocities now, which is 0 at the minimum; and the energy.
-void ElasticSystem::find_forces() {
-    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
+/// At the places now.
+void ElasticSystem::find_elastic_forces() {
     std::fill(elastic_.begin(), elastic_.end(), Vector3d::Zero());
-    energy_ = 0;
-    for (const auto& elements : elements_) energy_ += elements->add_forces(x_, elastic_);
+    elastic_energy_ = 0;
+    for (const auto& elements : elements_) elastic_energy_ += elements->add_forces(x_, elastic_);
     for (Balloon& balloon : balloons_) {
         const double missing = balloon.volume - measure(balloon);
         const double push = balloon.pressure + balloon.stiffness * missing;
-        energy_ += 0.5 * (balloon.pressure + push) * missing;
+        elastic_energy_ += 0.5 * (balloon.pressure + push) * missing;
         for (std::uint32_t i = 0; i < balloon.count; ++i)
             elastic_[balloon.first + i] += push * balloon.gradient[i];
     }
+}
+
+/// What pulls at each row at the velocities now, which is 0 at the minimum; and the energy.
+void ElasticSystem::find_forces() {
+    for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
+    find_elastic_forces();
+    energy_ = elastic_energy_;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         if (mass_[i] == 0) continue;
         const Vector3d missing = target_[i] - v_[i];
@@ -339,6 +353,24 @@ bool ElasticSystem::descend() {
 
 void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 
+/// Minima, each with the contacts' impulses of the one before.
+void ElasticSystem::go_rounds() {
+    for (std::uint32_t round = 0; round < rounds_; ++round) {
+        const bool is_there = descend();
+        if (contacts_.empty()) break;
+        find_forces();
+        // short of the minimum, forces of contacts are not near those that hold anything up
+        if (is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_) break;
+    }
+}
+
+/// Contacts and implicit steps only take energy, but for what pushes out of old overlap.
+bool ElasticSystem::gains_energy() const {
+    const double before = 0.5 * product(target_, target_) + elastic_start_;
+    const double now = 0.5 * product(v_, v_) + elastic_energy_;
+    return now > (1 + kGain) * before + contacts_.push_out_energy();
+}
+
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
     for (std::size_t i = 0; i < x_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
@@ -347,12 +379,18 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
     std::fill(v_.begin() + particles(), v_.end(), Vector3d::Zero());
     contacts_.find_targets(v_, target_);
     if (is_first_) guess_rest();
-    for (std::uint32_t round = 0; round < rounds_; ++round) {
-        const bool is_there = descend();
-        if (contacts_.empty()) break;
-        find_forces();
-        // short of the minimum, forces of contacts are not near those that hold anything up
-        if (is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_) break;
+    begin_ = v_;
+    go_rounds();
+    if (!contacts_.empty() && gains_energy()) {
+        // thrown by what held something up before, or by what Newton's method left
+        contacts_.forget();
+        v_ = begin_;
+        go_rounds();
+        if (gains_energy()) {
+            contacts_.let_go();
+            v_ = begin_;
+            go_rounds();
+        }
     }
     contacts_.match(v_, target_);
     for (std::size_t i = 0; i < x_.size(); ++i) {

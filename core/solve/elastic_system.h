@@ -61,6 +61,7 @@ private:
     void make_balloons(const World& world);
     void attach();
     double measure(Balloon& balloon) const;
+    void find_elastic_forces();
     void find_forces();
     void assemble_elements();
     void assemble_balloons();
@@ -72,6 +73,8 @@ private:
     void search_line();
     void guess_rest();
     bool descend();
+    void go_rounds();
+    bool gains_energy() const;
     double product(const std::vector<Vector3d>& x, const std::vector<Vector3d>& y) const;
     void keep_best();
 
@@ -94,12 +97,14 @@ private:
 
     ParticlePlaces start_, x_, factored_;
     std::vector<Vector3d> own_, elastic_;  ///< [particle] impulses [N s]; forces [N]
-    /// [row of the system]: velocities and v̂ [m/s]; those of the least energy.
-    std::vector<Vector3d> v_, target_, best_;
+    /// [row of the system]: velocities and v̂ [m/s]; those of the least energy; those at the start
+    /// of a call.
+    std::vector<Vector3d> v_, target_, best_, begin_;
     std::vector<Vector3d> force_, direction_, way_, before_;  ///< [row of the system]
     Anderson earlier_;                                        ///< steps with these factors
     double least_ = 0;                                        ///< that energy [J]
-    double energy_ = 0;                                       ///< at the velocities now [J]
+    double energy_ = 0;                                       ///< at the velocities now [J],
+    double elastic_energy_ = 0, elastic_start_ = 0;           ///< its part E, and that at the start
 };
 
 }  // namespace plumb
