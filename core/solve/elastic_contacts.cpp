@@ -17,8 +17,8 @@ namespace {
 /// one: more rounds are needed with less, and more digits are lost with more.
 constexpr double kFirm = 3;
 
-/// Impulses are matched by least squares, so many times in turn, in which this share of the
-/// mean diagonal is added to the diagonal: what no impulse can change is left as it is.
+/// Impulses are matched by least squares in so many rounds. This share of the mean diagonal is
+/// added to the diagonal, so that what no impulse can change is left as it is.
 constexpr double kBeyondReach = 1e-7;
 constexpr int kMatches = 3;
 
@@ -54,7 +54,6 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
             if (p.inverse_mass[c.particle[k]] > 0)
                 yields += c.weight[k] * c.weight[k] / resistance_[c.particle[k]];
         }
-        c.given.setZero();
         if (c.of == Source::bodies) {
             place = world.contacts.point[c.source];
             gap = gap_to_solve_for(world, c.source, recovery);
@@ -216,11 +215,12 @@ void ElasticContacts::add_stiffness(const Matrix3d& d, const Side& a, const Side
     system.add_more(i + 1, j + 1, -of_a * d_b);
 }
 
-double ElasticContacts::push_out_energy() const {
+double ElasticContacts::driven_energy() const {
     double energy = 0;
     for (const Contact& c : contacts_) {
-        const double speed = std::min(0.0, c.given.dot(c.normal));
-        energy += 0.5 * c.rho * speed * speed;
+        const double along = c.given.dot(c.normal);
+        const Vector3d across = c.given - along * c.normal;
+        energy += 0.5 * c.rho * (across.squaredNorm() + (along < 0 ? along * along : 0));
     }
     return energy;
 }
@@ -251,7 +251,7 @@ Eigen::Matrix<double, 3, 6> ElasticContacts::motion_of(const Side& side) const {
 }
 
 /// Gᵀ G, where G is how the points of all contacts that push move with the bodies.
-void ElasticContacts::factor_reach() {
+bool ElasticContacts::factor_reach() {
     reach_.clear();
     double most = 0;
     for (const Contact& c : contacts_) {
@@ -269,7 +269,7 @@ void ElasticContacts::factor_reach() {
     }
     const double apart = kBeyondReach * (most > 0 ? most / double(bodies_.size()) : 1);
     for (std::uint32_t i = 0; i < bodies_.size(); ++i) reach_.add(i, apart * Matrix6d::Identity());
-    reach_.factor();
+    return reach_.factor();
 }
 
 /// By the least changes, in the mean of the squares: each q changes by G λ, where λ is an impulse
@@ -278,7 +278,7 @@ void ElasticContacts::factor_reach() {
 void ElasticContacts::match(const std::vector<Vector3d>& v, const std::vector<Vector3d>& target) {
     if (bodies_.empty()) return;
     for (Body& body : bodies_) body.size = std::sqrt(body.inertia.trace() / body.mass);
-    factor_reach();
+    if (!factor_reach()) return;
     for (int round = 0; round < kMatches; ++round) {
         for (std::size_t i = 0; i < bodies_.size(); ++i) {
             const Body& body = bodies_[i];
@@ -300,6 +300,7 @@ void ElasticContacts::match(const std::vector<Vector3d>& v, const std::vector<Ve
         }
     }
 }
+
 void ElasticContacts::store(World& world) const {
     world.elastic_impulses.clear();
     world.elastic_impulses.reserve(contacts_.capacity());

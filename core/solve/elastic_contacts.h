@@ -83,7 +83,7 @@ public:
 
     explicit ElasticContacts(const Plan& plan);
 
-    /// Once a step. Takes out of `pairs`, of bodies, those that are solved here. Rows of bodies are
+    /// Once a step. Removes from `pairs` (of bodies) those that are solved here. Rows of bodies are
     /// numbered from `first_row` on; returns whether other rows or pairs belong to the system than
     /// before.
     bool load(const World& world, std::uint32_t first_row, std::vector<BodyPair>& pairs);
@@ -117,8 +117,9 @@ public:
                        SparseLdlt& system) const;
     /// p ← q; returns the greatest |p − q| / ρ before [m/s].
     double take_forces();
-    /// What contacts may give to get out of each other, about [J].
-    double push_out_energy() const;
+    /// What contacts may give by themselves, about [J]: they get out of each other, bounce, and are
+    /// of bodies that scripts move.
+    double driven_energy() const;
     /// All p are 0 again; none push any more in this substep.
     void forget();
     void let_go();
@@ -142,7 +143,7 @@ private:
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
     void add_stiffness(const Matrix3d& d, const Side& a, const Side& b, SparseLdlt& system) const;
     Eigen::Matrix<double, 3, 6> motion_of(const Side& side) const;
-    void factor_reach();
+    bool factor_reach();
 
     bool has_friction_;
     bool takes_bodies_;  ///< contacts of bodies with each other are solved here, too
@@ -150,9 +151,11 @@ private:
     std::vector<Body> bodies_;
     std::vector<Contact> contacts_;
     std::vector<SparseLdlt::Pair> pairs_, pairs_before_;
-    std::vector<std::uint32_t> body_of_;                 ///< [world's body] in `bodies_`
-    std::vector<std::uint8_t> member_;                   ///< [world's body] whether it belongs here
-    std::vector<ElasticImpulse> keys_;                   ///< of contacts with sheets, sorted
+    std::vector<std::uint32_t> body_of_;   ///< [world's body] in `bodies_`
+    std::vector<std::uint32_t> lowest_;    ///< [world's body] a lower one of its group, or itself
+    std::vector<std::uint32_t> members_;   ///< [lowest of a group] how many it has
+    std::vector<std::uint8_t> is_member_;  ///< [world's body] whether it belongs here
+    std::vector<ElasticImpulse> keys_;     ///< of contacts with sheets, sorted
     std::vector<const ElasticImpulse*> now_, before_;    ///< those without a match so far
     std::vector<double> resistance_;                     ///< [particle] [kg]
     BlockCholesky::Pattern touching_, touching_before_;  ///< pairs of `bodies_`

@@ -5,16 +5,26 @@
 #include "solve/elastic_contacts.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 namespace plumb {
 namespace {
 
-/// Bodies of the system have blocks with each other in the factors. Where more than this hang
-/// together on a sheet, only those that touch it are part of the system, each by itself.
+/// Bodies of the system have blocks with each other in the factors. Where more than this touch each
+/// other on a sheet, only those that touch it are part of the system, each by itself.
 constexpr std::uint32_t kMostBodies = 64;
 
-/// What collides is brought to rest as such, what moves by itself or resists rolling is iterated.
+/// What moves on by less than this share of its radius in a step does not collide, however small
+/// gravity is.
+constexpr double kSlow = 0.01;
+
+/// What overlaps by more than this share of its radius may be wedged, with no way out that all of
+/// it finds at once: its impulses would wind up.
+constexpr double kDeep = 0.1;
+
+/// What collides is brought to rest as such; what is deep, is moved by others or resists rolling is
+/// iterated.
 bool belongs(const World& world, const BodyPair& pair) {
     const Bodies& b = world.bodies;
     const Contact& first = world.contacts.found[pair.first];
@@ -22,10 +32,14 @@ bool belongs(const World& world, const BodyPair& pair) {
         return false;
     const SurfacePair& surface = world.surface_pair(first.a, first.b);
     if (surface.rolling_friction > 0 || surface.spinning_friction > 0) return false;
-    const double fast = -collision_threshold(world.settings);
-    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
-        if (separating_velocity(b, world.contacts.found[i], world.contacts.point[i]) < fast)
-            return false;
+    const double radius = smaller_radius(b, first);
+    const double fast =
+        std::max(collision_threshold(world.settings), kSlow * radius / world.settings.dt);
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+        const plumb::Contact& c = world.contacts.found[i];
+        if (separating_velocity(b, c, world.contacts.point[i]) < -fast) return false;
+        if (-c.gap > kDeep * radius) return false;
+    }
     return true;
 }
 
@@ -56,6 +70,7 @@ using References = std::vector<const ElasticImpulse*>;
 
 void list(const std::vector<ElasticImpulse>& all, References& references) {
     references.clear();
+    references.reserve(all.capacity());
     for (const ElasticImpulse& x : all) references.push_back(&x);
 }
 
@@ -153,30 +168,39 @@ void ElasticContacts::add_sheet_contacts(const World& world) {
 
 /// What lies on or beside a body that touches a sheet belongs to it.
 void ElasticContacts::find_members(const World& world, const std::vector<BodyPair>& pairs) {
-    member_.assign(world.bodies.size(), 0);
-    for (const Body& body : bodies_) member_[body.index] = 1;
-    std::size_t count = bodies_.size();
-    for (bool grows = true; grows;) {
-        grows = false;
-        for (const BodyPair& pair : pairs) {
-            const plumb::Contact& c = world.contacts.found[pair.first];
-            if (member_[c.a] == member_[c.b] || !belongs(world, pair)) continue;
-            const std::uint32_t other = member_[c.a] ? c.b : c.a;
-            if (!(world.bodies.inverse_mass[other] > 0)) continue;
-            member_[other] = 1, ++count;
-            grows = true;
-        }
+    const std::size_t n = world.bodies.size();
+    lowest_.resize(n), members_.assign(n, 0);
+    std::iota(lowest_.begin(), lowest_.end(), 0u);
+    const auto lowest = [&](std::uint32_t i) {
+        while (lowest_[i] != i) i = lowest_[i] = lowest_[lowest_[i]];
+        return i;
+    };
+    const auto moves = [&](std::uint32_t i) { return world.bodies.inverse_mass[i] > 0; };
+    for (const BodyPair& pair : pairs) {
+        const plumb::Contact& c = world.contacts.found[pair.first];
+        if (!moves(c.a) || !moves(c.b) || !belongs(world, pair)) continue;
+        const std::uint32_t a = lowest(c.a), b = lowest(c.b);
+        lowest_[std::max(a, b)] = std::min(a, b);
     }
-    if (count <= std::min(kMostBodies, world.settings.exact_islands)) return;
-    std::fill(member_.begin(), member_.end(), std::uint8_t(0));
+    for (std::uint32_t i = 0; i < n; ++i) ++members_[lowest(i)];
+    is_member_.assign(n, 0);
+    const std::uint32_t most = std::min(kMostBodies, world.settings.exact_islands);
+    for (const Body& body : bodies_) is_member_[lowest(body.index)] = 1;
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const std::uint32_t group = lowest(i);
+        is_member_[i] = is_member_[group] && members_[group] <= most;
+    }
 }
 
 void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pairs) {
     find_members(world, pairs);
+    const auto is_member = [&](std::uint32_t i) {
+        return world.bodies.inverse_mass[i] > 0 && is_member_[i] != 0;
+    };
     std::size_t kept = 0;
     for (const BodyPair& pair : pairs) {
         const plumb::Contact& first = world.contacts.found[pair.first];
-        if ((member_[first.a] || member_[first.b]) && belongs(world, pair)) {
+        if ((is_member(first.a) || is_member(first.b)) && belongs(world, pair)) {
             for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
                 Contact c;
                 c.of = Source::bodies, c.source = i;
@@ -220,6 +244,7 @@ void ElasticContacts::find_pairs() {
 void ElasticContacts::find_reach() {
     std::swap(touching_, touching_before_);
     touching_.clear();
+    touching_.reserve(contacts_.capacity());
     for (const Contact& c : contacts_)
         if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex) {
             const std::pair now(c.sides[0].body, c.sides[1].body);

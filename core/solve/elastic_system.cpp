@@ -28,8 +28,9 @@ constexpr std::uint32_t kRounds = 10, kLeastRounds = 2;
 /// is enough otherwise.
 constexpr double kEnoughOfContacts = 10;
 
-/// A call that has gained more than this share of the energy before is not taken.
-constexpr double kGain = 0.1;
+/// A call that has gained more than this share of the energy before is not taken; nor one in which
+/// points that others move at v gave all that hangs on them more than this times m v².
+constexpr double kGain = 0.1, kPulled = 2;
 
 /// Steps to a minimum: a substep makes as many calls as position iterations.
 constexpr int kSteps = 20;
@@ -364,11 +365,18 @@ void ElasticSystem::go_rounds() {
     }
 }
 
-/// Contacts and implicit steps only take energy, but for what pushes out of old overlap.
+/// Contacts and implicit steps only take energy, but for what contacts give by themselves and what
+/// points that are moved by others pull along.
 bool ElasticSystem::gains_energy() const {
+    double mass = 0, pull = 0;
+    for (std::size_t i = 0; i < mass_.size(); ++i) {
+        mass += mass_[i];
+        if (mass_[i] == 0) pull = std::max(pull, target_[i].squaredNorm());
+    }
+    for (const ElasticContacts::Body& body : contacts_.bodies()) mass += body.mass;
     const double before = 0.5 * product(target_, target_) + elastic_start_;
     const double now = 0.5 * product(v_, v_) + elastic_energy_;
-    return now > (1 + kGain) * before + contacts_.push_out_energy();
+    return now > (1 + kGain) * before + contacts_.driven_energy() + kPulled * mass * pull;
 }
 
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {

@@ -31,7 +31,15 @@ public:
     bool empty() const override { return velocity_.empty(); }
 
     /// Once a step: takes the pairs of bodies that it solves out of `pairs`.
-    void take(const World& world, std::vector<BodyPair>& pairs) { system_.load(world, pairs); }
+    void take(const World& world, std::vector<BodyPair>& pairs) {
+        system_.load(world, pairs);
+        touches_.assign(velocity_.size(), 0);
+        for (const ElasticContacts::Contact& c : system_.contacts().contacts())
+            if (c.sides[1].body == kNoIndex)
+                for (std::uint32_t k = 0; k < c.points; ++k) touches_[c.particle[k]] = 1;
+        // what Newton's method leaves would throw a piece, were it as fast as its contacts push it
+        keeper_.leave(touches_);
+    }
 
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>& pass,
                double h) override {
@@ -107,7 +115,8 @@ private:
     ElasticSystem system_;
     ParticleMass mass_;
     MomentumKeeper<Real> keeper_;
-    std::vector<Vector3d> velocity_;  ///< [particle] [m/s]
+    std::vector<Vector3d> velocity_;     ///< [particle] [m/s]
+    std::vector<std::uint8_t> touches_;  ///< [particle] whether it touches what does not move
     std::int32_t first_row_ = 0;
 };
 

@@ -56,6 +56,14 @@ public:
         }
     }
 
+    /// Pieces that touch what does not move have no momentum to keep either. `touches`: [particle]
+    void leave(const std::vector<std::uint8_t>& touches) {
+        for (Shape& s : shapes_) {
+            s.is_left = false;
+            each_member(s, [&](std::uint32_t i) { s.is_left |= touches[i] != 0; });
+        }
+    }
+
     /// Before and after the constraints of an iteration.
     void note(const BodyRows<Real>& rows, std::uint32_t worker) {
         each(worker, [&](Shape& s) { s.before = momentum(s, rows); });
@@ -80,6 +88,7 @@ private:
         double mass = 0;
         Matrix3d inverse_inertia = Matrix3d::Zero();
         Momentum before{};
+        bool is_left = false;
     };
 
     /// The free pieces of a deformable, by their lowest points.
@@ -133,7 +142,8 @@ private:
     template <class Visit>
     void each(std::uint32_t worker, Visit visit) {
         const Range share = workers_.share(static_cast<std::uint32_t>(shapes_.size()), worker);
-        for (std::uint32_t i = share.first; i < share.last; ++i) visit(shapes_[i]);
+        for (std::uint32_t i = share.first; i < share.last; ++i)
+            if (!shapes_[i].is_left) visit(shapes_[i]);
         workers_.barrier();
     }
 

@@ -40,7 +40,6 @@ Tray empty_tray(Scene empty, Random& random) {
     for (std::uint32_t i = 0; i < n * n; ++i)
         if (i % n == 0 || i % n == cells || i < n || i >= cells * n) rim.push_back(i);
     hold(s, 0, rim);
-    s.materials[0].friction = random.number(0.2, 0.9);
     return t;
 }
 
@@ -55,6 +54,7 @@ Tray tray(Scene empty, Random& random) {
         add_body(t.scene, t.is_round ? sphere(radius) : box(radius, 0.6 * radius, 0.8 * radius),
                  {aside, 1.5 * radius, -aside / 2});
     body.mass = t.load = t.cloth * std::pow(10, random.number(-1, 1.3));
+    t.scene.materials[0].friction = random.number(0.2, 0.9);
     return t;
 }
 
@@ -65,6 +65,7 @@ Tray heaped_tray(Scene empty, Random& random) {
     const double radius = t.size * random.number(0.06, 0.12);
     const bool is_stack = random.below(2) == 0;
     const double mass = t.cloth * std::pow(10, random.number(-1, 0.3));
+    t.scene.materials[0].friction = random.number(0.2, 0.9);
     double height = 1.5 * radius;
     for (std::uint32_t i = 0; i < count; ++i) {
         const double aside = is_stack ? 0.1 * radius : 1.2 * radius;
@@ -156,6 +157,7 @@ TEST_P(LoadedSheets, HeapsOnThemComeToRest) {
 TEST_P(LoadedSheets, TellWhatStacksOnThemBear) {
     Random random(7);
     Tray t = empty_tray(scene(), random);
+    t.scene.materials[0].friction = 0.6;
     const double radius = 0.15 * t.size;
     for (int i = 0; i < 3; ++i)
         add_body(t.scene, box(radius, 0.3 * radius, radius), {0, (0.31 + 0.61 * i) * radius, 0})

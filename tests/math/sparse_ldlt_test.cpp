@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// The elimination of fronts against a dense factorisation of the same matrix.
 #include "math/sparse_ldlt.h"
+#include "kernels/front_kernels.h"
 #include "support/random.h"
 
 #include <gtest/gtest.h>
@@ -28,8 +29,9 @@ struct Systems {
     Random random;
     Pattern pattern;
 
-    Systems(std::uint32_t rows, Pattern of, std::uint32_t seed)
-        : random(seed), pattern(std::move(of)) {
+    Systems(std::uint32_t rows, Pattern of, std::uint32_t seed,
+            const FrontKernels& kernels = front_kernels())
+        : sparse(kernels), random(seed), pattern(std::move(of)) {
         sparse.order(rows, pattern);
     }
 
@@ -77,14 +79,19 @@ struct Systems {
             }
     }
 
+    std::vector<Vector3d> solve(const Eigen::VectorXd& right) {
+        std::vector<Vector3d> x;
+        for (Eigen::Index i = 0; i < right.size(); i += 3) x.push_back(right.segment<3>(i));
+        EXPECT_TRUE(sparse.factor());
+        sparse.solve(x);
+        return x;
+    }
+
     void expect_solved() {
         const std::uint32_t all = sparse.rows() + sparse.more();
         Eigen::VectorXd right(3 * all);
         for (auto& x : right) x = random.number(-1, 1);
-        std::vector<Vector3d> x(all);
-        for (std::uint32_t i = 0; i < all; ++i) x[i] = right.segment<3>(3 * i);
-        ASSERT_TRUE(sparse.factor());
-        sparse.solve(x);
+        const std::vector<Vector3d> x = solve(right);
         const Eigen::VectorXd expected = dense.partialPivLu().solve(right);
         for (std::uint32_t i = 0; i < all; ++i)
             EXPECT_LT((x[i] - expected.segment<3>(3 * i)).norm(), 1e-9 * expected.norm()) << i;
@@ -147,6 +154,19 @@ TEST(SparseLdlt, RandomPatterns) {
         Systems s(n, pattern, seed);
         s.attach(seed % 4, 5);
         s.fill(seed % 2 ? 1 : -1), s.expect_solved();
+    }
+}
+
+TEST(SparseLdlt, SameBitsInAnyRegisters) {
+    for (const std::uint32_t n : {3u, 8u, 17u}) {
+        std::vector<std::vector<Vector3d>> found;
+        for (const FrontKernels& kernels : {front_kernels_of<2>(), front_kernels()}) {
+            Systems s(n * n, grid(n), n, kernels);
+            s.attach(5, n);
+            s.fill(1);
+            found.push_back(s.solve(Eigen::VectorXd::LinSpaced(3 * (n * n + 5), -1, 1)));
+        }
+        EXPECT_EQ(found[0], found[1]);
     }
 }
 
