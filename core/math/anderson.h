@@ -22,6 +22,10 @@ class Anderson {
 public:
     using Rows = std::vector<Vector3d>;
 
+    /// Memory for so many rows.
+    void reserve(std::size_t rows) {
+        for (Known& k : known_) k.step.reserve(rows), k.change.reserve(rows);
+    }
     /// Forgets all steps; those to come have so many rows.
     void clear(std::size_t rows) {
         count_ = next_ = 0;

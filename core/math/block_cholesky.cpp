@@ -68,39 +68,39 @@ bool BlockCholesky::analyse(std::uint32_t rows, const Pattern& pattern, std::uin
 /// Least degree first, of equals the first; what is eliminated makes its neighbours neighbours.
 bool BlockCholesky::find_order(const Pattern& pattern, std::uint64_t most) {
     const auto n = static_cast<std::uint32_t>(order_.size());
-    std::vector<std::vector<std::uint32_t>> near(n);
+    near_.resize(std::max<std::size_t>(near_.size(), n));
+    structure_.resize(near_.size());
+    for (std::uint32_t i = 0; i < n; ++i) near_[i].clear();
     for (const auto& [i, j] : pattern)
-        if (i != j) near[i].push_back(j), near[j].push_back(i);
-    for (auto& list : near) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
+        if (i != j) near_[i].push_back(j), near_[j].push_back(i);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        std::sort(near_[i].begin(), near_[i].end());
+        near_[i].erase(std::unique(near_[i].begin(), near_[i].end()), near_[i].end());
     }
-    std::vector<std::uint8_t> done(n, 0);
-    std::vector<std::vector<std::uint32_t>> structure(n);
-    std::vector<std::uint32_t> merged;
+    done_.assign(n, 0);
     products_ = 0;
     for (std::uint32_t p = 0; p < n; ++p) {
         std::uint32_t best = n;
         for (std::uint32_t i = 0; i < n; ++i)
-            if (!done[i] && (best == n || near[i].size() < near[best].size())) best = i;
+            if (!done_[i] && (best == n || near_[i].size() < near_[best].size())) best = i;
         order_[p] = best, place_[best] = p;
-        done[best] = 1;
-        for (const std::uint32_t i : near[best]) {
-            merged.clear();
-            std::set_union(near[i].begin(), near[i].end(), near[best].begin(), near[best].end(),
-                           std::back_inserter(merged));
-            std::erase_if(merged, [&](std::uint32_t k) { return k == i || k == best; });
-            near[i] = merged;
+        done_[best] = 1;
+        for (const std::uint32_t i : near_[best]) {
+            merged_.clear();
+            std::set_union(near_[i].begin(), near_[i].end(), near_[best].begin(), near_[best].end(),
+                           std::back_inserter(merged_));
+            std::erase_if(merged_, [&](std::uint32_t k) { return k == i || k == best; });
+            near_[i] = merged_;
         }
-        structure[p] = near[best];
-        products_ += products_of(near[best].size());
+        structure_[p] = near_[best];
+        products_ += products_of(near_[best].size());
         if (products_ > most) return false;
     }
     columns_.clear();
     row_of_.clear();
     for (std::uint32_t p = 0; p < n; ++p) {
         const auto first = static_cast<std::uint32_t>(row_of_.size());
-        for (const std::uint32_t i : structure[p]) row_of_.push_back(place_[i]);
+        for (const std::uint32_t i : structure_[p]) row_of_.push_back(place_[i]);
         std::sort(row_of_.begin() + first, row_of_.end());
         columns_.push_back({first, static_cast<std::uint32_t>(row_of_.size())});
     }

@@ -60,6 +60,10 @@ private:
     std::vector<std::uint32_t> updates_;        // slots that an elimination changes, in its order
     std::vector<Matrix6d> diagonal_, below_;    // [place], [slot]
     std::vector<Vector6d> permuted_;
+    // memory of `find_order`: neighbours that are not yet eliminated, and those of what was
+    std::vector<std::vector<std::uint32_t>> near_, structure_;
+    std::vector<std::uint32_t> merged_;
+    std::vector<std::uint8_t> done_;
     std::uint64_t products_ = 0;
 };
 

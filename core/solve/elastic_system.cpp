@@ -90,12 +90,14 @@ void ElasticSystem::attach() {
     pairs_.reserve(balloon_pairs_ + contacts_.pairs().capacity());
     pairs_.insert(pairs_.end(), contacts_.pairs().begin(), contacts_.pairs().end());
     system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
+    // as many as if all bodies touched
+    const std::size_t most = particles() + balloon_rows_ + 2 * contacts_.bodies().capacity();
     for (auto* rows : {&v_, &target_, &best_, &begin_, &force_, &direction_, &way_, &before_}) {
-        // as many as if all bodies touched
-        rows->reserve(particles() + balloon_rows_ + 2 * contacts_.bodies().capacity());
+        rows->reserve(most);
         rows->resize(particles() + system_.more());
         std::fill(rows->begin(), rows->end(), Vector3d::Zero());
     }
+    earlier_.reserve(most);
     drop_factors();
 }
 
