@@ -51,6 +51,18 @@ std::uint64_t products_of(std::uint64_t blocks) { return 1 + blocks + blocks * (
 
 }  // namespace
 
+void BlockCholesky::reserve(std::uint32_t rows) {
+    constexpr std::size_t kBlocks = 8;  // of a column
+    if (near_.size() >= rows) return;
+    near_.resize(rows), structure_.resize(rows);
+    for (auto* lists : {&near_, &structure_})
+        for (auto& list : *lists) list.reserve(2 * kBlocks);
+    merged_.reserve(2 * kBlocks), done_.reserve(rows);
+    order_.reserve(rows), place_.reserve(rows), columns_.reserve(rows);
+    row_of_.reserve(kBlocks * rows), updates_.reserve(kBlocks * kBlocks * rows);
+    diagonal_.reserve(rows), below_.reserve(kBlocks * rows), permuted_.reserve(rows);
+}
+
 bool BlockCholesky::analyse(std::uint32_t rows, const Pattern& pattern, std::uint64_t most) {
     order_.assign(rows, 0);
     place_.assign(rows, 0);

@@ -21,6 +21,9 @@ public:
     /// more than once, in either order.
     using Pattern = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
+    /// Memory for so many rows, of which few hang together.
+    void reserve(std::uint32_t rows);
+
     /// Chooses the order of elimination and finds the fill. Returns whether `factor` takes no more
     /// than `most` products; if it does, nothing is kept.
     bool analyse(std::uint32_t rows, const Pattern& pattern,

@@ -191,6 +191,7 @@ std::optional<SparseLdlt::Slot> SparseLdlt::find_slot(std::uint32_t i, std::uint
 void SparseLdlt::attach(std::uint32_t more, const std::vector<Pair>& pairs) {
     more_ = more;
     pairs_.clear();
+    pairs_.reserve(pairs.capacity()), between_.reserve(pairs.capacity());
     for (std::uint32_t k = 0; k < pairs.size(); ++k)
         pairs_.push_back({place_[pairs[k].first], pairs[k].second - rows_, k});
     std::sort(pairs_.begin(), pairs_.end(), [](const AttachedPair& a, const AttachedPair& b) {

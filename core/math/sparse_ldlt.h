@@ -40,6 +40,9 @@ public:
     /// (row below `rows`, row from it on), each once. Pairs among themselves need not be told.
     void attach(std::uint32_t more, const std::vector<Pair>& pairs);
 
+    /// Memory for so many attached rows among each other.
+    void reserve_attached(std::size_t most) { more_block_.reserve(9 * most * most); }
+
     std::uint32_t rows() const { return rows_; }
     std::uint32_t more() const { return more_; }
     /// Multiplications that `factor` takes, about.

@@ -136,7 +136,7 @@ private:
     void take_bodies(const World& world, std::vector<BodyPair>& pairs);
     void add(const World& world, Contact& contact, std::uint32_t a, std::uint32_t b);
     std::uint32_t body_of(const World& world, std::uint32_t body);
-    void find_pairs();
+    void find_pairs(std::size_t most);
     void find_reach();
     void take_kept(const World& world);
     void begin_bodies(const World& world, double h, Contact& contact) const;

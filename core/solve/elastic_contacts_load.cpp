@@ -108,7 +108,9 @@ bool ElasticContacts::load(const World& world, std::uint32_t first_row,
     body_of_.assign(world.bodies.size(), kNoIndex);
     add_sheet_contacts(world);
     if (takes_bodies_ && !bodies_.empty()) take_bodies(world, pairs);
-    find_pairs();
+    // for as many as there is room for in the world's tables
+    find_pairs(2 * world.particle_contacts.found.capacity() +
+               6 * world.surface_contacts.capacity());
     find_reach();
     take_kept(world);
     return rows() != rows_before || pairs_ != pairs_before_;
@@ -216,13 +218,10 @@ void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pai
 }
 
 /// The pairs of a particle and a body, once for all contacts of theirs.
-void ElasticContacts::find_pairs() {
+void ElasticContacts::find_pairs(std::size_t most) {
     std::swap(pairs_, pairs_before_);
     pairs_.clear();
-    std::size_t most = 0;
-    for (const Contact& c : contacts_) most += 2 * c.points;
-    for (auto* pairs : {&pairs_, &pairs_before_})
-        if (pairs->capacity() < most) pairs->reserve(2 * most);
+    for (auto* pairs : {&pairs_, &pairs_before_}) pairs->reserve(most);
     const auto row_of = [&](const Contact& c) { return bodies_[c.sides[1].body].row; };
     for (const Contact& c : contacts_)
         for (std::uint32_t k = 0; k < c.points; ++k)
@@ -244,13 +243,15 @@ void ElasticContacts::find_pairs() {
 void ElasticContacts::find_reach() {
     std::swap(touching_, touching_before_);
     touching_.clear();
-    touching_.reserve(contacts_.capacity());
+    for (auto* pairs : {&touching_, &touching_before_}) pairs->reserve(contacts_.capacity());
     for (const Contact& c : contacts_)
         if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex) {
             const std::pair now(c.sides[0].body, c.sides[1].body);
             if (touching_.empty() || touching_.back() != now) touching_.push_back(now);
         }
+    missing_.reserve(bodies_.capacity());
     missing_.resize(bodies_.size());
+    reach_.reserve(static_cast<std::uint32_t>(bodies_.capacity()));
     if (reach_.rows() != bodies_.size() || touching_ != touching_before_)
         reach_.analyse(static_cast<std::uint32_t>(bodies_.size()), touching_);
 }

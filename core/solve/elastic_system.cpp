@@ -32,6 +32,9 @@ constexpr double kEnoughOfContacts = 10;
 /// points that others move at v gave all that hangs on them more than this times m v².
 constexpr double kGain = 0.1, kPulled = 2;
 
+/// Of attached rows that have blocks with each other; for more of them memory grows as it must.
+constexpr std::size_t kManyRows = 128;
+
 /// Steps to a minimum: a substep makes as many calls as position iterations.
 constexpr int kSteps = 20;
 
@@ -89,9 +92,11 @@ void ElasticSystem::attach() {
     balloon_pairs_ = pairs_.size();
     pairs_.reserve(balloon_pairs_ + contacts_.pairs().capacity());
     pairs_.insert(pairs_.end(), contacts_.pairs().begin(), contacts_.pairs().end());
-    system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
     // as many as if all bodies touched
-    const std::size_t most = particles() + balloon_rows_ + 2 * contacts_.bodies().capacity();
+    const std::size_t most_attached = balloon_rows_ + 2 * contacts_.bodies().capacity();
+    const std::size_t most = particles() + most_attached;
+    system_.reserve_attached(std::min(most_attached, kManyRows));
+    system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
     for (auto* rows : {&v_, &target_, &best_, &begin_, &force_, &direction_, &way_, &before_}) {
         rows->reserve(most);
         rows->resize(particles() + system_.more());
