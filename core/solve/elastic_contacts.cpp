@@ -310,8 +310,8 @@ void ElasticContacts::store(World& world) const {
     }
     for (const Contact& c : contacts_) {
         if (c.of != Source::bodies) continue;
-        const double along = c.applied.dot(c.normal);
-        const Vector3d across = c.applied - along * c.normal;
+        const double along = c.applied_along();
+        const Vector3d across = c.applied_across();
         ContactMemory& memory = world.contacts.memory[c.source];
         remember_impulse(memory, along, across);
         memory.missed = 0;

@@ -79,6 +79,9 @@ public:
         bool slides = false;
         double held = 1;                      ///< q_t is this share of p_t − ρ u_t
         Vector3d applied = Vector3d::Zero();  ///< part of q that velocities have felt
+
+        double applied_along() const { return applied.dot(normal); }
+        Vector3d applied_across() const { return applied - applied_along() * normal; }
     };
 
     explicit ElasticContacts(const Plan& plan);
@@ -154,6 +157,7 @@ private:
     std::vector<std::uint32_t> body_of_;   ///< [world's body] in `bodies_`
     std::vector<std::uint32_t> lowest_;    ///< [world's body] a lower one of its group, or itself
     std::vector<std::uint32_t> members_;   ///< [lowest of a group] how many it has
+    std::vector<std::uint8_t> belongs_;    ///< [pair of bodies] whether it can be solved here
     std::vector<std::uint8_t> is_member_;  ///< [world's body] whether it belongs here
     std::vector<ElasticImpulse> keys_;     ///< of contacts with sheets, sorted
     std::vector<const ElasticImpulse*> now_, before_;    ///< those without a match so far

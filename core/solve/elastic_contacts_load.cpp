@@ -128,15 +128,12 @@ std::uint32_t ElasticContacts::body_of(const World& world, std::uint32_t body) {
 }
 
 void ElasticContacts::add(const World& world, Contact& c, std::uint32_t a, std::uint32_t b) {
-    const auto is_held = [&](std::uint32_t i) {
-        return i == kNoIndex || !(world.bodies.inverse_mass[i] > 0);
-    };
     double moves = 0;
     for (std::uint32_t k = 0; k < c.points; ++k)
         moves += world.particles.inverse_mass[c.particle[k]];
-    if (!(moves > 0) && is_held(a) && is_held(b)) return;
     if (a != kNoIndex) c.sides[0].index = a, c.sides[0].body = body_of(world, a);
     c.sides[1].index = b, c.sides[1].body = body_of(world, b);
+    if (!(moves > 0) && c.sides[0].body == kNoIndex && c.sides[1].body == kNoIndex) return;
     if (!has_friction_) c.friction = 0;
     contacts_.push_back(c);
 }
@@ -178,9 +175,11 @@ void ElasticContacts::find_members(const World& world, const std::vector<BodyPai
         return i;
     };
     const auto moves = [&](std::uint32_t i) { return world.bodies.inverse_mass[i] > 0; };
-    for (const BodyPair& pair : pairs) {
-        const plumb::Contact& c = world.contacts.found[pair.first];
-        if (!moves(c.a) || !moves(c.b) || !belongs(world, pair)) continue;
+    belongs_.resize(pairs.size());
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const plumb::Contact& c = world.contacts.found[pairs[i].first];
+        belongs_[i] = belongs(world, pairs[i]);
+        if (!moves(c.a) || !moves(c.b) || !belongs_[i]) continue;
         const std::uint32_t a = lowest(c.a), b = lowest(c.b);
         lowest_[std::max(a, b)] = std::min(a, b);
     }
@@ -200,13 +199,14 @@ void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pai
         return world.bodies.inverse_mass[i] > 0 && is_member_[i] != 0;
     };
     std::size_t kept = 0;
-    for (const BodyPair& pair : pairs) {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+        const BodyPair pair = pairs[i];
         const plumb::Contact& first = world.contacts.found[pair.first];
-        if ((is_member(first.a) || is_member(first.b)) && belongs(world, pair)) {
-            for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+        if ((is_member(first.a) || is_member(first.b)) && belongs_[i]) {
+            for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
                 Contact c;
-                c.of = Source::bodies, c.source = i;
-                c.normal = to_eigen(world.contacts.found[i].normal);
+                c.of = Source::bodies, c.source = k;
+                c.normal = to_eigen(world.contacts.found[k].normal);
                 c.friction = world.surface_pair(first.a, first.b).friction;
                 add(world, c, first.a, first.b);
             }

@@ -26,8 +26,8 @@ class ElasticSystem {
 public:
     ElasticSystem(const World& world, const Plan& plan);
 
-    /// Once a step: the factors that the step before left, and after it those that it leaves. Takes
-    /// out of `pairs`, of bodies, those that are solved here.
+    /// Once a step: the factors that the step before left, and after it those that it leaves.
+    /// Removes from `pairs` (of bodies) those that are solved here.
     void load(const World& world, std::vector<BodyPair>& pairs);
     void store(World& world);
 

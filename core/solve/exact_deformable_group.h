@@ -30,7 +30,7 @@ public:
     Stage stage() const override { return Stage::particles; }
     bool empty() const override { return velocity_.empty(); }
 
-    /// Once a step: takes the pairs of bodies that it solves out of `pairs`.
+    /// Once a step: removes from `pairs` (of bodies) those that it solves.
     void take(const World& world, std::vector<BodyPair>& pairs) {
         system_.load(world, pairs);
         touches_.assign(velocity_.size(), 0);
@@ -63,12 +63,10 @@ public:
         using Source = ElasticContacts::Source;
         for (const ElasticContacts::Contact& c : system_.contacts().contacts()) {
             if (c.of == Source::surface) continue;
-            const double along = c.applied.dot(c.normal);
-            const Vector3d across = c.applied - along * c.normal;
             if (c.of == Source::bodies)
-                sums.add(c.source, along, across);
+                sums.add(c.source, c.applied_along(), c.applied_across());
             else
-                sums.add_of_particle(c.source, along, across);
+                sums.add_of_particle(c.source, c.applied_along(), c.applied_across());
         }
     }
 
