@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <span>
 
 namespace plumb {
 namespace {
@@ -38,26 +37,27 @@ constexpr std::uint64_t kSeldom = 16;
 /// A mesh of more vertices is not searched for its highest.
 constexpr std::uint32_t kFewVertices = 500;
 
-/// A contact as one of its bodies sees it.
-struct Side {
-    std::uint32_t other;             ///< body
-    std::uint32_t part, other_part;  ///< of it, and of the other
-    Vector3d anchor;                 ///< of the body [m]
-    Vector3d surface;                ///< point of the other's surface [m]
-    Vector3d normal;                 ///< out of the other
-    double radius;                   ///< from the anchor to the body's surface [m]
+/// What of a body a contact holds.
+struct Hold {
+    std::uint32_t part;
+    Vector3d anchor;  ///< [m]
+    Vector3d normal;  ///< out of the other body
+    double radius;    ///< from the anchor to the body's surface [m]
 
-    Side(const Contact& c, std::uint32_t body) {
+    Hold(const Contact& c, std::uint32_t body) {
         const bool is_a = c.a == body;
         const Vector3d n = to_eigen(c.normal);
-        other = is_a ? c.b : c.a;
-        part = is_a ? c.part_a : c.part_b, other_part = is_a ? c.part_b : c.part_a;
+        part = is_a ? c.part_a : c.part_b;
         anchor = to_eigen(is_a ? c.point_a : c.point_b), radius = is_a ? c.radius_a : c.radius_b;
-        surface = is_a ? Vector3d(to_eigen(c.point_b) + c.radius_b * n)
-                       : Vector3d(to_eigen(c.point_a) - c.radius_a * n);
         normal = is_a ? n : Vector3d(-n);
     }
 };
+
+const Shape& shape_of_part(const World& world, std::uint32_t body, std::uint32_t part) {
+    const Shape& shape = world.shapes[world.bodies.geometry[body]];
+    const bool is_whole = shape.kind != ShapeKind::compound || part >= shape.part_count;
+    return is_whole ? shape : shape.parts[part].shape;
+}
 
 PlacedShape placed_shape(const World& world, std::uint32_t body, std::uint32_t part) {
     const Bodies& b = world.bodies;
@@ -69,9 +69,9 @@ PlacedShape placed_shape(const World& world, std::uint32_t body, std::uint32_t p
 
 /// The point of a body that a contact holds, were its normal n: what is round is held below its
 /// centre, what is on the side of a cylinder below its axis [m].
-Vector3d held_point(const World& world, std::uint32_t body, const Side& at, const Vector3d& n) {
+Vector3d held_point(const World& world, std::uint32_t body, const Hold& at, const Vector3d& n) {
+    if (!has_rim(shape_of_part(world, body, at.part).kind)) return at.anchor - at.radius * n;
     const PlacedShape shape = placed_shape(world, body, at.part);
-    if (!has_rim(shape.shape->kind)) return at.anchor - at.radius * n;
     const Vector3d touching = at.anchor - at.radius * at.normal;
     const Vector3d axis = shape.rotation * Vector3d::UnitY(), from = touching - shape.origin;
     const double along = from.dot(axis), radius = shape.shape->radius;
@@ -82,13 +82,6 @@ Vector3d held_point(const World& world, std::uint32_t body, const Side& at, cons
 
 bool is_along(const Vector3d& m, const Vector3d& n) {
     return m.dot(n) > 0 && m.cross(n).squaredNorm() < kSamePlane * kSamePlane;
-}
-
-/// Whether two contacts are with the same convex solid, or with the same mesh.
-bool are_of_one_solid(const World& world, const Side& p, const Side& q) {
-    if (p.other != q.other) return false;
-    const Shape& shape = world.shapes[world.bodies.geometry[p.other]];
-    return shape.kind != ShapeKind::compound || p.other_part == q.other_part;
 }
 
 /// How fast the surface of a body rises along n at a point [m/s].
@@ -138,9 +131,38 @@ private:
     std::size_t count_ = 0;
 };
 
+/// Whether a body moves far in the step.
+bool is_fast(const World& world, std::uint32_t body) {
+    const Bodies& b = world.bodies;
+    const double radius = b.bounding_radius[body];
+    if (b.motion[body] == Motion::fixed || !std::isfinite(radius)) return false;
+    const double way = b.velocity[body].norm() + b.angular_velocity[body].norm() * radius;
+    return way * world.settings.dt > kMoves * radius;
+}
+
+}  // namespace
+
+GhostContacts::Plane::Plane(const Contact& c, std::uint32_t body) {
+    const bool is_a = c.a == body;
+    const Vector3d n = to_eigen(c.normal);
+    normal = is_a ? n : Vector3d(-n);
+    surface = is_a ? Vector3d(to_eigen(c.point_b) + c.radius_b * n)
+                   : Vector3d(to_eigen(c.point_a) - c.radius_a * n);
+    other = is_a ? c.b : c.a;
+    part = is_a ? c.part_a : c.part_b, other_part = is_a ? c.part_b : c.part_a;
+}
+
+/// Whether two contacts are with the same convex solid, or with the same mesh.
+bool GhostContacts::are_of_one_solid(const World& world, const Plane& p, const Plane& q) {
+    if (p.other != q.other) return false;
+    const Shape& shape = world.shapes[world.bodies.geometry[p.other]];
+    return shape.kind != ShapeKind::compound || p.other_part == q.other_part;
+}
+
 /// Whether all of what a contact is with is below a plane, or rises no more than planes that count
 /// as one, and does not move above it within the step.
-bool lies_below(const World& world, const Side& at, const Side& plane, double flush) {
+bool GhostContacts::lies_below(const World& world, const Plane& at, const Plane& plane,
+                               double flush) {
     const PlacedShape other = placed_shape(world, at.other, at.other_part);
     if (other.shape->kind == ShapeKind::mesh && other.shape->vertex_count > kFewVertices)
         return false;
@@ -154,17 +176,6 @@ bool lies_below(const World& world, const Side& at, const Side& plane, double fl
     const Vector3d up = (n - kSamePlane * inward).normalized();
     return n.dot(at.surface - plane.surface) + support(other, up) - up.dot(at.surface) <= most;
 }
-
-/// Whether a body moves far in the step.
-bool is_fast(const World& world, std::uint32_t body) {
-    const Bodies& b = world.bodies;
-    const double radius = b.bounding_radius[body];
-    if (b.motion[body] == Motion::fixed || !std::isfinite(radius)) return false;
-    const double way = b.velocity[body].norm() + b.angular_velocity[body].norm() * radius;
-    return way * world.settings.dt > kMoves * radius;
-}
-
-}  // namespace
 
 /// Those that came with this step and may not be what they were.
 void GhostContacts::choose(World& world) {
@@ -204,11 +215,16 @@ void GhostContacts::list_contacts(const World& world) {
                 contacts_[--first_[body]] = pair.first + k;
         }
     for (std::size_t body = 0; body < motion.size(); ++body)
-        std::sort(contacts_.begin() + first_[body], contacts_.begin() + first_[body + 1],
-                  [&](std::uint32_t i, std::uint32_t k) {
-                      return std::pair(std::abs(found[i].gap), i) <
-                             std::pair(std::abs(found[k].gap), k);
-                  });
+        if (listed_[body])
+            std::sort(contacts_.begin() + first_[body], contacts_.begin() + first_[body + 1],
+                      [&](std::uint32_t i, std::uint32_t k) {
+                          return std::pair(std::abs(found[i].gap), i) <
+                                 std::pair(std::abs(found[k].gap), k);
+                      });
+    planes_.resize(contacts_.size());
+    for (std::uint32_t body = 0; body < motion.size(); ++body)
+        for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k)
+            planes_[k] = Plane(found[contacts_[k]], body);
 }
 
 /// Looks for a plane that the same part of the body is above, as another contact keeps it, and all
@@ -217,36 +233,33 @@ void GhostContacts::list_contacts(const World& world) {
 GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
                                             std::uint32_t body) {
     ContactTable& c = world.contacts;
-    const Side at(c.found[contact], body);
-    if (!is_convex(placed_shape(world, body, at.part).shape->kind)) return Verdict::real;
+    const Plane at(c.found[contact], body);
+    if (!is_convex(shape_of_part(world, body, at.part).kind)) return Verdict::real;
     const double radius = world.bodies.bounding_radius[body], flush = kFlush * radius;
     const std::uint32_t first = first_[body],
                         last = std::min(first_[body + 1], first + kMostOthers);
-    const std::span<const std::uint32_t> others(contacts_.data() + first, contacts_.data() + last);
-    for (const std::uint32_t j : others) {
-        if (j == contact || c.memory[j].ghost) continue;
-        const Side plane(c.found[j], body);
-        if (plane.part != at.part || are_of_one_solid(world, at, plane)) continue;
+    for (std::uint32_t j = first; j < last; ++j) {
+        const Plane& plane = planes_[j];
         const Vector3d& n = plane.normal;
         const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
-        if (is_along(at.normal, n) || height(at.surface) > flush ||
+        if (height(at.surface) > flush || contacts_[j] == contact || is_ghost_[contacts_[j]] ||
+            plane.part != at.part || are_of_one_solid(world, at, plane) || is_along(at.normal, n) ||
             !lies_below(world, at, plane, flush))
             continue;
-        const Vector3d held = held_point(world, body, at, n);
-        if (height(held) < std::min(0.0, c.found[j].gap) - kOutside * radius) continue;
+        const Vector3d held = held_point(world, body, Hold(c.found[contact], body), n);
+        if (height(held) < std::min(0.0, c.found[contacts_[j]].gap) - kOutside * radius) continue;
         const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
             return Eigen::Vector2d(u.dot(p - held), n.cross(u).dot(p - held));
         };
         Hull hull;
         beneath_.clear();
-        for (const std::uint32_t k : others) {
-            if (k == contact || c.memory[k].ghost) continue;
-            const Side side(c.found[k], body);
-            if (side.part != at.part || !is_along(side.normal, n) ||
-                std::abs(height(side.surface)) > flush)
+        for (std::uint32_t k = first; k < last; ++k) {
+            const Plane& side = planes_[k];
+            if (contacts_[k] == contact || is_ghost_[contacts_[k]] || side.part != at.part ||
+                !is_along(side.normal, n) || std::abs(height(side.surface)) > flush)
                 continue;
-            hull.add(in_plane(held_point(world, body, side, n)));
-            beneath_.push_back(k);
+            hull.add(in_plane(held_point(world, body, Hold(c.found[contacts_[k]], body), n)));
+            beneath_.push_back(contacts_[k]);
         }
         if (hull.distance() <= kOutside * radius) return Verdict::ghost;
         turn(world, contact, body, n, held, height(held));
@@ -267,6 +280,9 @@ void GhostContacts::turn(World& world, std::uint32_t contact, std::uint32_t body
     (is_a ? c.point_b : c.point_a) = to_plain(Vector3d(surface - other * n));
     c.normal = to_plain(Vector3d(is_a ? n : -n));
     c.gap = gap;
+    for (const std::uint32_t side : {c.a, c.b})
+        for (std::uint32_t k = first_[side]; k < first_[side + 1]; ++k)
+            if (contacts_[k] == contact) planes_[k] = Plane(c, side);
     KeptContacts& kept = world.contacts.kept;
     if (kept.rides.empty()) return;
     kept.rides[contact] = PairPoses(world.bodies, c.a, c.b).put_into_bodies(c);
@@ -280,6 +296,7 @@ void GhostContacts::judge_one(World& world, std::uint32_t contact) {
         if (verdict == Verdict::real) continue;
         c.memory[contact].flush = true;
         c.memory[contact].ghost = verdict == Verdict::ghost;
+        is_ghost_[contact] = c.memory[contact].ghost;
         if (verdict == Verdict::ghost)
             for (const std::uint32_t k : beneath_) needed_[k] = 1;
         return;
@@ -292,6 +309,8 @@ void GhostContacts::find(World& world) {
     if (!judged_.empty()) {
         list_contacts(world);
         needed_.assign(c.found.size(), 0);
+        is_ghost_.resize(c.found.size());
+        for (std::size_t i = 0; i < c.found.size(); ++i) is_ghost_[i] = c.memory[i].ghost;
         for (const std::uint32_t i : judged_) judge_one(world, i);
     }
     ghosts_.clear();

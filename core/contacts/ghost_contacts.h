@@ -30,17 +30,34 @@ public:
 private:
     enum class Verdict { real, ghost, turned };
 
+    /// What a contact of a body is with, and the plane there: a line of memory, for each contact of
+    /// a body that comes is held against all of them.
+    struct alignas(64) Plane {
+        Vector3d normal;                 ///< out of the other body
+        Vector3d surface;                ///< point of the other's surface [m]
+        std::uint32_t other;             ///< body
+        std::uint32_t part, other_part;  ///< of the body that touches, and of the other
+
+        Plane() = default;
+        Plane(const Contact& contact, std::uint32_t body);
+    };
+
     void choose(World& world);
     void list_contacts(const World& world);
     void judge_one(World& world, std::uint32_t contact);
     Verdict judge(World& world, std::uint32_t contact, std::uint32_t body);
-    static void turn(World& world, std::uint32_t contact, std::uint32_t body, const Vector3d& n,
-                     const Vector3d& held, double gap);
+    void turn(World& world, std::uint32_t contact, std::uint32_t body, const Vector3d& n,
+              const Vector3d& held, double gap);
+
+    static bool are_of_one_solid(const World& world, const Plane& p, const Plane& q);
+    static bool lies_below(const World& world, const Plane& at, const Plane& plane, double flush);
 
     std::vector<std::uint32_t> first_;     ///< [body] in contacts_; one more at the end
     std::vector<std::uint32_t> contacts_;  ///< of the bodies that are listed
+    std::vector<Plane> planes_;            ///< of these, as the body sees them
     std::vector<std::uint8_t> listed_;     ///< [body] whether its contacts are
     std::vector<std::uint32_t> judged_;    ///< contacts
+    std::vector<std::uint8_t> is_ghost_;   ///< [contact]
     std::vector<std::uint8_t> needed_;     ///< [contact] whether a ghost rests on it
     std::vector<std::uint32_t> beneath_;   ///< of the body in question, in one plane
     std::vector<std::uint32_t> ghosts_;    ///< contacts
