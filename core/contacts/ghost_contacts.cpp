@@ -142,7 +142,8 @@ bool is_fast(const World& world, std::uint32_t body) {
 
 }  // namespace
 
-GhostContacts::Plane::Plane(const Contact& c, std::uint32_t body) {
+GhostContacts::Plane::Plane(const Contact& c, std::uint32_t body, std::uint32_t of_contact)
+    : contact(of_contact) {
     const bool is_a = c.a == body;
     const Vector3d n = to_eigen(c.normal);
     normal = is_a ? n : Vector3d(-n);
@@ -207,24 +208,19 @@ void GhostContacts::list_contacts(const World& world) {
         for (const std::uint32_t body : {pair.a, pair.b})
             if (listed_[body]) first_[body] += pair.count;
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
-    contacts_.resize(first_.back());
+    touches_.resize(first_.back()), planes_.resize(first_.back());
     for (const ContactPair& pair : pairs)
         for (const std::uint32_t body : {pair.a, pair.b}) {
             if (!listed_[body]) continue;
-            for (std::uint32_t k = 0; k < pair.count; ++k)
-                contacts_[--first_[body]] = pair.first + k;
+            for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
+                touches_[--first_[body]] = {std::abs(found[i].gap), i};
         }
-    for (std::size_t body = 0; body < motion.size(); ++body)
-        if (listed_[body])
-            std::sort(contacts_.begin() + first_[body], contacts_.begin() + first_[body + 1],
-                      [&](std::uint32_t i, std::uint32_t k) {
-                          return std::pair(std::abs(found[i].gap), i) <
-                                 std::pair(std::abs(found[k].gap), k);
-                      });
-    planes_.resize(contacts_.size());
-    for (std::uint32_t body = 0; body < motion.size(); ++body)
+    for (std::uint32_t body = 0; body < motion.size(); ++body) {
+        if (!listed_[body]) continue;
+        std::sort(touches_.begin() + first_[body], touches_.begin() + first_[body + 1]);
         for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k)
-            planes_[k] = Plane(found[contacts_[k]], body);
+            planes_[k] = Plane(found[touches_[k].contact], body, touches_[k].contact);
+    }
 }
 
 /// Looks for a plane that the same part of the body is above, as another contact keeps it, and all
@@ -233,7 +229,7 @@ void GhostContacts::list_contacts(const World& world) {
 GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
                                             std::uint32_t body) {
     ContactTable& c = world.contacts;
-    const Plane at(c.found[contact], body);
+    const Plane at(c.found[contact], body, contact);
     if (!is_convex(shape_of_part(world, body, at.part).kind)) return Verdict::real;
     const double radius = world.bodies.bounding_radius[body], flush = kFlush * radius;
     const std::uint32_t first = first_[body],
@@ -242,12 +238,12 @@ GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
         const Plane& plane = planes_[j];
         const Vector3d& n = plane.normal;
         const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
-        if (height(at.surface) > flush || contacts_[j] == contact || is_ghost_[contacts_[j]] ||
-            plane.part != at.part || are_of_one_solid(world, at, plane) || is_along(at.normal, n) ||
+        if (are_of_one_solid(world, at, plane) || height(at.surface) > flush ||
+            is_ghost_[plane.contact] || plane.part != at.part || is_along(at.normal, n) ||
             !lies_below(world, at, plane, flush))
             continue;
         const Vector3d held = held_point(world, body, Hold(c.found[contact], body), n);
-        if (height(held) < std::min(0.0, c.found[contacts_[j]].gap) - kOutside * radius) continue;
+        if (height(held) < std::min(0.0, c.found[plane.contact].gap) - kOutside * radius) continue;
         const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
             return Eigen::Vector2d(u.dot(p - held), n.cross(u).dot(p - held));
         };
@@ -255,11 +251,11 @@ GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
         beneath_.clear();
         for (std::uint32_t k = first; k < last; ++k) {
             const Plane& side = planes_[k];
-            if (contacts_[k] == contact || is_ghost_[contacts_[k]] || side.part != at.part ||
+            if (side.contact == contact || is_ghost_[side.contact] || side.part != at.part ||
                 !is_along(side.normal, n) || std::abs(height(side.surface)) > flush)
                 continue;
-            hull.add(in_plane(held_point(world, body, Hold(c.found[contacts_[k]], body), n)));
-            beneath_.push_back(contacts_[k]);
+            hull.add(in_plane(held_point(world, body, Hold(c.found[side.contact], body), n)));
+            beneath_.push_back(side.contact);
         }
         if (hull.distance() <= kOutside * radius) return Verdict::ghost;
         turn(world, contact, body, n, held, height(held));
@@ -282,7 +278,7 @@ void GhostContacts::turn(World& world, std::uint32_t contact, std::uint32_t body
     c.gap = gap;
     for (const std::uint32_t side : {c.a, c.b})
         for (std::uint32_t k = first_[side]; k < first_[side + 1]; ++k)
-            if (contacts_[k] == contact) planes_[k] = Plane(c, side);
+            if (planes_[k].contact == contact) planes_[k] = Plane(c, side, contact);
     KeptContacts& kept = world.contacts.kept;
     if (kept.rides.empty()) return;
     kept.rides[contact] = PairPoses(world.bodies, c.a, c.b).put_into_bodies(c);

@@ -37,9 +37,10 @@ private:
         Vector3d surface;                ///< point of the other's surface [m]
         std::uint32_t other;             ///< body
         std::uint32_t part, other_part;  ///< of the body that touches, and of the other
+        std::uint32_t contact;
 
         Plane() = default;
-        Plane(const Contact& contact, std::uint32_t body);
+        Plane(const Contact& of, std::uint32_t body, std::uint32_t contact);
     };
 
     void choose(World& world);
@@ -52,15 +53,22 @@ private:
     static bool are_of_one_solid(const World& world, const Plane& p, const Plane& q);
     static bool lies_below(const World& world, const Plane& at, const Plane& plane, double flush);
 
-    std::vector<std::uint32_t> first_;     ///< [body] in contacts_; one more at the end
-    std::vector<std::uint32_t> contacts_;  ///< of the bodies that are listed
-    std::vector<Plane> planes_;            ///< of these, as the body sees them
-    std::vector<std::uint8_t> listed_;     ///< [body] whether its contacts are
-    std::vector<std::uint32_t> judged_;    ///< contacts
-    std::vector<std::uint8_t> is_ghost_;   ///< [contact]
-    std::vector<std::uint8_t> needed_;     ///< [contact] whether a ghost rests on it
-    std::vector<std::uint32_t> beneath_;   ///< of the body in question, in one plane
-    std::vector<std::uint32_t> ghosts_;    ///< contacts
+    /// A contact by how far it is from just touching.
+    struct Touch {
+        double distance;  ///< [m]
+        std::uint32_t contact;
+        auto operator<=>(const Touch&) const = default;
+    };
+
+    std::vector<std::uint32_t> first_;    ///< [body] in touches_ and planes_; one more at the end
+    std::vector<Touch> touches_;          ///< of the bodies that are listed
+    std::vector<Plane> planes_;           ///< of these, as the body sees them
+    std::vector<std::uint8_t> listed_;    ///< [body] whether its contacts are
+    std::vector<std::uint32_t> judged_;   ///< contacts
+    std::vector<std::uint8_t> is_ghost_;  ///< [contact]
+    std::vector<std::uint8_t> needed_;    ///< [contact] whether a ghost rests on it
+    std::vector<std::uint32_t> beneath_;  ///< of the body in question, in one plane
+    std::vector<std::uint32_t> ghosts_;   ///< contacts
 };
 
 }  // namespace plumb
