@@ -19,8 +19,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
 
 namespace plumb {
+
+/// All six numbers of a contact, or the first three where nothing resists its turning.
+template <int N>
+using ContactVector = Eigen::Matrix<double, N, 1>;
+
+/// How many parts of them the normal impulse bounds.
+template <int N>
+inline constexpr int kBoundParts = N == 3 ? 1 : 3;
 
 struct ContactCone {
     double friction, spinning, rolling;  ///< μ, σ, ρ
@@ -30,31 +39,47 @@ struct ContactCone {
 };
 
 /// A point of the cone, and which of its parts are at their bounds.
+template <int N>
 struct ConePoint {
-    Vector6d impulse;
-    bool pushes, slides, spins, rolls;
-    bool strained;  ///< n = N
+    ContactVector<N> impulse = ContactVector<N>::Zero();
+    bool pushes = false, slides = false, spins = false, rolls = false;
+    bool strained = false;  ///< n = N
 
     bool inside() const { return pushes && !slides && !spins && !rolls && !strained; }
 };
 
-/// Lengths of the three parts of z that the normal impulse bounds.
-inline std::array<double, 3> cone_lengths(const Vector6d& z) {
-    return {std::sqrt(z[1] * z[1] + z[2] * z[2]), std::abs(z[3]),
-            std::sqrt(z[4] * z[4] + z[5] * z[5])};
+/// Lengths of the parts of z that the normal impulse bounds.
+template <class Vector, int N = Vector::SizeAtCompileTime>
+inline std::array<double, kBoundParts<N>> cone_lengths(const Vector& z) {
+    const double across = std::sqrt(z[1] * z[1] + z[2] * z[2]);
+    if constexpr (N == 3)
+        return {across};
+    else
+        return {across, std::abs(z[3]), std::sqrt(z[4] * z[4] + z[5] * z[5])};
+}
+
+/// What each of these may be of the normal impulse.
+template <int N>
+inline std::array<double, kBoundParts<N>> levers_of(const ContactCone& c) {
+    if constexpr (N == 3)
+        return {c.friction};
+    else
+        return {c.friction, c.spinning, c.rolling};
 }
 
 /// The nearest point of the cone to z. Where parts of z are too long, its n is the root of a
 /// function that rises, is made of straight pieces and bends down: Newton's method from below ends
 /// on the root after as many steps as there are parts.
-inline ConePoint nearest_on_cone(const Vector6d& z, const ContactCone& c) {
-    const std::array<double, 3> length = cone_lengths(z), lever{c.friction, c.spinning, c.rolling};
+template <class Vector, int N = Vector::SizeAtCompileTime>
+inline ConePoint<N> nearest_on_cone(const Vector& z, const ContactCone& c) {
+    constexpr int kParts = kBoundParts<N>;
+    const std::array<double, kParts> length = cone_lengths(z), lever = levers_of<N>(c);
     double n = 0;
-    std::array<bool, 3> at_bound{};
-    for (int round = 0; round < 4; ++round) {
+    std::array<bool, kParts> at_bound{};
+    for (int round = 0; round <= kParts; ++round) {
         double sum = z[0], weight = 1;
         bool same = round > 0;
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < kParts; ++i) {
             const bool beyond = length[i] > lever[i] * n;
             same &= beyond == at_bound[i];
             at_bound[i] = beyond;
@@ -62,28 +87,37 @@ inline ConePoint nearest_on_cone(const Vector6d& z, const ContactCone& c) {
         }
         if (same) break;
         n = sum / weight;
-        if (!(n > 0)) return {Vector6d::Zero(), false, false, false, false, false};
+        if (!(n > 0)) return {};
     }
-    const bool strained = n > c.most;
-    if (strained) {
+    ConePoint<N> point;
+    point.impulse = z;
+    point.pushes = true;
+    point.strained = n > c.most;
+    if (point.strained) {
         n = c.most;
-        for (int i = 0; i < 3; ++i) at_bound[i] = length[i] > lever[i] * n;
+        for (int i = 0; i < kParts; ++i) at_bound[i] = length[i] > lever[i] * n;
     }
-    ConePoint point{z, true, at_bound[0], at_bound[1], at_bound[2], strained};
     point.impulse[0] = n;
-    if (at_bound[0]) point.impulse.segment<2>(1) *= lever[0] * n / length[0];
-    if (at_bound[1]) point.impulse[3] *= lever[1] * n / length[1];
-    if (at_bound[2]) point.impulse.segment<2>(4) *= lever[2] * n / length[2];
+    point.slides = at_bound[0];
+    if (at_bound[0]) point.impulse.template segment<2>(1) *= lever[0] * n / length[0];
+    if constexpr (N == 6) {
+        point.spins = at_bound[1], point.rolls = at_bound[2];
+        if (at_bound[1]) point.impulse[3] *= lever[1] * n / length[1];
+        if (at_bound[2]) point.impulse.template segment<2>(4) *= lever[2] * n / length[2];
+    }
     return point;
 }
 
 /// ∂(nearest point)/∂z: symmetric, between 0 and 1. What is at a bound moves along one common ray
 /// with the normal, and around its own circle by how far it has come in.
-inline Matrix6d cone_derivative(const Vector6d& z, const ConePoint& at, const ContactCone& c) {
-    if (!at.pushes) return Matrix6d::Zero();
-    const std::array<double, 3> length = cone_lengths(z);
-    Matrix6d d = Matrix6d::Zero();
-    Vector6d ray = Vector6d::Zero();
+template <class Vector, int N = Vector::SizeAtCompileTime>
+inline Eigen::Matrix<double, N, N> cone_derivative(const Vector& z, const ConePoint<N>& at,
+                                                   const ContactCone& c) {
+    using Matrix = Eigen::Matrix<double, N, N>;
+    if (!at.pushes) return Matrix::Zero();
+    const auto length = cone_lengths(z);
+    Matrix d = Matrix::Zero();
+    ContactVector<N> ray = ContactVector<N>::Zero();
     ray[0] = 1;
     const auto disc = [&](int first, bool bound, double lever, double size) {
         if (!bound) {
@@ -98,11 +132,13 @@ inline Matrix6d cone_derivative(const Vector6d& z, const ConePoint& at, const Co
         d(first, first + 1) = d(first + 1, first) = -around * x * y;
     };
     disc(1, at.slides, c.friction, length[0]);
-    disc(4, at.rolls, c.rolling, length[2]);
-    if (at.spins)
-        ray[3] = c.spinning * (z[3] < 0 ? -1 : 1);
-    else
-        d(3, 3) = 1;
+    if constexpr (N == 6) {
+        disc(4, at.rolls, c.rolling, length[2]);
+        if (at.spins)
+            ray[3] = c.spinning * (z[3] < 0 ? -1 : 1);
+        else
+            d(3, 3) = 1;
+    }
     if (at.strained) return d;
     return d + ray * ray.transpose() / ray.squaredNorm();
 }
@@ -110,28 +146,32 @@ inline Matrix6d cone_derivative(const Vector6d& z, const ConePoint& at, const Co
 /// The impulse that the law of contact asks for after one step of mass m along what the velocity
 /// lacks: first the normal, then the rest within its bounds. It equals `impulse` where the law
 /// holds.
-inline Vector6d lawful_step(const Vector6d& impulse, const Vector6d& lack, double mass,
-                            const ContactCone& c) {
-    Vector6d z = impulse + mass * lack;
+template <class Vector, int N = Vector::SizeAtCompileTime>
+inline ContactVector<N> lawful_step(const Vector& impulse,
+                                    const std::type_identity_t<ContactVector<N>>& lack, double mass,
+                                    const ContactCone& c) {
+    ContactVector<N> z = impulse + mass * lack;
     z[0] = std::clamp(z[0], 0.0, c.most);
-    const std::array<double, 3> length = cone_lengths(z);
+    const auto length = cone_lengths(z);
     const auto share = [&](double lever, double size) {
         const double most = lever * z[0];
         return size > most ? most / size : 1;
     };
-    z.segment<2>(1) *= share(c.friction, length[0]);
-    z[3] *= share(c.spinning, length[1]);
-    z.segment<2>(4) *= share(c.rolling, length[2]);
+    z.template segment<2>(1) *= share(c.friction, length[0]);
+    if constexpr (N == 6) {
+        z[3] *= share(c.spinning, length[1]);
+        z.template segment<2>(4) *= share(c.rolling, length[2]);
+    }
     return z;
 }
 
 /// Velocities by which the parts of an impulse that are at their bounds slip, each times its lever.
-inline double slipping(const Vector6d& impulse, const std::array<double, 3>& speed,
+template <class Vector, int N = Vector::SizeAtCompileTime>
+inline double slipping(const Vector& impulse, const std::array<double, kBoundParts<N>>& speed,
                        const ContactCone& c) {
-    const std::array<double, 3> held = cone_lengths(impulse),
-                                lever{c.friction, c.spinning, c.rolling};
+    const auto held = cone_lengths(impulse), lever = levers_of<N>(c);
     double sum = 0;
-    for (int i = 0; i < 3; ++i)
+    for (int i = 0; i < kBoundParts<N>; ++i)
         if (held[i] >= (1 - 1e-6) * lever[i] * impulse[0]) sum += lever[i] * speed[i];
     return sum;
 }
@@ -139,9 +179,10 @@ inline double slipping(const Vector6d& impulse, const std::array<double, 3>& spe
 /// What slip, u − w of parts at their bounds, takes from the wanted normal velocity (de Saxcé).
 /// Slip below `slack` does not count: then what stands is the solution of a convex problem, which
 /// is found whenever there is one, and what slides lifts by less than μ times that.
-inline double slip_shift(const Vector6d& impulse, const Vector6d& slip, double slack,
+template <class Vector, int N = Vector::SizeAtCompileTime>
+inline double slip_shift(const Vector& impulse, const ContactVector<N>& slip, double slack,
                          const ContactCone& c) {
-    std::array<double, 3> fast = cone_lengths(slip);
+    auto fast = cone_lengths(slip);
     for (double& x : fast) x = std::max(0.0, x - slack);
     return slipping(impulse, fast, c);
 }

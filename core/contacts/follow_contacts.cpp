@@ -47,11 +47,12 @@ void take_as_found(World& world) {
     }
     if (world.settings.substeps == 1) return;
     c.track.resize(c.found.size());
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const Contact& contact = c.found[i];
-        c.track[i] = {in_body(world.bodies, contact.a, to_eigen(contact.point_a)),
-                      in_body(world.bodies, contact.b, to_eigen(contact.point_b)),
-                      share_of_a(world.bodies, contact)};
+    for (const ContactPair& pair : c.pairs) {
+        const PairPoses poses(c.frames, pair.a, pair.b);
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
+            c.track[i] = {poses.in_a(to_eigen(c.found[i].point_a)),
+                          poses.in_b(to_eigen(c.found[i].point_b)),
+                          share_of_a(world.bodies, c.found[i])};
     }
 }
 
@@ -59,15 +60,18 @@ void take_as_found(World& world) {
 /// between the surfaces.
 void measure(World& world) {
     ContactTable& c = world.contacts;
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        const Contact& contact = c.found[i];
-        const Vector3d n = to_eigen(contact.normal);
-        const Vector3d a = in_world(world.bodies, contact.a, c.track[i].a) - contact.radius_a * n,
-                       b = in_world(world.bodies, contact.b, c.track[i].b) + contact.radius_b * n;
-        const Vector3d apart = a - b;
-        c.gap[i] = n.dot(apart);
-        const double lead = c.track[i].share - 0.5;
-        c.point[i] = 0.5 * (a + b) + lead * (apart - c.gap[i] * n);
+    for (const ContactPair& pair : c.pairs) {
+        const PairPoses poses(c.frames, pair.a, pair.b);
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+            const Contact& contact = c.found[i];
+            const Vector3d n = to_eigen(contact.normal);
+            const Vector3d a = poses.a_in_world(c.track[i].a) - contact.radius_a * n,
+                           b = poses.b_in_world(c.track[i].b) + contact.radius_b * n;
+            const Vector3d apart = a - b;
+            c.gap[i] = n.dot(apart);
+            const double lead = c.track[i].share - 0.5;
+            c.point[i] = 0.5 * (a + b) + lead * (apart - c.gap[i] * n);
+        }
     }
 }
 
@@ -97,7 +101,7 @@ void measure_anchor_slips(World& world, bool first_substep) {
     for (const ContactPair& pair : c.pairs) {
         const auto first = c.found.begin() + pair.first;
         if (std::none_of(first, first + pair.count, is_sharp)) continue;
-        const PairPoses poses(world.bodies, pair.a, pair.b);
+        const PairPoses poses(c.frames, pair.a, pair.b);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
             if (!is_sharp(c.found[i])) continue;
             const Vector3d before = c.anchor_slip[i], n = to_eigen(c.found[i].normal);
@@ -113,6 +117,7 @@ void measure_anchor_slips(World& world, bool first_substep) {
 
 void follow_contacts(World& world, const Plan& plan, bool first_substep) {
     const bool rims = plan.runs(Effect::rims);
+    if (!world.contacts.found.empty()) find_frames(world.bodies, world.contacts.frames);
     if (first_substep) {
         take_as_found(world);
         rims ? find_rims(world) : forget_rims(world);

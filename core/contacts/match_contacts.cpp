@@ -130,7 +130,7 @@ void match_fresh(World& world, bool anchors) {
         const PairRun now(fresh, i, end), before(table, first, old);
         match_pair(now, before, table.used);
         if (anchors && std::any_of(now.found.begin(), now.found.end(), is_sharp))
-            anchor_pair(PairPoses(world.bodies, now.found[0].a, now.found[0].b), now, before);
+            anchor_pair(PairPoses(table.frames, now.found[0].a, now.found[0].b), now, before);
     });
 }
 
@@ -166,6 +166,7 @@ void ride(World& world, bool anchors) {
 
 void match_contacts(World& world, const Plan& plan) {
     const bool anchors = plan.runs(Effect::sticking_anchors);
+    find_frames(world.bodies, world.contacts.frames);
     match_fresh(world, anchors);
     put_in(world);
     ride(world, anchors);

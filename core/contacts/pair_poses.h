@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Where the two bodies of a pair are now: rotation matrices, which are quicker than quaternions
-/// for more points than one.
+/// for more points than one, and made once for all pairs of a body.
 #pragma once
 
 #include "world/bodies.h"
@@ -8,15 +8,28 @@
 
 #include <plumb/contact_set.h>
 
+#include <vector>
+
 namespace plumb {
+
+inline BodyFrame frame_of(const Bodies& b, std::uint32_t body) {
+    return {b.position[body], b.orientation[body].toRotationMatrix()};
+}
+
+/// Those of all bodies at their poses now, [body].
+inline void find_frames(const Bodies& b, std::vector<BodyFrame>& frames) {
+    frames.resize(b.size());
+    for (std::uint32_t i = 0; i < b.size(); ++i) frames[i] = frame_of(b, i);
+}
 
 class PairPoses {
 public:
-    PairPoses(const Bodies& b, std::uint32_t body_a, std::uint32_t body_b)
-        : at_a_(b.position[body_a]),
-          at_b_(b.position[body_b]),
-          turn_a_(b.orientation[body_a].toRotationMatrix()),
-          turn_b_(b.orientation[body_b].toRotationMatrix()) {}
+    PairPoses(const BodyFrame& a, const BodyFrame& b)
+        : at_a_(a.at), at_b_(b.at), turn_a_(a.turn), turn_b_(b.turn) {}
+    PairPoses(const std::vector<BodyFrame>& frames, std::uint32_t a, std::uint32_t b)
+        : PairPoses(frames[a], frames[b]) {}
+    PairPoses(const Bodies& bodies, std::uint32_t a, std::uint32_t b)
+        : PairPoses(frame_of(bodies, a), frame_of(bodies, b)) {}
 
     /// Points in the frames of a and b, in the world [m].
     Vector3d a_in_world(const Vector3d& point) const { return at_a_ + turn_a_ * point; }

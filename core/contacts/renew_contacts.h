@@ -22,7 +22,8 @@ std::uint32_t contacts_to_be(const KeptContacts& kept);
 /// Puts what was detected, with its memory, among what was kept.
 void put_in(World& world);
 
-/// Calls visit(pair, poses of its bodies) for the pairs of moves, at their new places.
+/// Calls visit(pair, poses of its bodies) for the pairs of moves, at their new places, where
+/// ContactTable::frames are.
 template <class Visit>
 void each_moved(const World& world, const std::vector<ContactMove>& moves, Visit visit) {
     auto pair = world.contacts.pairs.begin();
@@ -30,7 +31,7 @@ void each_moved(const World& world, const std::vector<ContactMove>& moves, Visit
         while (pair->first < m.to) ++pair;
         for (const std::uint32_t end = m.to + m.count;
              pair != world.contacts.pairs.end() && pair->first < end; ++pair)
-            visit(*pair, PairPoses(world.bodies, pair->a, pair->b));
+            visit(*pair, PairPoses(world.contacts.frames, pair->a, pair->b));
     }
 }
 

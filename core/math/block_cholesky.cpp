@@ -149,6 +149,17 @@ void BlockCholesky::add(std::uint32_t i, std::uint32_t j, const Matrix6d& block)
         below_[slot(q, p)] += block.transpose();
 }
 
+void BlockCholesky::add_product(std::uint32_t i, const Vector6d& x, std::uint32_t j,
+                                const Vector6d& y) {
+    const std::uint32_t p = place_[i], q = place_[j];
+    if (p == q)
+        diagonal_[p].noalias() += x * y.transpose();
+    else if (p > q)
+        below_[slot(p, q)].noalias() += x * y.transpose();
+    else
+        below_[slot(q, p)].noalias() += y * x.transpose();
+}
+
 bool BlockCholesky::factor() {
     const std::uint32_t* update = updates_.data();
     for (std::uint32_t p = 0; p < rows(); ++p) {

@@ -42,6 +42,10 @@ public:
     /// Adds `block` to A(i, j), and its transpose to A(j, i). The pair is in the pattern.
     void add(std::uint32_t i, std::uint32_t j, const Matrix6d& block);
 
+    /// Adds x yᵀ to A(i, j), and its transpose to A(j, i) unless that is the same block. The pair
+    /// is in the pattern.
+    void add_product(std::uint32_t i, const Vector6d& x, std::uint32_t j, const Vector6d& y);
+
     /// Returns whether all pivots were positive.
     bool factor();
 

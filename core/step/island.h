@@ -129,8 +129,9 @@ inline RowAnswer answer_of(const IslandRow& row, double rate, double stiffness) 
 }
 
 /// Velocities at a point, of bodies that move by `v`; those of turning are 0 where nothing resists
-/// it.
-inline Vector6d velocity_of(const IslandPoint& p, std::span<const Vector6d> v) {
+/// it, and left out with N = 3.
+template <int N = 6>
+inline ContactVector<N> velocity_of(const IslandPoint& p, std::span<const Vector6d> v) {
     Vector3d u = Vector3d::Zero(), w = u;
     if (p.a != kImmovable) {
         w += v[p.a].tail<3>();
@@ -140,24 +141,37 @@ inline Vector6d velocity_of(const IslandPoint& p, std::span<const Vector6d> v) {
         w -= v[p.b].tail<3>();
         u -= v[p.b].head<3>() + cross<double>(v[p.b].tail<3>(), p.arm_b);
     }
-    Vector6d all = Vector6d::Zero();
-    all.head<3>() = p.frame.transpose() * u;
-    if (p.cone.turns()) all.tail<3>() = p.length * (p.frame.transpose() * w);
+    ContactVector<N> all = ContactVector<N>::Zero();
+    all.template head<3>() = p.frame.transpose() * u;
+    if constexpr (N == 6)
+        if (p.cone.turns()) all.template tail<3>() = p.length * (p.frame.transpose() * w);
     return all;
 }
 
+/// An impulse at a point as a force on a, and a torque beside that of its arm.
+struct PointForce {
+    Vector3d along, about;
+
+    template <int N>
+    PointForce(const IslandPoint& p, const Eigen::Matrix<double, N, 1>& impulse)
+        : along(p.frame * impulse.template head<3>()), about(Vector3d::Zero()) {
+        if constexpr (N == 6)
+            if (p.cone.turns()) about = p.length * (p.frame * impulse.template tail<3>());
+    }
+};
+
 /// Adds a point's impulse to the sums (force, torque) of its bodies.
-inline void add_impulse(const IslandPoint& p, const Vector6d& impulse, std::span<Vector6d> sums) {
-    const Vector3d along = p.frame * impulse.head<3>();
-    Vector3d about = Vector3d::Zero();
-    if (p.cone.turns()) about = p.length * (p.frame * impulse.tail<3>());
+template <int N>
+inline void add_impulse(const IslandPoint& p, const Eigen::Matrix<double, N, 1>& impulse,
+                        std::span<Vector6d> sums) {
+    const PointForce force(p, impulse);
     if (p.a != kImmovable) {
-        sums[p.a].head<3>() += along;
-        sums[p.a].tail<3>() += cross<double>(p.arm_a, along) + about;
+        sums[p.a].head<3>() += force.along;
+        sums[p.a].tail<3>() += cross<double>(p.arm_a, force.along) + force.about;
     }
     if (p.b != kImmovable) {
-        sums[p.b].head<3>() -= along;
-        sums[p.b].tail<3>() -= cross<double>(p.arm_b, along) + about;
+        sums[p.b].head<3>() -= force.along;
+        sums[p.b].tail<3>() -= cross<double>(p.arm_b, force.along) + force.about;
     }
 }
 

@@ -230,7 +230,7 @@ void IslandGroup::choose_effort(const World& world, Member& member, bool swept) 
         member.overlap += std::max(0.0, -world.contacts.found[contacts_[k]].gap);
         if (!memory.matched) continue;
         member.disputed = std::max(member.disputed, memory.disputed);
-        member.overlap_before = std::max(member.overlap_before, memory.disputed_overlap);
+        member.overlap_before = std::max(member.overlap_before, double(memory.disputed_overlap));
     }
     const bool gives_way = member.overlap < kGivesWay * member.overlap_before;
     const bool begins =
@@ -762,7 +762,7 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
             contacts.memory[contacts_[k]].disputed = left;
             contacts.memory[contacts_[k]].settling = settling;
             contacts.memory[contacts_[k]].missed = m.is_large ? kMissed : 0;
-            contacts.memory[contacts_[k]].disputed_overlap = m.overlap_before;
+            contacts.memory[contacts_[k]].disputed_overlap = static_cast<float>(m.overlap_before);
         }
     }
     for (const std::uint32_t contact : choice_.jammed()) contacts.memory[contact].jammed = true;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_solver.h"
 
-#include "math/matrices.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,12 +24,6 @@ constexpr double kSolved = 1e-6;
 /// missed by as little as their softness, so that γ comes down to theirs from round to round.
 constexpr double kSoftnessShare = 0.3;
 constexpr double kSoftest = 1, kHard = 1e-6, kHardest = 1e-11;
-
-/// γ of what a joint takes away: it is never let go, so that no search is needed for it.
-constexpr double kJoint = 1e-7;
-
-/// γ of what drives a joint need not be more than this.
-constexpr double kGentle = 1e-3;
 
 /// By which γ grows where Newton's method did not end, and shrinks where a round leaves more than
 /// this share of the residual: heavy bodies on light ones, and the slowest modes of a large heap,
@@ -73,15 +65,6 @@ constexpr double kYield = 0.3;
 constexpr double kFast = 2, kClear = 100;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr int kLineSteps = 20;
-
-Matrix6d mass_matrix(const IslandBody& b) {
-    Matrix6d m = Matrix6d::Zero();
-    m.diagonal().head<3>().setConstant(b.mass);
-    const Symmetric3<double>& i = b.inertia;
-    m.bottomRightCorner<3, 3>() << i.xx, i.xy, i.xz, i.xy, i.yy, i.yz, i.xz, i.yz, i.zz;
-    return m;
-}
 
 /// Visits all, from the first on or from the last.
 template <class All, class Visit>
@@ -90,22 +73,16 @@ void each_in_order(All& all, bool forwards, Visit visit) {
     for (std::size_t k = 0; k < n; ++k) visit(all[forwards ? k : n - 1 - k]);
 }
 
-/// Between the bounds of what holds an axis [N s], [N m s]: an error must not take it from one to
-/// the other.
-double span_of(const AxisDrive& drive) {
-    double span = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < drive.n; ++i) {
-        const DriveRow& row = drive.rows[i];
-        if (!(row.softness > 0) && row.highest > row.lowest)
-            span = std::min(span, row.highest - row.lowest);
-    }
-    return span;
-}
-
 }  // namespace
 
-void IslandSolver::sweep(const Island& island) {
+void IslandSolver::take(const Island& island) {
     island_ = island;
+    turns_ = std::any_of(island.points.begin(), island.points.end(),
+                         [](const IslandPoint& p) { return p.cone.turns(); });
+}
+
+void IslandSolver::sweep(const Island& island) {
+    take(island);
     for (int i = 0; i < kSweeps; ++i) sweep_both_ways();
 }
 
@@ -118,7 +95,7 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
         p.impulse[0] = 0;
         p.cone = {};
     }
-    island_ = {island.bodies, shift, apart_, {}};
+    take({island.bodies, shift, apart_, {}});
     for (int i = 0; i < kOpeningSweeps; ++i)
         for (const bool forwards : {true, false})
             each_in_order(island_.points, forwards, [&](IslandPoint& p) { open(p); });
@@ -126,9 +103,9 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
 
 /// One contact of what is opened apart: pushes only, and yields.
 [[gnu::flatten]] void IslandSolver::open(IslandPoint& p) {
-    const double left = p.wanted[0] - velocity_of(p, island_.velocity)[0];
+    const double left = p.wanted[0] - velocity_of<3>(p, island_.velocity)[0];
     const double step = (p.mass_normal * left - kYield * p.impulse[0]) / (1 + kYield);
-    Vector6d more = Vector6d::Zero();
+    Vector3d more = Vector3d::Zero();
     more[0] = std::max(step, -p.impulse[0]);
     if (more[0] == 0) return;
     p.impulse[0] += more[0];
@@ -137,7 +114,7 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
 
 IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed,
                                  IslandEffort effort, bool settles, std::uint64_t most_products) {
-    island_ = island;
+    take(island);
     system_ = &system;
     effort_ = effort;
     creep_ = kCreep * speed;
@@ -220,15 +197,13 @@ void IslandSolver::improve(IslandReport& report, double speed) {
     };
     for (int round = 0; goes_on(round); ++round) {
         const double before = report.residual;
-        begin_round(softness(share * before, hard), before);
         const int steps = before <= kMoves * speed ? kRefiningSteps
                           : shifts_                ? kNewtonSteps
                                                    : kStandsMore * kNewtonSteps;
-        const bool found = minimise(kExact * before, steps, report.factorisations);
-        if (found)
-            take_impulses();
-        else
-            sweep_both_ways();
+        const double soft = softness(share * before, hard);
+        const bool found = turns_ ? minimise(turning_, soft, before, steps, report.factorisations)
+                                  : minimise(plain_, soft, before, steps, report.factorisations);
+        if (!found) sweep_both_ways();
         report.residual = residual();
         if (!found && before <= kMoves * speed) return;
         if (!found)
@@ -238,6 +213,18 @@ void IslandSolver::improve(IslandReport& report, double speed) {
         else if (report.residual > kSlow * before)
             hard /= kSofter;
     }
+}
+
+/// A round: whether its minimum is found, and taken.
+template <int N>
+bool IslandSolver::minimise(IslandNewton<N>& newton, double softness, double before, int steps,
+                            std::uint32_t& factorisations) {
+    newton.begin(island_, softness, before, shifts_, creep_);
+    if (!newton.minimise(*system_, kExact * before, steps, factorisations, most_factorisations_))
+        return false;
+    // momentum is kept to rounding
+    newton.take_impulses([&](auto& what, const auto& more) { push(what, more); });
+    return true;
 }
 
 /// What rounds do not find: a ball that rolls off a wall slips along it as fast as it leaves, and
@@ -256,7 +243,7 @@ void IslandSolver::sweep_on(IslandReport& report, double speed) {
 }
 
 void IslandSolver::take_back_impulses() {
-    for (const IslandPoint& p : island_.points) push(p, -p.impulse);
+    for (const IslandPoint& p : island_.points) push(p, Vector6d(-p.impulse));
     for (IslandRow& row : island_.rows) push(row, -row.impulse);
 }
 
@@ -286,19 +273,27 @@ double IslandSolver::softness(double error, double hard) const {
     return most;
 }
 
-[[gnu::flatten]] double IslandSolver::residual() const {
+/// By how much the law is missed at the points [m/s].
+template <int N>
+double IslandSolver::residual_of_points() const {
     const double slack = shifts_ ? creep_ : kInfinity;
     double worst = 0;
     for (const IslandPoint& p : island_.points) {
-        Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
+        const ContactVector<N> impulse = p.impulse.template head<N>();
+        ContactVector<N> lack = p.wanted.template head<N>() - velocity_of<N>(p, island_.velocity);
         // what slides may lift by what the shift leaves it
-        std::array<double, 3> slow = cone_lengths(lack);
+        auto slow = cone_lengths(lack);
         for (double& x : slow) x = std::min(x, slack);
-        const double lift = slipping(p.impulse, slow, p.cone);
+        const double lift = slipping(impulse, slow, p.cone);
         if (lack[0] < 0) lack[0] = std::min(0.0, lack[0] + lift);
-        const Vector6d off = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
+        const ContactVector<N> off = lawful_step(impulse, lack, p.mass, p.cone) - impulse;
         worst = std::max(worst, off.cwiseAbs().maxCoeff() / p.mass);
     }
+    return worst;
+}
+
+double IslandSolver::residual() const {
+    double worst = turns_ ? residual_of_points<6>() : residual_of_points<3>();
     for (const IslandRow& row : island_.rows) {
         const double rate = rate_of(row, island_.velocity);
         const double off = answer_of(row, rate, row.mass).impulse - row.impulse;
@@ -308,14 +303,13 @@ double IslandSolver::softness(double error, double hard) const {
 }
 
 /// An impulse more at a point, to the velocities of its bodies.
-[[gnu::flatten]] void IslandSolver::push(const IslandPoint& p, const Vector6d& impulse) {
-    const Vector3d along = p.frame * impulse.head<3>();
-    Vector3d about = Vector3d::Zero();
-    if (p.cone.turns()) about = p.length * (p.frame * impulse.tail<3>());
+template <int N>
+void IslandSolver::push(const IslandPoint& p, const ContactVector<N>& impulse) {
+    const PointForce force(p, impulse);
     const auto push_body = [&](std::uint32_t i, const Vector3d& arm, double sign) {
         if (i == kImmovable) return;
         Vector6d sum;
-        sum << sign * along, sign * (cross<double>(arm, along) + about);
+        sum << sign * force.along, sign * (cross<double>(arm, force.along) + force.about);
         island_.velocity[i] += response(island_.bodies[i], sum);
     };
     push_body(p.a, p.arm_a, 1);
@@ -339,196 +333,26 @@ void IslandSolver::sweep(bool forwards) {
     each_in_order(island_.rows, forwards, [&](IslandRow& row) {
         push(row, answer_of(row, rate_of(row, island_.velocity), row.mass).impulse - row.impulse);
     });
-    each_in_order(island_.points, forwards, [&](IslandPoint& p) { sweep(p); });
+    each_in_order(island_.points, forwards,
+                  [&](IslandPoint& p) { turns_ ? sweep<6>(p) : sweep<3>(p); });
 }
 
 /// The normal first, then the rest within its bounds.
-[[gnu::flatten]] void IslandSolver::sweep(IslandPoint& p) {
-    Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
-    Vector6d more = Vector6d::Zero();
-    more[0] = std::clamp(p.mass_normal * lack[0], -p.impulse[0], p.cone.most - p.impulse[0]);
-    p.impulse[0] += more[0];
+template <int N>
+void IslandSolver::sweep(IslandPoint& p) {
+    const auto lack_now = [&]() -> ContactVector<N> {
+        return p.wanted.template head<N>() - velocity_of<N>(p, island_.velocity);
+    };
+    auto impulse = p.impulse.template head<N>();
+    ContactVector<N> more = ContactVector<N>::Zero();
+    more[0] = std::clamp(p.mass_normal * lack_now()[0], -impulse[0], p.cone.most - impulse[0]);
+    impulse[0] += more[0];
     push(p, more);
-    lack = p.wanted - velocity_of(p, island_.velocity);
+    ContactVector<N> lack = lack_now();
     lack[0] = 0;
-    more = lawful_step(p.impulse, lack, p.mass, p.cone) - p.impulse;
-    p.impulse += more;
+    more = lawful_step(ContactVector<N>(impulse), lack, p.mass, p.cone) - impulse;
+    impulse += more;
     push(p, more);
-}
-
-[[gnu::flatten]] void IslandSolver::begin_round(double softness, double error) {
-    change_.assign(island_.bodies.size(), Vector6d::Zero());
-    work_.resize(island_.points.size());
-    for (std::size_t k = 0; k < work_.size(); ++k) {
-        const IslandPoint& p = island_.points[k];
-        PointWork& w = work_[k];
-        w.stiffness = p.mass / softness;
-        Vector6d lack = p.wanted - velocity_of(p, island_.velocity);
-        if (shifts_) lack[0] -= slip_shift(p.impulse, lack, creep_, p.cone);
-        w.z = p.impulse + w.stiffness * lack;
-    }
-    row_work_.clear();
-    for (const IslandRow& row : island_.rows) {
-        const double hardest = row.mass / (row.drive || row.is_one_sided() ? softness : kJoint);
-        double gentle = hardest;
-        if (row.drive)
-            gentle = std::max(span_of(*row.drive) * row.length / error, row.mass / kGentle);
-        row_work_.push_back({std::min(hardest, gentle), rate_of(row, island_.velocity), 0});
-    }
-}
-
-/// Newton's method, until no body's momentum is off by more than `enough` of velocity [m/s].
-bool IslandSolver::minimise(double enough, int steps, std::uint32_t& factorisations) {
-    for (int i = 0; i < steps && factorisations < most_factorisations_; ++i) {
-        const double off = find_downhill();
-        if (off <= enough) return true;
-        assemble();
-        ++factorisations;
-        if (!system_->factor()) return false;
-        direction_ = downhill_;
-        system_->solve(direction_);
-        double decrease = 0;
-        for (std::size_t b = 0; b < direction_.size(); ++b)
-            decrease += direction_[b].dot(downhill_[b]);
-        if (!(decrease > 0)) return true;
-        for (std::size_t k = 0; k < work_.size(); ++k)
-            work_[k].direction = velocity_of(island_.points[k], direction_);
-        for (std::size_t k = 0; k < row_work_.size(); ++k)
-            row_work_[k].direction = rate_of(island_.rows[k], direction_);
-        const double step = step_length(decrease);
-        for (std::size_t b = 0; b < direction_.size(); ++b) change_[b] += step * direction_[b];
-        for (PointWork& w : work_) w.z -= (step * w.stiffness) * w.direction;
-        for (RowWork& w : row_work_) w.rate += step * w.direction;
-    }
-    return false;
-}
-
-/// The force that leads downhill, into downhill_; returns the fastest velocity that it would make,
-/// by the energy that it would give a body: turning counts by the radius of gyration.
-[[gnu::flatten]] double IslandSolver::find_downhill() {
-    downhill_.resize(island_.bodies.size());
-    for (std::size_t b = 0; b < downhill_.size(); ++b)
-        downhill_[b] = -momentum(island_.bodies[b], change_[b]);
-    for (std::size_t k = 0; k < work_.size(); ++k) {
-        const IslandPoint& p = island_.points[k];
-        add_impulse(p, nearest_on_cone(work_[k].z, p.cone).impulse - p.impulse, downhill_);
-    }
-    for (std::size_t k = 0; k < row_work_.size(); ++k) {
-        const IslandRow& row = island_.rows[k];
-        const RowWork& w = row_work_[k];
-        add_impulse(row, answer_of(row, w.rate, w.stiffness).impulse - row.impulse, downhill_);
-    }
-    double off = 0;
-    for (std::size_t b = 0; b < downhill_.size(); ++b) {
-        const IslandBody& body = island_.bodies[b];
-        off = std::max(off, downhill_[b].dot(response(body, downhill_[b])) / body.mass);
-    }
-    return std::sqrt(off);
-}
-
-/// Second derivatives, block by block: M, of each point [E, −[r]ₓ]ᵀ K [E, −[r]ₓ], and of each row
-/// on k onᵀ.
-[[gnu::flatten]] void IslandSolver::assemble() {
-    system_->clear();
-    for (std::size_t b = 0; b < island_.bodies.size(); ++b)
-        system_->add(static_cast<std::uint32_t>(b), mass_matrix(island_.bodies[b]));
-    for (std::size_t k = 0; k < work_.size(); ++k) {
-        const IslandPoint& p = island_.points[k];
-        const PointWork& w = work_[k];
-        const ConePoint at = nearest_on_cone(w.z, p.cone);
-        if (!at.pushes) continue;
-        // K in the world's frame: of forces to velocities, and between those and torques
-        Matrix3d along = w.stiffness * Matrix3d::Identity(), mixed = Matrix3d::Zero(),
-                 about = mixed;
-        if (!at.inside()) {
-            const Matrix6d d = w.stiffness * cone_derivative(w.z, at, p.cone);
-            along = p.frame * d.topLeftCorner<3, 3>() * p.frame.transpose();
-            if (p.cone.turns()) {
-                mixed = p.length * p.frame * d.topRightCorner<3, 3>() * p.frame.transpose();
-                about = p.length * p.length * p.frame * d.bottomRightCorner<3, 3>() *
-                        p.frame.transpose();
-            }
-        } else if (p.cone.turns()) {
-            about = w.stiffness * p.length * p.length * Matrix3d::Identity();
-        }
-        const Matrix3d ra = skew(p.arm_a), rb = skew(p.arm_b);
-        const auto block = [&](const Matrix3d& left, const Matrix3d& right, double sign) {
-            const Matrix3d upper = mixed - along * right, lower = mixed.transpose() + left * along;
-            Matrix6d m;
-            m << sign * along, sign * upper, sign * lower,
-                sign * (about + left * upper - mixed.transpose() * right);
-            return m;
-        };
-        if (p.a != kImmovable) system_->add(p.a, block(ra, ra, 1));
-        if (p.b != kImmovable) system_->add(p.b, block(rb, rb, 1));
-        if (p.a != kImmovable && p.b != kImmovable) system_->add(p.a, p.b, block(ra, rb, -1));
-    }
-    for (std::size_t k = 0; k < row_work_.size(); ++k) {
-        const IslandRow& row = island_.rows[k];
-        const double slope = answer_of(row, row_work_[k].rate, row_work_[k].stiffness).slope;
-        if (slope == 0) continue;
-        for (std::uint32_t i = 0; i < row.count; ++i) {
-            const RowSide& a = row.side[i];
-            system_->add(a.body, slope * a.on * a.on.transpose());
-            for (std::uint32_t j = i + 1; j < row.count; ++j)
-                system_->add(a.body, row.side[j].body, slope * a.on * row.side[j].on.transpose());
-        }
-    }
-}
-
-/// Derivative of what is minimised along the direction; rises with the step.
-[[gnu::flatten]] double IslandSolver::slope(double step) const {
-    double sum = 0;
-    for (std::size_t b = 0; b < direction_.size(); ++b)
-        sum += direction_[b].dot(momentum(island_.bodies[b], change_[b] + step * direction_[b]));
-    for (std::size_t k = 0; k < work_.size(); ++k) {
-        const PointWork& w = work_[k];
-        const IslandPoint& p = island_.points[k];
-        const Vector6d z = w.z - (step * w.stiffness) * w.direction;
-        sum -= (nearest_on_cone(z, p.cone).impulse - p.impulse).dot(w.direction);
-    }
-    for (std::size_t k = 0; k < row_work_.size(); ++k) {
-        const RowWork& w = row_work_[k];
-        const IslandRow& row = island_.rows[k];
-        const RowAnswer answer = answer_of(row, w.rate + step * w.direction, w.stiffness);
-        sum -= (answer.impulse - row.impulse) * w.direction;
-    }
-    return sum;
-}
-
-/// The step at which the slope is about 0: 1, or less.
-double IslandSolver::step_length(double decrease) const {
-    const double enough = 0.1 * decrease;
-    double low = 0, high = 1, at_low = -decrease, at_high = slope(1);
-    if (at_high <= enough) return 1;
-    double step = 1;
-    for (int i = 0; i < kLineSteps; ++i) {
-        const double guess = low - at_low * (high - low) / (at_high - at_low);
-        const double inset = 0.05 * (high - low);
-        step = std::clamp(guess, low + inset, high - inset);
-        const double s = slope(step);
-        if (std::abs(s) <= enough) break;
-        if (s > 0)
-            high = step, at_high = s;
-        else
-            low = step, at_low = s;
-    }
-    return step;
-}
-
-/// The impulses of the minimum, and the velocities that they make: momentum is kept to rounding.
-void IslandSolver::take_impulses() {
-    for (std::size_t k = 0; k < work_.size(); ++k) {
-        IslandPoint& p = island_.points[k];
-        const Vector6d more = nearest_on_cone(work_[k].z, p.cone).impulse - p.impulse;
-        p.impulse += more;
-        push(p, more);
-    }
-    for (std::size_t k = 0; k < row_work_.size(); ++k) {
-        IslandRow& row = island_.rows[k];
-        const RowWork& w = row_work_[k];
-        push(row, answer_of(row, w.rate, w.stiffness).impulse - row.impulse);
-    }
 }
 
 }  // namespace plumb

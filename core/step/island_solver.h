@@ -21,6 +21,7 @@
 #include "math/block_cholesky.h"
 #include "step/island.h"
 #include "step/island_effort.h"
+#include "step/island_newton.h"
 
 #include <algorithm>
 #include <limits>
@@ -67,7 +68,7 @@ public:
     /// is. `ask()` comes before each.
     template <class Ask>
     void sweep_anew(const Island& island, Ask ask) {
-        island_ = island;
+        take(island);
         forget(island);
         for (int i = 0; i < kSweepsAnew; ++i) ask(), sweep_both_ways();
     }
@@ -87,17 +88,7 @@ public:
 private:
     static constexpr int kSweepsAnew = 5;  ///< there and back
 
-    struct PointWork {
-        double stiffness;    ///< m/γ [kg]
-        Vector6d z;          ///< λ₀ + m/γ (w − u) at the velocities now
-        Vector6d direction;  ///< of u, along which the line is searched
-    };
-    struct RowWork {
-        double stiffness;  ///< m/γ [kg], [kg m²]
-        double rate;       ///< at the velocities now
-        double direction;  ///< of the rate
-    };
-
+    void take(const Island& island);
     void keep_row_impulses(const Island& island);
     void keep_state();
     void restore_state();
@@ -105,37 +96,37 @@ private:
     void improve(IslandReport& report, double speed);
     void sweep_on(IslandReport& report, double speed);
     double most_shift() const;
+    template <int N>
+    [[gnu::flatten]] double residual_of_points() const;
     double residual() const;
     void take_back_impulses();
     double softness(double error, double hard) const;
     void sweep_both_ways();
     void sweep(bool forwards);
-    void push(const IslandPoint& p, const Vector6d& impulse);
+    template <int N>
+    [[gnu::flatten]] void push(const IslandPoint& p, const ContactVector<N>& impulse);
     void push(IslandRow& row, double impulse);
-    void sweep(IslandPoint& p);
+    template <int N>
+    [[gnu::flatten]] void sweep(IslandPoint& p);
     void open(IslandPoint& p);
-    void begin_round(double softness, double error);
-    bool minimise(double enough, int steps, std::uint32_t& factorisations);
-    double find_downhill();
-    void assemble();
-    double slope(double step) const;
-    double step_length(double decrease) const;
-    void take_impulses();
+    template <int N>
+    bool minimise(IslandNewton<N>& newton, double softness, double before, int steps,
+                  std::uint32_t& factorisations);
 
     Island island_;
+    bool turns_ = false;  ///< whether anything resists turning at a point
+    IslandNewton<3> plain_;
+    IslandNewton<6> turning_;
     BlockCholesky* system_ = nullptr;
     double creep_ = 0;  ///< slip that is not shifted away [m/s]
     IslandEffort effort_ = IslandEffort::full;
     double enough_ = 0;  ///< up to which rounds go on [m/s]
     std::uint64_t most_factorisations_ = 0;
-    bool shifts_ = true;              ///< whether what slides is shifted (de Saxcé)
-    std::vector<PointWork> work_;     // [point]
-    std::vector<IslandPoint> apart_;  // [point] of open_apart
-    std::vector<RowWork> row_work_;   // [row]
-    std::vector<Vector6d> change_, downhill_, direction_;  // [body]
-    std::vector<Vector6d> kept_velocity_;                  // [body]
-    std::vector<Vector6d> kept_impulse_;                   // [point]
-    std::vector<double> kept_row_impulse_;                 // [row]
+    bool shifts_ = true;                    ///< whether what slides is shifted (de Saxcé)
+    std::vector<IslandPoint> apart_;        // [point] of open_apart
+    std::vector<Vector6d> kept_velocity_;   // [body]
+    std::vector<Vector6d> kept_impulse_;    // [point]
+    std::vector<double> kept_row_impulse_;  // [row]
 };
 
 }  // namespace plumb

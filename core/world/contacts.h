@@ -12,16 +12,13 @@
 
 namespace plumb {
 
-/// What a contact remembers while the same features touch.
-struct ContactMemory {
-    double normal_impulse = 0;    ///< summed over both passes of the last substep [N s]
-    double gap = 0;               ///< of the step before, where it was solved exactly [m]
-    double disputed_overlap = 0;  ///< sum of its island's when it began to be opened [m]
+/// What a contact remembers while the same features touch: two lines of memory, the first with what
+/// every step reads.
+struct alignas(64) ContactMemory {
+    double normal_impulse = 0;  ///< summed over both passes of the last substep [N s]
     Vector3d friction_impulse = Vector3d::Zero();  ///< world frame [N s]
-    Vector3d rolling_impulse = Vector3d::Zero();   ///< torque of rolling and spinning friction, of
-                                                   ///< islands solved exactly; world [N m s]
-    Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,
-    Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
+    double gap = 0;              ///< of the step before, where it was solved exactly [m]
+    float disputed_overlap = 0;  ///< sum of its island's when it began to be opened [m]
     bool sticks = false;
     bool exact = false;         ///< whether its impulses are those of an island solved exactly
     bool jammed = false;        ///< friction holds its overlap: an exact solution could not push it
@@ -34,7 +31,12 @@ struct ContactMemory {
     bool ghost = false;         ///< and others ensure what it would (contacts/ghost_contacts.h)
     bool known = false;         ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
+    Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,
+    Vector3d stick_b = Vector3d::Zero();  ///< in the bodies' frames [m]
+    Vector3d rolling_impulse = Vector3d::Zero();  ///< torque of rolling and spinning friction, of
+                                                  ///< islands solved exactly; world [N m s]
 };
+static_assert(sizeof(ContactMemory) == 128);
 
 /// Contacts with what they remember; sorted by (a, b, feature).
 struct RememberedContacts {
@@ -104,6 +106,7 @@ struct ContactTable : RememberedContacts {
     RememberedContacts fresh;        ///< those that the collider reported in this step
     RememberedContacts copy;         ///< of one pair, while its contacts change
     std::vector<std::uint8_t> used;  ///< of one pair: whether a contact has taken over the memory
+    std::vector<BodyFrame> frames;   ///< [body] at the poses now, for a walk along the pairs
     KeptContacts kept;
 
     std::uint64_t rejected =

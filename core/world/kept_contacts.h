@@ -33,6 +33,12 @@ struct ContactRide {
     Vec3 point_a, point_b, normal;  ///< [m], [m], unit
 };
 
+/// A body's centre of mass [m], and its frame's axes as columns.
+struct BodyFrame {
+    Vector3d at;
+    Matrix3d turn;
+};
+
 /// Contacts that stand side by side in the table and move together.
 struct ContactMove {
     std::uint32_t from, to, count;

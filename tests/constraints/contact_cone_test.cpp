@@ -55,6 +55,26 @@ TEST(ContactCone, LeavesItsOwnPointsAlone) {
     }
 }
 
+/// Three numbers do for what nothing keeps from turning.
+TEST(ContactCone, IsTheSameInThreeNumbersWhereNothingResistsTurning) {
+    Random random(7);
+    for (int i = 0; i < 500; ++i) {
+        ContactCone c = random_cone(random);
+        c.spinning = c.rolling = 0;
+        Vector6d z = random_vector(random, 2), lack = random_vector(random, 2);
+        z.tail<3>().setZero(), lack.tail<3>().setZero();
+        const Vector3d z3 = z.head<3>(), lack3 = lack.head<3>();
+        const auto six = nearest_on_cone(z, c);
+        const auto three = nearest_on_cone(z3, c);
+        EXPECT_EQ(three.impulse, six.impulse.head<3>());
+        EXPECT_EQ(three.inside(), six.inside());
+        EXPECT_EQ(cone_derivative(z3, three, c),
+                  (cone_derivative(z, six, c).topLeftCorner<3, 3>()));
+        EXPECT_EQ(lawful_step(z3, lack3, 2, c), lawful_step(z, lack, 2, c).head<3>());
+        EXPECT_EQ(slip_shift(three.impulse, lack3, 0.1, c), slip_shift(six.impulse, lack, 0.1, c));
+    }
+}
+
 TEST(ContactCone, HasTheDerivativeOfItsNearestPoint) {
     Random random(3);
     const double step = 1e-6;
@@ -68,7 +88,7 @@ TEST(ContactCone, HasTheDerivativeOfItsNearestPoint) {
         for (int k = 0; k < 6; ++k) {
             const Vector6d d = step * Vector6d::Unit(k);
             const ConePoint up = nearest_on_cone(z + d, c), down = nearest_on_cone(z - d, c);
-            for (const ConePoint& p : {up, down})
+            for (const auto& p : {up, down})
                 smooth &= p.pushes == at.pushes && p.slides == at.slides && p.spins == at.spins &&
                           p.rolls == at.rolls && p.strained == at.strained;
             expected.col(k) = (up.impulse - down.impulse) / (2 * step);

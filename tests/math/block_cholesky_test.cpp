@@ -31,6 +31,13 @@ void fill(const Pattern& pattern, Random& random, BlockCholesky& system, Eigen::
         dense.block<6, 6>(6 * j, 6 * j) += b.transpose() * b;
         dense.block<6, 6>(6 * i, 6 * j) += a.transpose() * b;
         dense.block<6, 6>(6 * j, 6 * i) += b.transpose() * a;
+        // a row of both bodies
+        const Vector6d x = a.row(0), y = b.row(1);
+        system.add_product(i, x, i, x), system.add_product(j, y, j, y);
+        system.add_product(i, x, j, y);
+        Eigen::VectorXd row = Eigen::VectorXd::Zero(6 * n);
+        row.segment<6>(6 * i) = x, row.segment<6>(6 * j) = y;
+        dense += row * row.transpose();
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "math/symmetric.h"
 #include "math/lanes.h"
+#include "math/matrices.h"
 #include "support/random.h"
 
 #include <gtest/gtest.h>
@@ -77,6 +78,18 @@ TEST(Symmetric, LdltIsTheSameInLanes) {
         const Vector3<float> alone =
             solve_ldlt<float>(one, Vector3<float>(c[0][lane], c[1][lane], c[2][lane]));
         for (int e = 0; e < 3; ++e) EXPECT_EQ(x[e][lane], alone[e]);
+    }
+}
+
+TEST(Matrices, ProductsWithACrossProductAreTheFullOnes) {
+    Random random(5);
+    for (int i = 0; i < 200; ++i) {
+        Matrix3d m;
+        for (double& x : m.reshaped()) x = random.number(-2, 2);
+        const Vector3d r = random.vector();
+        const double most = 1e-14 * m.norm() * r.norm();
+        EXPECT_LT((times_skew(m, r) - m * skew(r)).norm(), most);
+        EXPECT_LT((skew_times(r, m) - skew(r) * m).norm(), most);
     }
 }
 
