@@ -68,8 +68,8 @@ TEST(ContactCone, IsTheSameInThreeNumbersWhereNothingResistsTurning) {
         const auto three = nearest_on_cone(z3, c);
         EXPECT_EQ(three.impulse, six.impulse.head<3>());
         EXPECT_EQ(three.inside(), six.inside());
-        EXPECT_EQ(cone_derivative(z3, three, c),
-                  (cone_derivative(z, six, c).topLeftCorner<3, 3>()));
+        const Matrix3d of_six = cone_derivative(z, six, c).topLeftCorner<3, 3>();
+        EXPECT_LT((cone_derivative(z3, three, c) - of_six).norm(), 1e-14);
         EXPECT_EQ(lawful_step(z3, lack3, 2, c), lawful_step(z, lack, 2, c).head<3>());
         EXPECT_EQ(slip_shift(three.impulse, lack3, 0.1, c), slip_shift(six.impulse, lack, 0.1, c));
     }
