@@ -53,7 +53,8 @@ bool is_on_ground(const Bodies& b, const GroundTouch& ground, const ContactPair&
 
 }  // namespace
 
-void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, double h) {
+void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, Workers& workers,
+                  double h) {
     ContactTable& c = world.contacts;
     if (!world.settings.shared_push) {
         c.bend.clear();
@@ -61,7 +62,8 @@ void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, dou
     }
     const bool rims = plan.runs(Effect::rims);
     c.bend.resize(c.found.size());
-    for (const ContactPair& pair : c.pairs) {
+    workers.each(c.pairs.size(), [&](std::uint32_t p, std::uint32_t) {
+        const ContactPair& pair = c.pairs[p];
         const bool rides = is_on_ground(world.bodies, ground, pair) ||
                            is_turntable(world.bodies, pair.a) || is_turntable(world.bodies, pair.b);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
@@ -71,7 +73,7 @@ void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, dou
             else
                 c.bend[i] = carried ? bend_of_material(world, i, h) : Vector3d(Vector3d::Zero());
         }
-    }
+    });
 }
 
 }  // namespace plumb

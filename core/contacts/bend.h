@@ -18,6 +18,7 @@ namespace plumb {
 /// before. Of one that only now hits, the turning ends with the impact; and a heap in which bodies
 /// hang on bodies comes to rest by what their swings lose. Empties the table where velocities are
 /// those of a substep's start, as in the paper (shared_push).
-void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, double h);
+void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, Workers& workers,
+                  double h);
 
 }  // namespace plumb

@@ -23,15 +23,6 @@ inline std::size_t end_of_pair(const std::vector<Contact>& contacts, std::size_t
     return end;
 }
 
-/// Calls visit(first, end) for the runs of one pair each.
-template <class Visit>
-void each_pair(const std::vector<Contact>& contacts, Visit visit) {
-    for (std::size_t first = 0, end; first < contacts.size(); first = end) {
-        end = end_of_pair(contacts, first);
-        visit(first, end);
-    }
-}
-
 /// The table's pairs by the rows of their bodies. With levels, a pair is solved after those nearer
 /// to the ground.
 void find_pairs(const World& world, const std::vector<std::uint32_t>* levels,

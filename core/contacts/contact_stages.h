@@ -44,11 +44,11 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
 
 /// Hands each contact that was detected the memory of the same contact of the step before, and puts
 /// it among those that were kept.
-void match_contacts(World& world, const Plan& plan);
+void match_contacts(World& world, const Plan& plan, Workers& workers);
 
 /// Gaps, common points and anchor slips at the start of a substep, from points that ride on the
 /// bodies.
-void follow_contacts(World& world, const Plan& plan, bool first_substep);
+void follow_contacts(World& world, const Plan& plan, Workers& workers, bool first_substep);
 
 /// Which contacts bounce in this substep, and how fast (§6: collision or contact, after Mirtich).
 /// Speeds are those before forces are added, so that a resting body does not bounce, whatever its

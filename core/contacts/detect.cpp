@@ -39,14 +39,14 @@ bool before(const Contact& x, const Contact& y) {
 }
 
 /// Poses and motions of all bodies, and empty sinks.
-void prepare_request(World& world, DetectBuffers& buffers, double dt) {
+void prepare_request(World& world, Workers& workers, DetectBuffers& buffers, double dt) {
     const Bodies& bodies = world.bodies;
     std::vector<Pose>& poses = world.contacts.kept.seen;
     const std::size_t known = poses.size();
     poses.resize(bodies.size());
     buffers.motions.resize(bodies.size());
     buffers.sweeps.resize(bodies.size());
-    for (std::uint32_t i = 0; i < bodies.size(); ++i) {
+    workers.each(bodies.size(), [&](std::uint32_t i, std::uint32_t) {
         const Pose pose{to_plain(bodies.position[i]), to_plain(bodies.orientation[i])};
         const PoseChange change = i < known ? PoseChange::between(poses[i], pose) : PoseChange();
         poses[i] = pose;
@@ -58,7 +58,7 @@ void prepare_request(World& world, DetectBuffers& buffers, double dt) {
                               is_round(world, i),
                               has_rim(world, i),
                               is_still(bodies, i)};
-    }
+    });
     buffers.rooms.resize(std::max<std::size_t>(1, world.settings.threads));
     buffers.sinks.clear();
     for (ContactRoom& room : buffers.rooms) {
@@ -128,7 +128,7 @@ void detect(World& world, const Plan& plan, Workers& workers, Proximity& proximi
             DetectBuffers& buffers, double dt, StepReport& report, Ledger& ledger) {
     {
         const StageTimer timer(ledger, Stage::match);
-        prepare_request(world, buffers, dt);
+        prepare_request(world, workers, buffers, dt);
     }
     const bool reuse = plan.runs(Effect::contact_reuse);
     const TaskRunner runner = runner_on(workers);

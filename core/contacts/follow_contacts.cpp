@@ -37,30 +37,41 @@ double share_of_a(const Bodies& b, const Contact& c) {
     return is_sharp(c) ? 0.5 : c.radius_a > 0 ? 1 : 0;
 }
 
-void take_as_found(World& world) {
+/// What moves by itself has moved since the contacts were matched.
+void find_scripted_frames(World& world) {
+    if (world.kinematic_count == 0) return;
+    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
+        if (world.bodies.motion[i] == Motion::kinematic)
+            world.contacts.frames[i] = frame_of(world.bodies, i);
+}
+
+void take_as_found(World& world, Workers& workers) {
     ContactTable& c = world.contacts;
+    const bool rides = world.settings.substeps > 1;
     c.gap.resize(c.found.size());
     c.point.resize(c.found.size());
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        c.gap[i] = c.found[i].gap;
-        c.point[i] = common_point(c.found[i]);
-    }
-    if (world.settings.substeps == 1) return;
-    c.track.resize(c.found.size());
-    for (const ContactPair& pair : c.pairs) {
+    if (rides) c.track.resize(c.found.size());
+    workers.each(c.pairs.size(), [&](std::uint32_t p, std::uint32_t) {
+        const ContactPair& pair = c.pairs[p];
+        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+            c.gap[i] = c.found[i].gap;
+            c.point[i] = common_point(c.found[i]);
+        }
+        if (!rides) return;
         const PairPoses poses(c.frames, pair.a, pair.b);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
             c.track[i] = {poses.in_a(to_eigen(c.found[i].point_a)),
                           poses.in_b(to_eigen(c.found[i].point_b)),
                           share_of_a(world.bodies, c.found[i])};
-    }
+    });
 }
 
 /// gap = n·(a − b) − radii at the poses now, and the common point: along the normal half-way
 /// between the surfaces.
-void measure(World& world) {
+void measure(World& world, Workers& workers) {
     ContactTable& c = world.contacts;
-    for (const ContactPair& pair : c.pairs) {
+    workers.each(c.pairs.size(), [&](std::uint32_t p, std::uint32_t) {
+        const ContactPair& pair = c.pairs[p];
         const PairPoses poses(c.frames, pair.a, pair.b);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
             const Contact& contact = c.found[i];
@@ -72,7 +83,7 @@ void measure(World& world) {
             const double lead = c.track[i].share - 0.5;
             c.point[i] = 0.5 * (a + b) + lead * (apart - c.gap[i] * n);
         }
-    }
+    });
 }
 
 /// Points that a rim has rolled away from do not hold it any more: it sticks where it is now.
@@ -91,16 +102,17 @@ void let_go_of_what_rolled(World& world, const PairPoses& poses, std::size_t i) 
 /// How far apart the points have come that met when a contact began to stick. What has slid in the
 /// substep before took them along, or those of the step's beginning would pull back what comes to a
 /// stand after them. How far it had crept until then is not forgotten.
-void measure_anchor_slips(World& world, bool first_substep) {
+void measure_anchor_slips(World& world, Workers& workers, bool first_substep) {
     ContactTable& c = world.contacts;
     if (first_substep) c.anchor_slip.assign(c.found.size(), Vector3d::Zero());
     const double creep = creep_in(world.settings);
     const auto slid = [creep](const Vector3d& way, const Vector3d& normal) {
         return way.cross(normal).squaredNorm() > creep * creep;
     };
-    for (const ContactPair& pair : c.pairs) {
+    workers.each(c.pairs.size(), [&](std::uint32_t p, std::uint32_t) {
+        const ContactPair& pair = c.pairs[p];
         const auto first = c.found.begin() + pair.first;
-        if (std::none_of(first, first + pair.count, is_sharp)) continue;
+        if (std::none_of(first, first + pair.count, is_sharp)) return;
         const PairPoses poses(c.frames, pair.a, pair.b);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
             if (!is_sharp(c.found[i])) continue;
@@ -110,22 +122,24 @@ void measure_anchor_slips(World& world, bool first_substep) {
             if (!c.rims.empty()) let_go_of_what_rolled(world, poses, i);
             c.anchor_slip[i] = anchor_slip_of(poses, c.memory[i]);
         }
-    }
+    });
 }
 
 }  // namespace
 
-void follow_contacts(World& world, const Plan& plan, bool first_substep) {
+void follow_contacts(World& world, const Plan& plan, Workers& workers, bool first_substep) {
     const bool rims = plan.runs(Effect::rims);
-    if (!world.contacts.found.empty()) find_frames(world.bodies, world.contacts.frames);
     if (first_substep) {
-        take_as_found(world);
+        find_scripted_frames(world);
+        take_as_found(world, workers);
         rims ? find_rims(world) : forget_rims(world);
     } else {
         if (rims) follow_rims(world);
-        measure(world);
+        if (!world.contacts.found.empty())
+            find_frames(world.bodies, world.contacts.frames, workers);
+        measure(world, workers);
     }
-    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world, first_substep);
+    if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world, workers, first_substep);
 }
 
 }  // namespace plumb

@@ -199,7 +199,7 @@ void GhostContacts::choose(World& world) {
 }
 
 /// The contacts of each body of which one is judged; first those that just touch, which carry it.
-void GhostContacts::list_contacts(const World& world) {
+void GhostContacts::list_contacts(const World& world, Workers& workers) {
     const std::vector<Contact>& found = world.contacts.found;
     const std::vector<ContactPair>& pairs = world.contacts.pairs;
     const std::vector<Motion>& motion = world.bodies.motion;
@@ -215,12 +215,12 @@ void GhostContacts::list_contacts(const World& world) {
             for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
                 touches_[--first_[body]] = {std::abs(found[i].gap), i};
         }
-    for (std::uint32_t body = 0; body < motion.size(); ++body) {
-        if (!listed_[body]) continue;
+    workers.each(motion.size(), [&](std::uint32_t body, std::uint32_t) {
+        if (!listed_[body]) return;
         std::sort(touches_.begin() + first_[body], touches_.begin() + first_[body + 1]);
         for (std::uint32_t k = first_[body]; k < first_[body + 1]; ++k)
             planes_[k] = Plane(found[touches_[k].contact], body, touches_[k].contact);
-    }
+    });
 }
 
 /// Looks for a plane that the same part of the body is above, as another contact keeps it, and all
@@ -281,7 +281,7 @@ void GhostContacts::turn(World& world, std::uint32_t contact, std::uint32_t body
             if (planes_[k].contact == contact) planes_[k] = Plane(c, side, contact);
     KeptContacts& kept = world.contacts.kept;
     if (kept.rides.empty()) return;
-    kept.rides[contact] = PairPoses(world.bodies, c.a, c.b).put_into_bodies(c);
+    kept.rides[contact] = PairPoses(world.contacts.frames, c.a, c.b).put_into_bodies(c);
 }
 
 void GhostContacts::judge_one(World& world, std::uint32_t contact) {
@@ -299,11 +299,11 @@ void GhostContacts::judge_one(World& world, std::uint32_t contact) {
     }
 }
 
-void GhostContacts::find(World& world) {
+void GhostContacts::find(World& world, Workers& workers) {
     ContactTable& c = world.contacts;
     choose(world);
     if (!judged_.empty()) {
-        list_contacts(world);
+        list_contacts(world, workers);
         needed_.assign(c.found.size(), 0);
         is_ghost_.resize(c.found.size());
         for (std::size_t i = 0; i < c.found.size(); ++i) is_ghost_[i] = c.memory[i].ghost;

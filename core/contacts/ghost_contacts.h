@@ -11,6 +11,7 @@
 /// part is judged by its own contacts. A ghost may not rest on another one.
 #pragma once
 
+#include "schedule/workers.h"
 #include "world/world.h"
 
 #include <cstdint>
@@ -22,7 +23,7 @@ class GhostContacts {
 public:
     /// Once a step, before contacts are followed: judges those that were detected anew, into
     /// ContactMemory::ghost, and turns some. Those of pairs that were kept stay what they were.
-    void find(World& world);
+    void find(World& world, Workers& workers);
 
     /// In each substep, after the gaps are measured: nothing closes a ghost's.
     void keep_open(ContactTable& contacts) const;
@@ -44,7 +45,7 @@ private:
     };
 
     void choose(World& world);
-    void list_contacts(const World& world);
+    void list_contacts(const World& world, Workers& workers);
     void judge_one(World& world, std::uint32_t contact);
     Verdict judge(World& world, std::uint32_t contact, std::uint32_t body);
     void turn(World& world, std::uint32_t contact, std::uint32_t body, const Vector3d& n,

@@ -117,59 +117,76 @@ std::size_t skip_to(const std::vector<Contact>& contacts, std::size_t at, const 
                                     contacts.begin());
 }
 
-void match_fresh(World& world, bool anchors) {
+/// The first contact from `at` on that begins a pair.
+std::size_t next_pair(const std::vector<Contact>& contacts, std::size_t at) {
+    while (at > 0 && at < contacts.size() && bodies_of(contacts[at]) == bodies_of(contacts[at - 1]))
+        ++at;
+    return at;
+}
+
+void match_fresh(World& world, bool anchors, Workers& workers) {
     ContactTable& table = world.contacts;
     RememberedContacts& fresh = table.fresh;
     fresh.memory.resize(fresh.found.size());
-    std::size_t old = 0;
-    each_pair(fresh.found, [&](std::size_t i, std::size_t end) {
-        old = skip_to(table.found, old, fresh.found[i]);
-        const std::size_t first = old;
-        if (old < table.found.size() && bodies_of(table.found[old]) == bodies_of(fresh.found[i]))
-            old = end_of_pair(table.found, old);
-        const PairRun now(fresh, i, end), before(table, first, old);
-        match_pair(now, before, table.used);
-        if (anchors && std::any_of(now.found.begin(), now.found.end(), is_sharp))
-            anchor_pair(PairPoses(table.frames, now.found[0].a, now.found[0].b), now, before);
+    workers.run([&](std::uint32_t worker) {
+        const Range share = workers.share(static_cast<std::uint32_t>(fresh.found.size()), worker);
+        const std::size_t last = next_pair(fresh.found, share.last);
+        std::size_t old = 0;
+        for (std::size_t i = next_pair(fresh.found, share.first), end; i < last; i = end) {
+            end = end_of_pair(fresh.found, i);
+            old = skip_to(table.found, old, fresh.found[i]);
+            const std::size_t first = old;
+            if (old < table.found.size() &&
+                bodies_of(table.found[old]) == bodies_of(fresh.found[i]))
+                old = end_of_pair(table.found, old);
+            const PairRun now(fresh, i, end), before(table, first, old);
+            match_pair(now, before, table.before[worker].used);
+            if (anchors && std::any_of(now.found.begin(), now.found.end(), is_sharp))
+                anchor_pair(PairPoses(table.frames, now.found[0].a, now.found[0].b), now, before);
+        }
     });
 }
 
 /// Contacts of a pair that stay, where one of them slid or carried nothing: with a copy of what the
 /// pair remembers, for each looks at the others of before.
-void anchor_kept(ContactTable& c, const PairPoses& poses, const PairRun& now) {
+void anchor_kept(const PairPoses& poses, const PairRun& now, RememberedContacts& copy) {
     bool any = false;
     for (std::size_t i = 0; i < now.size(); ++i)
         any |= is_sharp(now.found[i]) && !now.memory[i].sticks;
     if (!any) return;
-    c.copy.found.assign(now.found.begin(), now.found.end());
-    c.copy.memory.assign(now.memory.begin(), now.memory.end());
-    anchor_pair(poses, now, PairRun(c.copy, 0, now.size()));
+    copy.found.assign(now.found.begin(), now.found.end());
+    copy.memory.assign(now.memory.begin(), now.memory.end());
+    anchor_pair(poses, now, PairRun(copy, 0, now.size()));
 }
 
 /// What stays is brought to the poses now, where it rides on; what comes rides from here.
-void ride(World& world, bool anchors) {
+void ride(World& world, bool anchors, Workers& workers) {
     ContactTable& c = world.contacts;
     KeptContacts& kept = c.kept;
-    each_moved(world, kept.stays, [&](const ContactPair& pair, const PairPoses& poses) {
+    const bool keeps = !kept.pairs.empty();
+    workers.each(c.pairs.size(), [&](std::uint32_t p, std::uint32_t worker) {
+        const ContactPair& pair = c.pairs[p];
+        if (!pair.stays && !keeps) return;
+        const PairPoses poses(c.frames, pair.a, pair.b);
         for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
-            poses.put_into_world(c.found[i], kept.rides[i]);
-        if (anchors) anchor_kept(c, poses, PairRun(c, pair));
+            if (pair.stays)
+                poses.put_into_world(c.found[i], kept.rides[i]);
+            else
+                kept.rides[i] = poses.put_into_bodies(c.found[i]);
+        if (pair.stays && anchors) anchor_kept(poses, PairRun(c, pair), c.before[worker].contacts);
     });
-    if (kept.pairs.empty()) return kept.rides.clear();
-    each_moved(world, kept.comes, [&](const ContactPair& pair, const PairPoses& poses) {
-        for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i)
-            kept.rides[i] = poses.put_into_bodies(c.found[i]);
-    });
+    if (!keeps) kept.rides.clear();
 }
 
 }  // namespace
 
-void match_contacts(World& world, const Plan& plan) {
+void match_contacts(World& world, const Plan& plan, Workers& workers) {
     const bool anchors = plan.runs(Effect::sticking_anchors);
-    find_frames(world.bodies, world.contacts.frames);
-    match_fresh(world, anchors);
+    world.contacts.before.resize(workers.count());
+    find_frames(world.bodies, world.contacts.frames, workers);
+    match_fresh(world, anchors, workers);
     put_in(world);
-    ride(world, anchors);
+    ride(world, anchors, workers);
 }
 
 }  // namespace plumb

@@ -19,7 +19,7 @@ public:
     }
 
     void stay(const KeptPair& pair) {
-        if (pair.count > 0) table_.pairs.push_back({pair.a, pair.b, new_, pair.count});
+        if (pair.count > 0) table_.pairs.push_back({pair.a, pair.b, new_, pair.count, true});
         add(kept_.stays, pair.first, pair.count);
         kept_.reused += pair.count;
     }

@@ -7,7 +7,6 @@
 /// about to go.
 #pragma once
 
-#include "contacts/pair_poses.h"
 #include "world/world.h"
 
 namespace plumb {
@@ -21,18 +20,5 @@ std::uint32_t contacts_to_be(const KeptContacts& kept);
 
 /// Puts what was detected, with its memory, among what was kept.
 void put_in(World& world);
-
-/// Calls visit(pair, poses of its bodies) for the pairs of moves, at their new places, where
-/// ContactTable::frames are.
-template <class Visit>
-void each_moved(const World& world, const std::vector<ContactMove>& moves, Visit visit) {
-    auto pair = world.contacts.pairs.begin();
-    for (const ContactMove& m : moves) {
-        while (pair->first < m.to) ++pair;
-        for (const std::uint32_t end = m.to + m.count;
-             pair != world.contacts.pairs.end() && pair->first < end; ++pair)
-            visit(*pair, PairPoses(world.contacts.frames, pair->a, pair->b));
-    }
-}
 
 }  // namespace plumb

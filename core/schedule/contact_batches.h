@@ -4,6 +4,7 @@
 
 #include "schedule/colouring.h"
 #include "schedule/contact_rows.h"
+#include "schedule/workers.h"
 
 #include <cstring>
 #include <vector>
@@ -53,10 +54,20 @@ public:
         clear(rollings_, rollings_.size());
     }
 
-    /// Calls visit(ContactPlace) for all contacts of the pairs that were laid out, in their order.
+    /// Calls visit(ContactPlace) for all contacts of the pairs that were laid out, each worker for
+    /// those in its share of the blocks: no two write to one line of memory.
     template <class Visit>
-    void each_contact(const std::vector<BodyPair>& pairs, Visit visit) const {
-        for (std::size_t p = 0; p < pairs.size(); ++p) each_contact(pairs, p, visit);
+    void each_contact(const std::vector<BodyPair>& pairs, Workers& workers, Visit visit) const {
+        each_pair(workers, [&](std::size_t p) { each_contact(pairs, p, visit); });
+    }
+    /// The same for the pairs: visit(pair).
+    template <class Visit>
+    void each_pair(Workers& workers, Visit visit) const {
+        workers.run([&](std::uint32_t worker) __attribute__((flatten)) {
+            const Range mine = workers.share(block_count(), worker);
+            for (std::size_t p = 0; p < slots_.size(); ++p)
+                if (slots_[p].block >= mine.first && slots_[p].block < mine.last) visit(p);
+        });
     }
     /// The same for those of one pair.
     template <class Visit>

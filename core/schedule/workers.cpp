@@ -4,11 +4,17 @@
 namespace plumb {
 namespace {
 
-/// Spins for a while, then lets others run: a barrier is usually a microsecond away.
+/// A barrier is usually a microsecond away: so often it is looked for before others may run.
+constexpr int kSpins = 2000;
+
+/// Then as often with a look at whether others want to run, some milliseconds: a worker that sleeps
+/// takes longer to wake than most tasks take, so it sleeps between steps and not within one.
+constexpr int kYields = 20000;
+
 template <class Condition>
 void wait_until(Condition reached) {
     for (int spins = 0; !reached(); ++spins)
-        if (spins > 2000) std::this_thread::yield();
+        if (spins > kSpins) std::this_thread::yield();
 }
 
 }  // namespace
@@ -49,8 +55,12 @@ void Workers::barrier() {
 
 void Workers::wait_for_tasks(std::uint32_t worker) {
     for (std::uint64_t seen = 0;;) {
-        for (int spins = 0; round_ == seen; ++spins)
-            if (spins > 20000) round_.wait(seen);
+        for (int spins = 0; round_ == seen; ++spins) {
+            if (spins > kSpins + kYields)
+                round_.wait(seen);
+            else if (spins > kSpins)
+                std::this_thread::yield();
+        }
         ++seen;
         if (stop_) return;
         call_(context_, worker);

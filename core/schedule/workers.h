@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <thread>
 #include <type_traits>
@@ -38,6 +39,18 @@ public:
             &task);
     }
 
+    /// Calls visit(item, worker) for `items` of them, which do not depend on each other; few are
+    /// not worth waking anybody for.
+    template <class Visit>
+    void each(std::size_t items, Visit visit) {
+        const auto n = static_cast<std::uint32_t>(items);
+        const auto visit_share = [&](Range of, std::uint32_t worker) __attribute__((flatten)) {
+            for (std::uint32_t i = of.first; i < of.last; ++i) visit(i, worker);
+        };
+        if (count_ == 1 || n < kFew) return visit_share({0, n}, 0);
+        run([&](std::uint32_t worker) { visit_share(share(n, worker), worker); });
+    }
+
     /// Inside of a task: waits until every worker has come here.
     void barrier();
 
@@ -48,6 +61,8 @@ public:
     }
 
 private:
+    static constexpr std::uint32_t kFew = 128;  ///< items that take about as long as to wake one
+
     using Call = void (*)(void* context, std::uint32_t worker);
     void run_all(Call call, void* context);
     void wait_for_tasks(std::uint32_t worker);

@@ -101,7 +101,7 @@ public:
 private:
     template <class Visit>
     void each_contact(Visit visit) const {
-        batches_.each_contact(pairs_, visit);
+        for (std::size_t p = 0; p < pairs_.size(); ++p) batches_.each_contact(pairs_, p, visit);
     }
 
     /// Each substep begins from nothing and iterates alike: what deforms is never solved to the

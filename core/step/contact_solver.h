@@ -26,6 +26,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <tuple>
 #include <vector>
 
@@ -109,6 +110,7 @@ public:
     void begin(const World& world, const BodyRows<Real>& bodies, const PassSettings<Real>& pass,
                double) override {
         clamped_ = 0;
+        std::atomic<std::uint32_t> clamped = 0;
         deep_.assign(pairs_.size(), 0);
         if (pairs_.empty()) return;
         if (!is_fresh_) move_geometry(world);
@@ -116,14 +118,14 @@ public:
         const ContactTable& c = world.contacts;
         const ContactArrays<Real, W> rows = batches_.arrays();
         const double pull = world.settings.anchor_stiffness / static_cast<double>(pass.h);
-        batches_.each_contact(pairs_, [&](const ContactPlace& at) {
+        batches_.each_contact(pairs_, workers_, [&](const ContactPlace& at) {
             const auto [contact, k, lane] = std::tuple(at.contact, at.row, at.lane);
             NormalRow<Real, W>& row = rows.normals[k];
             if (has_bounds_) bound_impulses(rows, k, lane, greatest_[at.pair]);
             const double gap = gap_to_solve_for(world, contact, pass.recovery);
             row.gap[lane] = static_cast<Real>(gap);
             row.restitution_velocity[lane] = static_cast<Real>(restitution_velocity_of(c, contact));
-            clamped_ += is_clamped(c.gap[contact], gap, pass.recovery);
+            if (is_clamped(c.gap[contact], gap, pass.recovery)) ++clamped;
             if (-c.gap[contact] > trusted_[at.pair]) {
                 damp_impulses(rows, k, lane, -c.gap[contact] / trusted_[at.pair]);
                 deep_[at.pair] = 1;
@@ -136,6 +138,7 @@ public:
             across.anchor_velocity_y[lane] =
                 static_cast<Real>(pull * y.dot(c.anchor_slip[contact]));
         });
+        clamped_ = clamped;
         run(kernels_.begin, bodies, pass);
         bend(c);
     }
@@ -317,10 +320,10 @@ private:
         return batches_.arrays().blocks[block].first_row + point;
     }
 
-    /// Calls visit(contact, row, lane) for all contacts, in their order.
+    /// Calls visit(contact, row, lane) for all contacts, on all workers.
     template <class Visit>
     void each_contact(Visit visit) {
-        batches_.each_contact(pairs_,
+        batches_.each_contact(pairs_, workers_,
                               [&](const ContactPlace& at) { visit(at.contact, at.row, at.lane); });
     }
 
@@ -371,9 +374,8 @@ private:
         workers_.run([&](std::uint32_t worker) {
             const Range blocks = workers_.share(batches_.block_count(), worker);
             kernels_.take_masses(batches_.arrays(), masses_.rows(), blocks.first, blocks.last);
-            const Range pairs = workers_.share(static_cast<std::uint32_t>(pairs_.size()), worker);
-            for (std::size_t p = pairs.first; p < pairs.last; ++p) fill(p);
         });
+        batches_.each_pair(workers_, fill);
         if (levels_) hold_lower(world);
         run(kernels_.prepare, {}, {});
     }

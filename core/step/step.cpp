@@ -48,7 +48,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     if (sleeps) timed(Stage::sleeping, [&] { renews = stepper.sleeping.let_sleep(world); });
     if (touches) {
         detect(world, plan, stepper.workers, proximity, stepper.buffers, dt, report, ledger);
-        timed(Stage::match, [&] { match_contacts(world, plan); });
+        timed(Stage::match, [&] { match_contacts(world, plan, stepper.workers); });
     }
     if (plan.runs(Effect::particle_contacts))
         timed(Stage::particle_contacts, [&] {
@@ -74,8 +74,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             timed(Stage::kinematics, [&] { move_scripted(world, h); });
         else if (world.kinematic_count > 0)
             timed(Stage::kinematics, [&] { hold_scripted(world.bodies); });
-        if (touches && first) timed(Stage::match, [&] { stepper.ghosts.find(world); });
-        timed(Stage::begin, [&] { follow_contacts(world, plan, first); });
+        if (touches && first)
+            timed(Stage::match, [&] { stepper.ghosts.find(world, stepper.workers); });
+        timed(Stage::begin, [&] { follow_contacts(world, plan, stepper.workers, first); });
         if (touches) stepper.ghosts.keep_open(world.contacts);
         if (divides) timed(Stage::divided_trees, [&] { stepper.divided.choose(world, h); });
         timed(Stage::begin, [&] { remember_velocities(world.bodies); });
@@ -97,7 +98,9 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         if (plan.runs(Effect::air_drag))
             timed(Stage::air_drag,
                   [&] { stepper.air.blow(world, stepper.workers, substep_time(world, h).push()); });
-        if (touches) timed(Stage::begin, [&] { foresee_bend(world, stepper.ground, plan, h); });
+        if (touches)
+            timed(Stage::begin,
+                  [&] { foresee_bend(world, stepper.ground, plan, stepper.workers, h); });
         if (first) timed(Stage::schedule, [&] { solver.load(world); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.solve_impacts(world, h, sums); });

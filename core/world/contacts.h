@@ -56,6 +56,13 @@ struct SleepingContacts : RememberedContacts {
 struct ContactPair {
     std::uint32_t a, b;          ///< bodies, a < b
     std::uint32_t first, count;  ///< its contacts
+    bool stays = false;          ///< its contacts were in the table before, and ride on the bodies
+};
+
+/// What a walk needs to look at a pair as it was, while its contacts change.
+struct PairBefore {
+    RememberedContacts contacts;
+    std::vector<std::uint8_t> used;  ///< whether one of now has taken over the memory
 };
 
 /// Where the points of a contact ride, for following it through substeps; body frames.
@@ -104,8 +111,7 @@ struct ContactTable : RememberedContacts {
         anchor_slip;  ///< how far a sticking contact has left its anchors [m]; else empty
 
     RememberedContacts fresh;        ///< those that the collider reported in this step
-    RememberedContacts copy;         ///< of one pair, while its contacts change
-    std::vector<std::uint8_t> used;  ///< of one pair: whether a contact has taken over the memory
+    std::vector<PairBefore> before;  ///< [worker]
     std::vector<BodyFrame> frames;   ///< [body] at the poses now, for a walk along the pairs
     KeptContacts kept;
 
