@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <map>
 #include <set>
+#include <thread>
 
 namespace plumb {
 namespace {
@@ -70,6 +73,35 @@ TEST(ContactBatches, FrictionlessScenesHaveNoTangentsInMemory) {
     batches.lay_out(pairs, colouring, ContactVariant::frictionless, kZeroRow);
     EXPECT_EQ(batches.arrays().frictions, nullptr);
     EXPECT_NE(batches.arrays().normals, nullptr);
+}
+
+/// Whoever takes a block takes all of its contacts.
+TEST(ContactBatches, WorkersVisitEachContactOnceAndShareNoBlock) {
+    const std::vector<BodyPair> pairs = hub_and_others();
+    Colouring colouring;
+    colouring.colour(pairs, kDynamic);
+    ContactBatches<float, 8> batches;
+    batches.lay_out(pairs, colouring, ContactVariant::friction, kZeroRow);
+    for (const std::uint32_t team : {1u, 2u, 3u}) {
+        Workers workers(team);
+        std::vector<std::vector<std::thread::id>> visitors(pairs.size());
+        std::vector<std::uint32_t> most(pairs.size(), 0);
+        batches.each_contact(pairs, workers, [&](const ContactPlace& at) {
+            visitors[at.pair].push_back(std::this_thread::get_id());
+            const auto slot = batches.slot(at.pair);
+            EXPECT_EQ(at.block, slot.block);
+            EXPECT_EQ(at.lane, slot.lane);
+            most[at.pair] = std::max(most[at.pair], at.row);
+        });
+        std::map<std::uint32_t, std::set<std::thread::id>> of_block;
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            EXPECT_EQ(visitors[p].size(), pairs[p].count);
+            const std::uint32_t block = batches.slot(p).block;
+            EXPECT_EQ(most[p], batches.arrays().blocks[block].first_row + pairs[p].count - 1);
+            of_block[block].insert(visitors[p].begin(), visitors[p].end());
+        }
+        for (const auto& [block, threads] : of_block) EXPECT_EQ(threads.size(), 1u);
+    }
 }
 
 }  // namespace

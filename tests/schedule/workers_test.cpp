@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace plumb {
@@ -53,6 +54,26 @@ TEST(Workers, NobodyPassesABarrierBeforeAllHaveComeToIt) {
             }
         });
         for (int e : early) EXPECT_EQ(e, 0);
+    }
+}
+
+TEST(Workers, EachVisitsAllItemsOnceOnTheWorkerWhoseShareTheyAreIn) {
+    for (std::uint32_t team : kTeams) {
+        Workers workers(team);
+        for (std::size_t items : {0u, 1u, 100u, 1000u, 10007u}) {
+            std::vector<int> visits(items, 0);
+            std::vector<std::uint32_t> by(items, 0);
+            workers.each(
+                items, [&](std::uint32_t i, std::uint32_t worker) { ++visits[i], by[i] = worker; });
+            for (std::size_t i = 0; i < items; ++i) {
+                EXPECT_EQ(visits[i], 1);
+                EXPECT_LT(by[i], team);
+            }
+            EXPECT_TRUE(std::is_sorted(by.begin(), by.end()));
+            if (items > 1000) {
+                EXPECT_EQ(by.back(), team - 1);
+            }
+        }
     }
 }
 
