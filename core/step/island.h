@@ -114,18 +114,40 @@ inline void add_impulse(const IslandRow& row, double impulse, std::span<Vector6d
 struct RowAnswer {
     double impulse, slope;
 };
-inline RowAnswer answer_of(const IslandRow& row, double rate, double stiffness) {
+
+/// All that this depends on but the rate.
+struct RowLaw {
+    const AxisDrive* drive;
+    double stiffness, moving;
+    double impulse;         ///< λ₀
+    double slope;           ///< between the bounds
+    double wanted, yields;  ///< velocity, and by how much λ₀ falls short of it
+    double lowest, highest;
+
+    RowLaw(const IslandRow& row, double stiff)
+        : drive(row.drive),
+          stiffness(stiff),
+          moving(row.moving),
+          impulse(row.impulse),
+          slope(stiff / (1 + stiff * row.softness)),
+          wanted(row.wanted),
+          yields(row.softness * row.impulse),
+          lowest(std::max(row.lowest, -row.most)),
+          highest(std::min(row.highest, row.most)) {}
+};
+inline RowAnswer answer_of(const RowLaw& row, double rate) {
     if (!row.drive) {
-        const double slope = stiffness / (1 + stiffness * row.softness);
-        const double impulse =
-            row.impulse + slope * (row.wanted - rate - row.softness * row.impulse);
-        const double within =
-            std::clamp(impulse, std::max(row.lowest, -row.most), std::min(row.highest, row.most));
-        return {within, within == impulse ? slope : 0};
+        const double impulse = row.impulse + row.slope * (row.wanted - rate - row.yields);
+        const double within = std::clamp(impulse, row.lowest, row.highest);
+        return {within, within == impulse ? row.slope : 0};
     }
+    const double stiffness = row.stiffness;
     const AxisAnswer met = answer_of(*row.drive, rate + row.moving, row.impulse, 1 / stiffness);
     const double slope = met.is_step ? stiffness : met.slope / (1 + met.slope / stiffness);
     return {met.impulse, slope};
+}
+inline RowAnswer answer_of(const IslandRow& row, double rate, double stiffness) {
+    return answer_of(RowLaw(row, stiffness), rate);
 }
 
 /// Velocities at a point, of bodies that move by `v`; those of turning are 0 where nothing resists

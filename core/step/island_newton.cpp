@@ -133,7 +133,8 @@ void IslandNewton<N>::begin(const Island& island, double softness, double error,
         double gentle = hardest;
         if (row.drive)
             gentle = std::max(span_of(*row.drive) * row.length / error, row.mass / kGentle);
-        row_work_.push_back({std::min(hardest, gentle), rate_of(row, island.velocity), 0});
+        const RowLaw law(row, std::min(hardest, gentle));
+        row_work_.push_back({law, rate_of(row, island.velocity), 0});
     }
 }
 
@@ -152,6 +153,11 @@ bool IslandNewton<N>::minimise(BlockCholesky& system, double enough, int steps,
         for (std::size_t b = 0; b < direction_.size(); ++b)
             decrease += direction_[b].dot(downhill_[b]);
         if (!(decrease > 0)) return true;
+        momentum_ = inertia_ = 0;
+        for (std::size_t b = 0; b < direction_.size(); ++b) {
+            const Vector6d along = momentum(island_.bodies[b], direction_[b]);
+            momentum_ += change_[b].dot(along), inertia_ += direction_[b].dot(along);
+        }
         for (std::size_t k = 0; k < work_.size(); ++k)
             work_[k].direction = velocity_of<N>(island_.points[k], direction_);
         for (std::size_t k = 0; k < row_work_.size(); ++k)
@@ -177,9 +183,9 @@ double IslandNewton<N>::find_downhill() {
         add_impulse(island_.points[k], more, downhill_);
     }
     for (std::size_t k = 0; k < row_work_.size(); ++k) {
-        const IslandRow& row = island_.rows[k];
         const RowWork& w = row_work_[k];
-        add_impulse(row, answer_of(row, w.rate, w.stiffness).impulse - row.impulse, downhill_);
+        const double more = w.answer(w.rate).impulse - w.law.impulse;
+        add_impulse(island_.rows[k], more, downhill_);
     }
     double off = 0;
     for (std::size_t b = 0; b < downhill_.size(); ++b) {
@@ -206,7 +212,7 @@ void IslandNewton<N>::assemble(BlockCholesky& system) const {
     }
     for (std::size_t k = 0; k < row_work_.size(); ++k) {
         const IslandRow& row = island_.rows[k];
-        const double slope = answer_of(row, row_work_[k].rate, row_work_[k].stiffness).slope;
+        const double slope = row_work_[k].answer(row_work_[k].rate).slope;
         if (slope == 0) continue;
         for (std::uint32_t i = 0; i < row.count; ++i) {
             const RowSide& a = row.side[i];
@@ -220,19 +226,13 @@ void IslandNewton<N>::assemble(BlockCholesky& system) const {
 /// Derivative of what is minimised along the direction; rises with the step.
 template <int N>
 double IslandNewton<N>::slope(double step) const {
-    double sum = 0;
-    for (std::size_t b = 0; b < direction_.size(); ++b)
-        sum += direction_[b].dot(momentum(island_.bodies[b], change_[b] + step * direction_[b]));
+    double sum = momentum_ + step * inertia_;
     for (const PointWork& w : work_) {
         const ContactVector<N> z = w.z - (step * w.stiffness) * w.direction;
         sum -= (nearest_on_cone(z, w.cone).impulse - w.impulse).dot(w.direction);
     }
-    for (std::size_t k = 0; k < row_work_.size(); ++k) {
-        const RowWork& w = row_work_[k];
-        const IslandRow& row = island_.rows[k];
-        const RowAnswer answer = answer_of(row, w.rate + step * w.direction, w.stiffness);
-        sum -= (answer.impulse - row.impulse) * w.direction;
-    }
+    for (const RowWork& w : row_work_)
+        sum -= (w.answer(w.rate + step * w.direction).impulse - w.law.impulse) * w.direction;
     return sum;
 }
 

@@ -38,8 +38,7 @@ public:
         }
         for (std::size_t k = 0; k < row_work_.size(); ++k) {
             IslandRow& row = island_.rows[k];
-            const RowWork& w = row_work_[k];
-            push(row, answer_of(row, w.rate, w.stiffness).impulse - row.impulse);
+            push(row, row_work_[k].answer(row_work_[k].rate).impulse - row.impulse);
         }
     }
 
@@ -51,10 +50,13 @@ private:
         ContactVector<N> impulse;    ///< λ₀
         ContactCone cone;
     };
+    /// Of a row, what a search along a line needs, side by side.
     struct RowWork {
-        double stiffness;  ///< m/γ [kg], [kg m²]
+        RowLaw law;        ///< with m/γ [kg], [kg m²]
         double rate;       ///< at the velocities now
         double direction;  ///< of the rate
+
+        RowAnswer answer(double at_rate) const { return answer_of(law, at_rate); }
     };
 
     [[gnu::flatten]] double find_downhill();
@@ -63,8 +65,9 @@ private:
     double step_length(double decrease) const;
 
     Island island_;
-    std::vector<PointWork> work_;                          // [point]
-    std::vector<RowWork> row_work_;                        // [row]
+    std::vector<PointWork> work_;        // [point]
+    std::vector<RowWork> row_work_;      // [row]
+    double momentum_ = 0, inertia_ = 0;  // of the change and of the direction, along the direction
     std::vector<Vector6d> change_, downhill_, direction_;  // [body]
 };
 
