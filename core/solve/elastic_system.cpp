@@ -152,7 +152,7 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
         elastic_start_ = elastic_energy_;
     }
     fall_ = h * world.settings.gravity;
-    is_first_ = true;
+    is_first_ = true, is_settled_ = false;
 }
 
 /// Volume of a balloon at the places now, and its gradient.
@@ -361,15 +361,30 @@ bool ElasticSystem::descend() {
 
 void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 
-/// Minima, each with the contacts' impulses of the one before.
+/// Minima, each with the contacts' impulses of the one before, until they change it no more.
 void ElasticSystem::go_rounds() {
-    for (std::uint32_t round = 0; round < rounds_; ++round) {
+    is_settled_ = false;
+    for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
         const bool is_there = descend();
-        if (contacts_.empty()) break;
+        if (contacts_.empty()) {
+            is_settled_ = is_there;
+            return;
+        }
         find_forces();
         // short of the minimum, forces of contacts are not near those that hold anything up
-        if (is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_) break;
+        is_settled_ = is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_;
     }
+}
+
+/// Whether anything else has changed velocities since the last call.
+bool ElasticSystem::has_moved(const std::vector<Vector3d>& velocity) const {
+    double most = 0;
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+        most = std::max(most, (velocity[i] - v_[i]).squaredNorm());
+    for (const ElasticContacts::Body& body : contacts_.bodies())
+        most = std::max({most, (body.v.v - v_[body.row]).squaredNorm(),
+                         (body.size * (body.v.w - v_[body.row + 1])).squaredNorm()});
+    return most > enough_ * enough_;
 }
 
 /// Contacts and implicit steps only take energy, but for what contacts give by themselves and what
@@ -387,6 +402,7 @@ bool ElasticSystem::gains_energy() const {
 }
 
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
+    if (is_settled_ && !has_moved(velocity)) return;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
         if (mass_[i] > 0) target_[i] -= own_[i] / mass_[i];

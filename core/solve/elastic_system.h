@@ -74,6 +74,7 @@ private:
     void guess_rest();
     bool descend();
     void go_rounds();
+    bool has_moved(const std::vector<Vector3d>& velocity) const;
     bool gains_energy() const;
     double product(const std::vector<Vector3d>& x, const std::vector<Vector3d>& y) const;
     void keep_best();
@@ -94,6 +95,7 @@ private:
     double h_ = 0, enough_ = 0;
     Vector3d fall_ = Vector3d::Zero();  ///< what gravity does in a substep [m/s]
     bool is_first_ = false;             ///< call of `solve` in this substep
+    bool is_settled_ = false;           ///< the last call found the minimum
 
     ParticlePlaces start_, x_, factored_;
     std::vector<Vector3d> own_, elastic_;  ///< [particle] impulses [N s]; forces [N]
