@@ -119,6 +119,8 @@ void each_number_of_particles(Io& io, W& world) {
         vector(io, world.particles.position[i]), vector(io, world.particles.velocity[i]);
     io.count(world.particles.factored);
     for (auto& place : world.particles.factored) vector(io, place);
+    io.count(world.particles.factored_before);
+    for (auto& place : world.particles.factored_before) vector(io, place);
     for (auto& link : world.links) {
         vector(io, link.impulse);
         io(link.island_rest.steps), io(link.island_rest.misses);

@@ -159,7 +159,7 @@ void ElasticContacts::find_force(const Vector3d& u, Contact& c, double& energy) 
     const double along = wish.dot(c.normal);
     if (along <= 0) return;
     const Vector3d across = wish - along * c.normal;
-    const double size = across.norm(), most = c.friction * along;
+    const double size = across.norm(), most = c.friction * std::max(0.0, c.p.dot(c.normal));
     c.slides = size >= most, c.held = c.slides && size > 0 ? most / size : 1;
     c.q = along * c.normal + c.held * across;
     const double friction = size > most ? 2 * most * size - most * most : size * size;

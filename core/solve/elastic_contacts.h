@@ -11,9 +11,13 @@
 ///
 ///   u  velocity of one side's point, particles' or a body's, against the other's, which is a
 ///      body's, with what the gap leaves room for along n [m/s]
-///   p  impulse on the first side as found so far [N s]; P takes it into the cone of friction
+///   p  impulse on the first side as found so far [N s]; P makes its part along n push, and that
+///      across n no greater than b = μ p_n
 ///   ρ  some times what the points resist a push with [kg], so that p is found in a few rounds
-///   φ  q_t² within the cone, 2 μ q_n |p_t − ρ u_t| − (μ q_n)² on it
+///   φ  q_t² where it sticks, 2 b |p_t − ρ u_t| − b² where it slides
+///
+/// With the friction that p_n allows, and not q_n, q follows from an energy (Haslinger 1983), or
+/// Newton's method would go round in circles. Once p has been found, both are the same.
 #pragma once
 
 #include "constraints/connector.h"

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 namespace {
@@ -14,12 +15,14 @@ constexpr double kFilling = 1e8;
 
 /// The end is reached where a step changes velocities by no more than this share of what gravity
 /// does in a substep, or of the greatest velocity, or of the size of the whole in a substep: less
-/// is rounding.
-constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6, kRounding = 1e-12;
+/// is rounding. Or by this share of that in the mean of the squares, for a single point that snaps
+/// from fold to fold holds up nothing.
+constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-4, kRounding = 1e-12;
+constexpr double kEnoughInMean = 0.1;
 
 /// Factors are kept as long as so many steps with them leave no more than this share to do.
 constexpr int kLook = 5;
-constexpr double kQuick = 0.2;
+constexpr double kQuick = 0.4;
 
 /// Minima of a substep, each with the contacts' impulses of the one before: shared among its calls,
 /// but no fewer than the least in each.
@@ -38,8 +41,12 @@ constexpr std::size_t kManyRows = 128;
 /// Steps to a minimum: a substep makes as many calls as position iterations.
 constexpr int kSteps = 20;
 
-/// A step of new factors is taken whole where no more than this share is left to do at its end.
-constexpr double kGood = 0.7;
+/// Steps with new factors are taken whole where each finds no more than this share of what the one
+/// before had to do.
+constexpr double kGood = 0.9;
+
+/// What was foreseen from earlier steps is not taken where this times as much is left at its end.
+constexpr double kTooMuch = 2;
 
 /// A line is searched until the slope is this share of that at its start.
 constexpr double kFlat = 0.2;
@@ -58,7 +65,7 @@ ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
     for (std::size_t i = 0; i < p.size(); ++i)
         mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
     h_ = world.settings.dt / world.settings.substeps;
-    for (auto* column : {&start_, &x_, &own_, &elastic_})
+    for (auto* column : {&start_, &x_, &before_step_, &own_, &elastic_})
         column->assign(p.size(), Vector3d::Zero());
     std::vector<SparseLdlt::Pair> pairs;
     for (const auto& elements : elements_) elements->add_pairs(pairs);
@@ -112,15 +119,16 @@ void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
     if (!contacts_.empty()) {
         drop_factors();
         for (std::size_t i = 0; i < p.size(); ++i) x_[i] = p.position[i] - p.position[0];
+        before_step_ = x_;
         for (const auto& elements : elements_) elements->begin(x_, h_);
         assemble_elements();
         contacts_.weigh(system_, mass_);
         return;
     }
-    if (p.factored == factored_) return;
+    if (p.factored == factored_ && p.factored_before == factored_before_) return;
     drop_factors();
-    if (p.factored.size() != p.size()) return;
-    x_ = p.factored;
+    if (p.factored.size() != p.size() || p.factored_before.size() != p.size()) return;
+    x_ = p.factored, before_step_ = p.factored_before;
     for (const auto& elements : elements_) elements->begin(x_, h_);
     factor();
 }
@@ -128,7 +136,9 @@ void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
 /// Factors with contacts in them are not those of the places alone.
 void ElasticSystem::store(World& world) {
     if (!contacts_.empty()) drop_factors();
-    if (world.particles.factored != factored_) world.particles.factored = factored_;
+    Particles& p = world.particles;
+    if (p.factored != factored_) p.factored = factored_;
+    if (p.factored_before != factored_before_) p.factored_before = factored_before_;
     contacts_.store(world);
 }
 
@@ -136,16 +146,22 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     h_ = h;
     const Particles& p = world.particles;
     double fastest = 0, furthest = 0;
+    Vector3d momentum = Vector3d::Zero();
+    free_mass_ = 0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        momentum += mass_[i] * p.velocity[i], free_mass_ += mass_[i];
+    const Vector3d mean = free_mass_ > 0 ? Vector3d(momentum / free_mass_) : momentum;
     for (std::size_t i = 0; i < p.size(); ++i) {
         start_[i] = p.position[i] - p.position[0];
         own_[i].setZero();
-        fastest = std::max(fastest, p.velocity[i].squaredNorm());
+        fastest = std::max(fastest, (p.velocity[i] - mean).squaredNorm());
         furthest = std::max(furthest, start_[i].squaredNorm());
     }
     enough_ = kEnoughOfGravity * world.settings.gravity.norm() * h +
               kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
     for (const auto& elements : elements_) elements->begin(start_, h);
     contacts_.begin(world, h, stiffness, recovery);
+    for (const ElasticContacts::Body& body : contacts_.bodies()) free_mass_ += body.mass;
     if (!contacts_.empty()) {
         x_ = start_;
         find_elastic_forces();
@@ -200,7 +216,8 @@ void ElasticSystem::assemble_elements() {
     system_.clear();
     for (std::uint32_t i = 0; i < particles(); ++i)
         system_.add(i, (mass_[i] > 0 ? mass_[i] : 1) * Matrix3d::Identity());
-    for (const auto& elements : elements_) elements->add_stiffness(x_, h_ * h_, system_);
+    for (const auto& elements : elements_)
+        elements->add_stiffness(x_, before_step_, h_ * h_, system_);
 }
 
 void ElasticSystem::assemble_balloons() {
@@ -226,14 +243,14 @@ bool ElasticSystem::factor() {
     assemble_balloons();
     contacts_.add_stiffness(mass_, balloon_pairs_, system_);
     has_factors_ = system_.factor();
-    factored_ = x_;
+    factored_ = x_, factored_before_ = before_step_;
     if (!has_factors_) drop_factors();
     return has_factors_;
 }
 
 void ElasticSystem::drop_factors() {
     has_factors_ = false;
-    factored_.clear();
+    factored_.clear(), factored_before_.clear();
 }
 
 /// Where the factors lead from here.
@@ -271,7 +288,8 @@ double ElasticSystem::slope() const {
     return sum;
 }
 
-/// From the end of a whole step to where the energy along it is least, about.
+/// From the end of a whole step to where the energy along it is least, about, which makes `way_`
+/// that much shorter.
 void ElasticSystem::search_line() {
     double low = 0, high = 1, at_high = slope();
     advance(-1);
@@ -292,67 +310,72 @@ void ElasticSystem::search_line() {
         else
             low = step, at_low = here;
     }
+    for (Vector3d& way : way_) way *= at;
+}
+
+bool ElasticSystem::is_enough(const Move& move) const {
+    return move.greatest <= enough_ || move.size <= kEnoughInMean * enough_ * std::sqrt(free_mass_);
 }
 
 /// Newton's method, in which factors are kept while they lead on, and Anderson's acceleration makes
-/// up for what their stiffness leaves out. A step is good where the same factors find less left to
-/// do at its end (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at every
-/// fold, for what moves across a stiff sheet stretches it in second order, and the next step takes
-/// that back. Where the end is not reached, the least energy of all steps stands; returns whether
-/// it was.
+/// up for what their stiffness leaves out. Whether they do is seen from what they find left to do
+/// at the end of a step (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at
+/// every fold, for what moves across a stiff sheet stretches it in second order, and the next step
+/// takes that back. Where the end is not reached, the least energy of all steps stands; returns
+/// whether it was.
 bool ElasticSystem::descend() {
     const auto dot = [this](const auto& x, const auto& y) { return product(x, y); };
     find_forces();
+    before_step_ = x_;
     keep_best();
     earlier_.clear(v_.size());
     Move move;
     bool known = false;
-    int steps = 0;       // with these factors
-    double at_look = 0;  // how far was left to go
+    int steps = 0;  // with these factors
+    // how far was left to go, with these factors and with new ones
+    double at_look = 0, at_new = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kSteps; ++i) {
-        bool fresh = false;
-        if (!has_factors_) {
+        const bool are_new = !has_factors_;
+        if (are_new) {
             if (!factor()) break;
-            fresh = true, known = false;
             steps = 0;
             earlier_.clear(v_.size());
         }
-        if (!known) move = find_direction();
-        if (steps == 0) at_look = move.size;
+        if (are_new || !known) move = find_direction();
         if (!std::isfinite(move.size)) {
             drop_factors();
             break;
         }
+        if (steps == 0) at_look = move.size;
+        const bool goes_round = are_new && !(move.size < kGood * at_new);
+        if (are_new) at_new = move.size;
+        const bool is_foreseen = !earlier_.empty();
         earlier_.find(direction_, way_, dot);
         std::swap(before_, direction_);
+        before_step_ = x_;
         advance(1);
-        if (move.greatest <= enough_) return true;
+        if (is_enough(move)) return true;
         find_forces();
-        Move next = find_direction();
-        if (!(next.size < kGood * move.size)) {
-            const bool is_worse = !(next.size < move.size);
-            if (is_worse && (!earlier_.empty() || !fresh)) {
-                // back, and on without what was foreseen, or with new factors
-                advance(-1);
-                find_forces();
-                std::swap(before_, direction_);
-                if (earlier_.empty()) drop_factors();
-                earlier_.clear(v_.size());
-                known = has_factors_;
-                continue;
-            }
-            if (earlier_.empty() && slope() > 0) {
-                search_line();
-                next = find_direction();
-            }
+        if (goes_round && slope() > 0) search_line();
+        const Move next = find_direction();
+        if (is_foreseen && !(next.size < kTooMuch * move.size)) {
+            advance(-1);
+            find_forces();
+            before_step_ = x_;
+            drop_factors();
+            continue;
         }
         if (energy_ < least_) keep_best();
+        if (!is_foreseen && !(next.size < move.size)) {
+            drop_factors();
+            continue;
+        }
         earlier_.add(way_, before_, direction_, dot);
         if (++steps % kLook == 0) {
             if (!(next.size < kQuick * at_look)) drop_factors();
             at_look = next.size;
         }
-        known = has_factors_;
+        known = true;
         move = next;
     }
     v_ = best_;

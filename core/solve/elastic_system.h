@@ -71,6 +71,7 @@ private:
     void drop_factors();
     double slope() const;
     void search_line();
+    bool is_enough(const Move& move) const;
     void guess_rest();
     bool descend();
     void go_rounds();
@@ -93,12 +94,14 @@ private:
     SparseLdlt system_;
     bool has_factors_ = false;
     double h_ = 0, enough_ = 0;
+    double free_mass_ = 0;              ///< of all that moves [kg]
     Vector3d fall_ = Vector3d::Zero();  ///< what gravity does in a substep [m/s]
     bool is_first_ = false;             ///< call of `solve` in this substep
     bool is_settled_ = false;           ///< the last call found the minimum
 
-    ParticlePlaces start_, x_, factored_;
-    std::vector<Vector3d> own_, elastic_;  ///< [particle] impulses [N s]; forces [N]
+    ParticlePlaces start_, x_, before_step_;     ///< now, and before the step that led there
+    ParticlePlaces factored_, factored_before_;  ///< the same when factors were made
+    std::vector<Vector3d> own_, elastic_;        ///< [particle] impulses [N s]; forces [N]
     /// [row of the system]: velocities and v̂ [m/s]; those of the least energy; those at the start
     /// of a call.
     std::vector<Vector3d> v_, target_, best_, begin_;
