@@ -2,6 +2,7 @@
 #include "solve/elastic_system.h"
 
 #include "kernels/front_kernels.h"
+#include "solve/contact_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,8 @@ constexpr double kFilling = 1e8;
 
 /// The end is reached where a step changes velocities by no more than this share of what gravity
 /// does in a substep, or of the greatest velocity, or of the size of the whole in a substep: less
-/// is rounding. Or by this share of that in the mean of the squares, for a single point that snaps
-/// from fold to fold holds up nothing.
+/// is rounding.
 constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-4, kRounding = 1e-12;
-constexpr double kEnoughInMean = 0.1;
 
 /// Factors are kept as long as so many steps with them leave no more than this share to do.
 constexpr int kLook = 5;
@@ -72,7 +71,7 @@ ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
     system_.order(particles(), pairs);
     for (const auto& elements : elements_) elements->find_slots(system_);
     make_balloons(world);
-    attach();
+    number_balloons();
 }
 
 void ElasticSystem::make_balloons(const World& world) {
@@ -86,10 +85,8 @@ void ElasticSystem::make_balloons(const World& world) {
 }
 
 /// The pressure that keeps a balloon's volume is an unknown of its own, for it acts on all its
-/// particles; and so are the velocities of bodies that touch sheets.
-void ElasticSystem::attach() {
-    pairs_.clear();
-    balloon_rows_ = 0;
+/// particles.
+void ElasticSystem::number_balloons() {
     for (const Balloon& balloon : balloons_) {
         if (!balloon.keeps_volume()) continue;
         for (std::uint32_t i = 0; i < balloon.count; ++i)
@@ -97,48 +94,77 @@ void ElasticSystem::attach() {
         ++balloon_rows_;
     }
     balloon_pairs_ = pairs_.size();
-    pairs_.reserve(balloon_pairs_ + contacts_.pairs().capacity());
-    pairs_.insert(pairs_.end(), contacts_.pairs().begin(), contacts_.pairs().end());
-    // as many as if all bodies touched
+    system_.attach(balloon_rows_, pairs_);
+}
+
+/// Memory for as many attached rows and pairs as there may be.
+void ElasticSystem::size_rows() {
     const std::size_t most_attached = balloon_rows_ + 2 * contacts_.bodies().capacity();
     const std::size_t most = particles() + most_attached;
     system_.reserve_attached(std::min(most_attached, kManyRows));
-    system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
     for (auto* rows : {&v_, &target_, &best_, &begin_, &force_, &direction_, &way_, &before_}) {
         rows->reserve(most);
-        rows->resize(particles() + system_.more());
-        std::fill(rows->begin(), rows->end(), Vector3d::Zero());
+        rows->assign(particles() + balloon_rows_ + contacts_.rows(), Vector3d::Zero());
     }
     earlier_.reserve(most);
-    drop_factors();
+    const std::size_t most_contacts = contacts_.contacts().capacity();
+    made_of_.bodies.reserve(contacts_.bodies().capacity());
+    made_of_.contacts.reserve(most_contacts);
+    for (auto* pairs : {&pairs_, &contact_pairs_, &pairs_now_})
+        pairs->reserve(balloon_pairs_ + 6 * most_contacts);
+}
+
+/// Only what pushes has blocks: most of what is near does not touch.
+void ElasticSystem::attach_contacts() {
+    pairs_now_.clear();
+    list_pairs(made_of_, first_body_row(), pairs_now_);
+    const std::uint32_t rows =
+        balloon_rows_ + 2 * static_cast<std::uint32_t>(made_of_.bodies.size());
+    if (rows == system_.more() && pairs_now_ == contact_pairs_) return;
+    std::swap(pairs_now_, contact_pairs_);
+    pairs_.resize(balloon_pairs_);
+    pairs_.insert(pairs_.end(), contact_pairs_.begin(), contact_pairs_.end());
+    system_.attach(rows, pairs_);
 }
 
 void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
     const Particles& p = world.particles;
-    if (has_contacts_ && contacts_.load(world, particles() + balloon_rows_, pairs)) attach();
-    if (!contacts_.empty()) {
+    if (has_contacts_) contacts_.load(world, first_body_row(), pairs);
+    size_rows();
+    new_factors_ = 0;
+    if (world.kept_factors != made_of_) {
+        has_factors_ = false;
+        made_of_ = world.kept_factors;
+    }
+    if (made_of_.places.size() != p.size() || made_of_.before.size() != p.size() ||
+        !contacts_.has_bodies_of(made_of_))
         drop_factors();
+    if (has_factors_) return;
+    const bool is_made = !made_of_.places.empty();
+    if (!is_made && contacts_.empty()) return;
+    x_ = made_of_.places, before_step_ = made_of_.before;
+    if (!is_made) {
+        x_.resize(p.size());
         for (std::size_t i = 0; i < p.size(); ++i) x_[i] = p.position[i] - p.position[0];
         before_step_ = x_;
-        for (const auto& elements : elements_) elements->begin(x_, h_);
-        assemble_elements();
-        contacts_.weigh(system_, mass_);
-        return;
     }
-    if (p.factored == factored_ && p.factored_before == factored_before_) return;
-    drop_factors();
-    if (p.factored.size() != p.size() || p.factored_before.size() != p.size()) return;
-    x_ = p.factored, before_step_ = p.factored_before;
     for (const auto& elements : elements_) elements->begin(x_, h_);
-    factor();
+    if (is_made) {
+        factor_as_made();
+    } else {
+        assemble_elements();
+        contacts_.weigh(system_);
+    }
 }
 
-/// Factors with contacts in them are not those of the places alone.
+/// Where one set of factors did not do for a step, the last does not for the next one.
 void ElasticSystem::store(World& world) {
-    if (!contacts_.empty()) drop_factors();
-    Particles& p = world.particles;
-    if (p.factored != factored_) p.factored = factored_;
-    if (p.factored_before != factored_before_) p.factored_before = factored_before_;
+    if (new_factors_ > 1) drop_factors();
+    if (world.kept_factors != made_of_) {
+        world.kept_factors.contacts.reserve(made_of_.contacts.capacity());
+        world.kept_factors.bodies.reserve(made_of_.bodies.capacity());
+        world.kept_factors = made_of_;
+    }
     contacts_.store(world);
 }
 
@@ -147,10 +173,10 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     const Particles& p = world.particles;
     double fastest = 0, furthest = 0;
     Vector3d momentum = Vector3d::Zero();
-    free_mass_ = 0;
+    double mass = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
-        momentum += mass_[i] * p.velocity[i], free_mass_ += mass_[i];
-    const Vector3d mean = free_mass_ > 0 ? Vector3d(momentum / free_mass_) : momentum;
+        momentum += mass_[i] * p.velocity[i], mass += mass_[i];
+    const Vector3d mean = mass > 0 ? Vector3d(momentum / mass) : momentum;
     for (std::size_t i = 0; i < p.size(); ++i) {
         start_[i] = p.position[i] - p.position[0];
         own_[i].setZero();
@@ -161,7 +187,6 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
               kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
     for (const auto& elements : elements_) elements->begin(start_, h);
     contacts_.begin(world, h, stiffness, recovery);
-    for (const ElasticContacts::Body& body : contacts_.bodies()) free_mass_ += body.mass;
     if (!contacts_.empty()) {
         x_ = start_;
         find_elastic_forces();
@@ -239,18 +264,27 @@ void ElasticSystem::assemble_balloons() {
 }
 
 bool ElasticSystem::factor() {
+    made_of_.places = x_, made_of_.before = before_step_;
+    contacts_.list_stiffness(made_of_);
+    ++new_factors_;
+    return factor_as_made();
+}
+
+bool ElasticSystem::factor_as_made() {
+    attach_contacts();
     assemble_elements();
+    if (has_contacts_) contacts_.weigh(system_);
     assemble_balloons();
-    contacts_.add_stiffness(mass_, balloon_pairs_, system_);
+    add_contact_stiffness(made_of_, mass_, first_body_row(), contact_pairs_, balloon_pairs_,
+                          system_);
     has_factors_ = system_.factor();
-    factored_ = x_, factored_before_ = before_step_;
     if (!has_factors_) drop_factors();
     return has_factors_;
 }
 
 void ElasticSystem::drop_factors() {
     has_factors_ = false;
-    factored_.clear(), factored_before_.clear();
+    made_of_.clear();
 }
 
 /// Where the factors lead from here.
@@ -313,10 +347,6 @@ void ElasticSystem::search_line() {
     for (Vector3d& way : way_) way *= at;
 }
 
-bool ElasticSystem::is_enough(const Move& move) const {
-    return move.greatest <= enough_ || move.size <= kEnoughInMean * enough_ * std::sqrt(free_mass_);
-}
-
 /// Newton's method, in which factors are kept while they lead on, and Anderson's acceleration makes
 /// up for what their stiffness leaves out. Whether they do is seen from what they find left to do
 /// at the end of a step (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at
@@ -354,7 +384,7 @@ bool ElasticSystem::descend() {
         std::swap(before_, direction_);
         before_step_ = x_;
         advance(1);
-        if (is_enough(move)) return true;
+        if (move.greatest <= enough_) return true;
         find_forces();
         if (goes_round && slope() > 0) search_line();
         const Move next = find_direction();
