@@ -113,12 +113,31 @@ void each_number_of_contacts_of(Io& io, W& world) {
     each_number_of_kept(io, world.asleep);
 }
 
+template <class Io, class Factors>
+void each_number_of_factors(Io& io, Factors& kept) {
+    for (auto* places : {&kept.places, &kept.before}) {
+        io.count(*places);
+        for (auto& place : *places) vector(io, place);
+    }
+    const auto matrix = [&](auto& m) {
+        for (int k = 0; k < 9; ++k) io(m.data()[k]);
+    };
+    io.count(kept.bodies);
+    for (auto& body : kept.bodies) io(body.index), io(body.mass), matrix(body.inertia);
+    io.count(kept.contacts);
+    for (auto& c : kept.contacts) {
+        io(c.points), matrix(c.stiffness);
+        for (auto& particle : c.particle) io(particle);
+        for (auto& weight : c.weight) io(weight);
+        for (auto& body : c.body) io(body);
+        for (auto& arm : c.arm) vector(io, arm);
+    }
+}
+
 template <class Io, class W>
 void each_number_of_particles(Io& io, W& world) {
     for (std::size_t i = 0; i < world.particles.size(); ++i)
         vector(io, world.particles.position[i]), vector(io, world.particles.velocity[i]);
-    io.count(world.particles.factored);
-    for (auto& place : world.particles.factored) vector(io, place);
     for (auto& link : world.links) {
         vector(io, link.impulse);
         io(link.island_rest.steps), io(link.island_rest.misses);
@@ -136,6 +155,7 @@ void each_number_of_particles(Io& io, W& world) {
         for (auto& particle : kept.particles) io(particle);
         io(kept.body), io(kept.part), io(kept.feature), io(kept.order), vector(io, kept.impulse);
     }
+    each_number_of_factors(io, world.kept_factors);
 }
 
 template <class Io, class W>
@@ -198,6 +218,21 @@ bool can_be(const SurfaceContact& c, const World& world) {
     return has_point && std::any_of(world.deformables.begin(), world.deformables.end(), has_all);
 }
 
+/// Whether all that they were made of exists.
+bool can_be(const KeptFactors& kept, const World& world) {
+    const auto has_body = [&](std::uint32_t body) {
+        return body == kNoIndex || body < kept.bodies.size();
+    };
+    return std::all_of(
+        kept.contacts.begin(), kept.contacts.end(), [&](const KeptFactors::Contact& c) {
+            return c.points <= c.particle.size() &&
+                   std::all_of(
+                       c.particle.begin(), c.particle.begin() + c.points,
+                       [&](std::uint32_t particle) { return particle < world.particles.size(); }) &&
+                   std::all_of(c.body.begin(), c.body.end(), has_body);
+        });
+}
+
 }  // namespace
 
 void write_state(const World& world, StateWriter& to) { each_number(to, world); }
@@ -215,6 +250,7 @@ void read_state(World& world, StateReader& from) {
     std::erase_if(world.elastic_impulses,
                   [](const ElasticImpulse& kept) { return !kept.impulse.allFinite(); });
     std::sort(world.elastic_impulses.begin(), world.elastic_impulses.end());
+    if (!can_be(world.kept_factors, world)) world.kept_factors.clear();
     for (Deformable& d : world.deformables)
         if (d.can_tear()) leave_out_torn(d);
 }

@@ -22,19 +22,12 @@ constexpr double kFirm = 3;
 constexpr double kBeyondReach = 1e-7;
 constexpr int kMatches = 3;
 
-/// Points of a surface that no element has in common are held no less than the whole.
-void add_between(std::uint32_t i, std::uint32_t j, const Matrix3d& block, SparseLdlt& system) {
-    if (const auto slot = system.find_slot(i, j)) return system.add(*slot, block);
-    system.add(i, block), system.add(j, block);
-}
-
 }  // namespace
 
-void ElasticContacts::weigh(const SparseLdlt& system, const std::vector<double>& mass) {
-    resistance_.assign(mass.size(), 0);
-    for (const Contact& c : contacts_)
-        for (std::uint32_t k = 0; k < c.points; ++k)
-            resistance_[c.particle[k]] = system.diagonal(c.particle[k]).trace() / 3;
+void ElasticContacts::weigh(const SparseLdlt& system) {
+    resistance_.resize(system.rows());
+    for (std::uint32_t i = 0; i < system.rows(); ++i)
+        resistance_[i] = system.diagonal(i).trace() / 3;
 }
 
 void ElasticContacts::begin(const World& world, double h, double stiffness, double recovery) {
@@ -159,19 +152,17 @@ void ElasticContacts::find_force(const Vector3d& u, Contact& c, double& energy) 
     const double along = wish.dot(c.normal);
     if (along <= 0) return;
     const Vector3d across = wish - along * c.normal;
-    const double size = across.norm(), most = c.friction * along;
+    const double size = across.norm(), most = c.friction * std::max(0.0, c.p.dot(c.normal));
     c.slides = size >= most, c.held = c.slides && size > 0 ? most / size : 1;
     c.q = along * c.normal + c.held * across;
     const double friction = size > most ? 2 * most * size - most * most : size * size;
     energy += (along * along + friction) / (2 * c.rho);
 }
 
-void ElasticContacts::add_stiffness(const std::vector<double>& mass, std::size_t first_pair,
-                                    SparseLdlt& system) const {
-    for (const Body& body : bodies_) {
-        system.add(body.row, body.mass * Matrix3d::Identity());
-        system.add(body.row + 1, body.inertia);
-    }
+void ElasticContacts::list_stiffness(KeptFactors& made_of) const {
+    made_of.bodies.clear(), made_of.contacts.clear();
+    for (const Body& body : bodies_)
+        made_of.bodies.push_back({body.index, body.mass, body.inertia});
     for (const Contact& c : contacts_) {
         const double along = c.q.dot(c.normal);
         if (!(along > 0)) continue;
@@ -185,34 +176,18 @@ void ElasticContacts::add_stiffness(const std::vector<double>& mass, std::size_t
             // along its way what slides is not held, across it as a force that turns with it
             d += c.rho * c.held *
                  (Matrix3d::Identity() - n - across * across.transpose() / (size * size));
-        for (std::uint32_t k = 0; k < c.points; ++k) {
-            if (mass[c.particle[k]] == 0) continue;
-            system.add(c.particle[k], c.weight[k] * c.weight[k] * d);
-            for (std::uint32_t l = k + 1; l < c.points; ++l)
-                if (mass[c.particle[l]] > 0)
-                    add_between(c.particle[k], c.particle[l], c.weight[k] * c.weight[l] * d,
-                                system);
-            const Side& side = c.sides[1];
-            if (side.body == kNoIndex) continue;
-            system.add_pair(first_pair + c.pair[k], -c.weight[k] * d);
-            system.add_pair(first_pair + c.pair[k] + 1, c.weight[k] * d * skew(side.arm));
-        }
-        for (const Side& side : c.sides)
-            if (side.body != kNoIndex) add_stiffness(d, side, side, system);
-        if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex)
-            add_stiffness(-d, c.sides[0], c.sides[1], system);
+        made_of.contacts.push_back({c.points,
+                                    {c.particle[0], c.particle[1], c.particle[2]},
+                                    {c.weight[0], c.weight[1], c.weight[2]},
+                                    {c.sides[0].body, c.sides[1].body},
+                                    {c.sides[0].arm, c.sides[1].arm},
+                                    d});
     }
 }
 
-/// Of a contact that holds u by d, where each side's point moves with v − r × ω.
-void ElasticContacts::add_stiffness(const Matrix3d& d, const Side& a, const Side& b,
-                                    SparseLdlt& system) const {
-    const std::uint32_t i = bodies_[a.body].row, j = bodies_[b.body].row;
-    const Matrix3d of_a = skew(a.arm), d_b = d * skew(b.arm);
-    system.add_more(i, j, d);
-    system.add_more(i, j + 1, -d_b);
-    if (i != j) system.add_more(i + 1, j, of_a * d);
-    system.add_more(i + 1, j + 1, -of_a * d_b);
+bool ElasticContacts::has_bodies_of(const KeptFactors& made_of) const {
+    return std::equal(bodies_.begin(), bodies_.end(), made_of.bodies.begin(), made_of.bodies.end(),
+                      [](const Body& x, const KeptFactors::Body& y) { return x.index == y.index; });
 }
 
 double ElasticContacts::driven_energy() const {

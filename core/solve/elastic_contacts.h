@@ -11,9 +11,13 @@
 ///
 ///   u  velocity of one side's point, particles' or a body's, against the other's, which is a
 ///      body's, with what the gap leaves room for along n [m/s]
-///   p  impulse on the first side as found so far [N s]; P takes it into the cone of friction
+///   p  impulse on the first side as found so far [N s]; P makes its part along n push, and that
+///      across n no greater than b = μ p_n
 ///   ρ  some times what the points resist a push with [kg], so that p is found in a few rounds
-///   φ  q_t² within the cone, 2 μ q_n |p_t − ρ u_t| − (μ q_n)² on it
+///   φ  q_t² where it sticks, 2 b |p_t − ρ u_t| − b² where it slides
+///
+/// With the friction that p_n allows, and not q_n, q follows from an energy (Haslinger 1983), or
+/// Newton's method would go round in circles. Once p has been found, both are the same.
 #pragma once
 
 #include "constraints/connector.h"
@@ -70,7 +74,6 @@ public:
         std::uint32_t particle[3] = {0, 0, 0};
         double weight[3] = {1, 0, 0};
         Side sides[2];
-        std::size_t pair[3] = {0, 0, 0};  ///< of particle and body's v; that with ω comes next
         double friction = 0, rho = 0;
         Vector3d normal = Vector3d::Zero();  ///< towards the first side
         Vector3d given = Vector3d::Zero();   ///< part of u that nothing changes [m/s]
@@ -87,21 +90,18 @@ public:
     explicit ElasticContacts(const Plan& plan);
 
     /// Once a step. Removes from `pairs` (of bodies) those that are solved here. Rows of bodies are
-    /// numbered from `first_row` on; returns whether other rows or pairs belong to the system than
-    /// before.
-    bool load(const World& world, std::uint32_t first_row, std::vector<BodyPair>& pairs);
+    /// numbered from `first_row` on.
+    void load(const World& world, std::uint32_t first_row, std::vector<BodyPair>& pairs);
 
     bool empty() const { return contacts_.empty(); }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(2 * bodies_.size()); }
-    /// (particle, row) with blocks in the system.
-    const std::vector<SparseLdlt::Pair>& pairs() const { return pairs_; }
     std::vector<Body>& bodies() { return bodies_; }
     const std::vector<Body>& bodies() const { return bodies_; }
     std::vector<Contact>& contacts() { return contacts_; }
     const std::vector<Contact>& contacts() const { return contacts_; }
 
-    /// How the elements resist a push on each particle [kg], once a step.
-    void weigh(const SparseLdlt& system, const std::vector<double>& mass);
+    /// How the elements that are in the system resist a push on each particle [kg].
+    void weigh(const SparseLdlt& system);
 
     /// Once a substep of length h [s]: gaps and arms. Of old overlap, `stiffness` is pushed out,
     /// and no more than `recovery` [m] of it counts.
@@ -115,9 +115,10 @@ public:
     /// Ψ [J].
     double add_forces(const std::vector<Vector3d>& target, const std::vector<Vector3d>& v,
                       std::vector<Vector3d>& force);
-    /// Adds ∂q/∂v, of the last forces; pairs were told to the system from `first_pair` on.
-    void add_stiffness(const std::vector<double>& mass, std::size_t first_pair,
-                       SparseLdlt& system) const;
+    /// Bodies, and −∂q/∂u of the last forces, into what factors are made of.
+    void list_stiffness(KeptFactors& made_of) const;
+    /// Whether these were made of the bodies that are here now.
+    bool has_bodies_of(const KeptFactors& made_of) const;
     /// p ← q; returns the greatest |p − q| / ρ before [m/s].
     double take_forces();
     /// What contacts may give by themselves, about [J]: they get out of each other, bounce, and are
@@ -139,12 +140,10 @@ private:
     void take_bodies(const World& world, std::vector<BodyPair>& pairs);
     void add(const World& world, Contact& contact, std::uint32_t a, std::uint32_t b);
     std::uint32_t body_of(const World& world, std::uint32_t body);
-    void find_pairs(std::size_t most);
     void find_reach();
     void take_kept(const World& world);
     void begin_bodies(const World& world, double h, Contact& contact) const;
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
-    void add_stiffness(const Matrix3d& d, const Side& a, const Side& b, SparseLdlt& system) const;
     Eigen::Matrix<double, 3, 6> motion_of(const Side& side) const;
     bool factor_reach();
 
@@ -153,7 +152,6 @@ private:
     std::uint32_t first_row_ = 0;
     std::vector<Body> bodies_;
     std::vector<Contact> contacts_;
-    std::vector<SparseLdlt::Pair> pairs_, pairs_before_;
     std::vector<std::uint32_t> body_of_;   ///< [world's body] in `bodies_`
     std::vector<std::uint32_t> lowest_;    ///< [world's body] a lower one of its group, or itself
     std::vector<std::uint32_t> members_;   ///< [lowest of a group] how many it has

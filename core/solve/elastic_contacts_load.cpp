@@ -61,7 +61,7 @@ ElasticImpulse key_of(const World& world, const ElasticContacts::Contact& c, std
 }
 
 /// Body and particle, or body and the body's point.
-std::tuple<std::uint32_t, std::uint32_t, std::uint64_t> place_of(const ElasticImpulse& x) {
+std::tuple<std::uint32_t, std::uint32_t, std::uint64_t> spot_of(const ElasticImpulse& x) {
     const bool is_particle = x.particles[1] == kNoIndex;
     return {x.body, is_particle ? x.particles[0] : kNoIndex, is_particle ? 0 : x.feature};
 }
@@ -97,9 +97,8 @@ ElasticContacts::ElasticContacts(const Plan& plan)
     : has_friction_(plan.runs(Effect::friction)),
       takes_bodies_(plan.runs(Effect::exact_islands) && !plan.runs(Effect::shock_propagation)) {}
 
-bool ElasticContacts::load(const World& world, std::uint32_t first_row,
+void ElasticContacts::load(const World& world, std::uint32_t first_row,
                            std::vector<BodyPair>& pairs) {
-    const std::uint32_t rows_before = rows();
     first_row_ = first_row;
     bodies_.clear(), contacts_.clear();
     contacts_.reserve(world.particle_contacts.found.capacity() + world.surface_contacts.capacity() +
@@ -108,12 +107,8 @@ bool ElasticContacts::load(const World& world, std::uint32_t first_row,
     body_of_.assign(world.bodies.size(), kNoIndex);
     add_sheet_contacts(world);
     if (takes_bodies_ && !bodies_.empty()) take_bodies(world, pairs);
-    // for as many as there is room for in the world's tables
-    find_pairs(2 * world.particle_contacts.found.capacity() +
-               6 * world.surface_contacts.capacity());
     find_reach();
     take_kept(world);
-    return rows() != rows_before || pairs_ != pairs_before_;
 }
 
 std::uint32_t ElasticContacts::body_of(const World& world, std::uint32_t body) {
@@ -217,28 +212,6 @@ void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pai
     pairs.resize(kept);
 }
 
-/// The pairs of a particle and a body, once for all contacts of theirs.
-void ElasticContacts::find_pairs(std::size_t most) {
-    std::swap(pairs_, pairs_before_);
-    pairs_.clear();
-    for (auto* pairs : {&pairs_, &pairs_before_}) pairs->reserve(most);
-    const auto row_of = [&](const Contact& c) { return bodies_[c.sides[1].body].row; };
-    for (const Contact& c : contacts_)
-        for (std::uint32_t k = 0; k < c.points; ++k)
-            if (c.sides[1].body != kNoIndex)
-                for (std::uint32_t i = 0; i < 2; ++i)
-                    pairs_.emplace_back(c.particle[k], row_of(c) + i);
-    std::sort(pairs_.begin(), pairs_.end());
-    pairs_.erase(std::unique(pairs_.begin(), pairs_.end()), pairs_.end());
-    for (Contact& c : contacts_)
-        for (std::uint32_t k = 0; k < c.points; ++k)
-            if (c.sides[1].body != kNoIndex) {
-                const SparseLdlt::Pair pair(c.particle[k], row_of(c));
-                const auto at = std::lower_bound(pairs_.begin(), pairs_.end(), pair);
-                c.pair[k] = static_cast<std::size_t>(at - pairs_.begin());
-            }
-}
-
 /// The pattern of what `match` solves.
 void ElasticContacts::find_reach() {
     std::swap(touching_, touching_before_);
@@ -279,11 +252,11 @@ void ElasticContacts::take_kept(const World& world) {
     pair_off(
         now_, before_, [](const ElasticImpulse& x) { return x.key(); }, take);
     const auto by_place = [](const ElasticImpulse* x, const ElasticImpulse* y) {
-        return std::tuple(place_of(*x), x->order) < std::tuple(place_of(*y), y->order);
+        return std::tuple(spot_of(*x), x->order) < std::tuple(spot_of(*y), y->order);
     };
     std::sort(now_.begin(), now_.end(), by_place);
     std::sort(before_.begin(), before_.end(), by_place);
-    pair_off(now_, before_, place_of, take);
+    pair_off(now_, before_, spot_of, take);
 }
 
 }  // namespace plumb

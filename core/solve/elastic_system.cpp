@@ -2,9 +2,11 @@
 #include "solve/elastic_system.h"
 
 #include "kernels/front_kernels.h"
+#include "solve/contact_stiffness.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 namespace {
@@ -15,11 +17,11 @@ constexpr double kFilling = 1e8;
 /// The end is reached where a step changes velocities by no more than this share of what gravity
 /// does in a substep, or of the greatest velocity, or of the size of the whole in a substep: less
 /// is rounding.
-constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-6, kRounding = 1e-12;
+constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-4, kRounding = 1e-12;
 
 /// Factors are kept as long as so many steps with them leave no more than this share to do.
 constexpr int kLook = 5;
-constexpr double kQuick = 0.2;
+constexpr double kQuick = 0.4;
 
 /// Minima of a substep, each with the contacts' impulses of the one before: shared among its calls,
 /// but no fewer than the least in each.
@@ -38,8 +40,12 @@ constexpr std::size_t kManyRows = 128;
 /// Steps to a minimum: a substep makes as many calls as position iterations.
 constexpr int kSteps = 20;
 
-/// A step of new factors is taken whole where no more than this share is left to do at its end.
-constexpr double kGood = 0.7;
+/// Steps with new factors are taken whole where each finds no more than this share of what the one
+/// before had to do.
+constexpr double kGood = 0.9;
+
+/// What was foreseen from earlier steps is not taken where this times as much is left at its end.
+constexpr double kTooMuch = 2;
 
 /// A line is searched until the slope is this share of that at its start.
 constexpr double kFlat = 0.2;
@@ -58,14 +64,14 @@ ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
     for (std::size_t i = 0; i < p.size(); ++i)
         mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
     h_ = world.settings.dt / world.settings.substeps;
-    for (auto* column : {&start_, &x_, &own_, &elastic_})
+    for (auto* column : {&start_, &x_, &before_step_, &own_, &elastic_})
         column->assign(p.size(), Vector3d::Zero());
     std::vector<SparseLdlt::Pair> pairs;
     for (const auto& elements : elements_) elements->add_pairs(pairs);
     system_.order(particles(), pairs);
     for (const auto& elements : elements_) elements->find_slots(system_);
     make_balloons(world);
-    attach();
+    number_balloons();
 }
 
 void ElasticSystem::make_balloons(const World& world) {
@@ -79,10 +85,8 @@ void ElasticSystem::make_balloons(const World& world) {
 }
 
 /// The pressure that keeps a balloon's volume is an unknown of its own, for it acts on all its
-/// particles; and so are the velocities of bodies that touch sheets.
-void ElasticSystem::attach() {
-    pairs_.clear();
-    balloon_rows_ = 0;
+/// particles.
+void ElasticSystem::number_balloons() {
     for (const Balloon& balloon : balloons_) {
         if (!balloon.keeps_volume()) continue;
         for (std::uint32_t i = 0; i < balloon.count; ++i)
@@ -90,45 +94,77 @@ void ElasticSystem::attach() {
         ++balloon_rows_;
     }
     balloon_pairs_ = pairs_.size();
-    pairs_.reserve(balloon_pairs_ + contacts_.pairs().capacity());
-    pairs_.insert(pairs_.end(), contacts_.pairs().begin(), contacts_.pairs().end());
-    // as many as if all bodies touched
+    system_.attach(balloon_rows_, pairs_);
+}
+
+/// Memory for as many attached rows and pairs as there may be.
+void ElasticSystem::size_rows() {
     const std::size_t most_attached = balloon_rows_ + 2 * contacts_.bodies().capacity();
     const std::size_t most = particles() + most_attached;
     system_.reserve_attached(std::min(most_attached, kManyRows));
-    system_.attach(balloon_rows_ + contacts_.rows(), pairs_);
     for (auto* rows : {&v_, &target_, &best_, &begin_, &force_, &direction_, &way_, &before_}) {
         rows->reserve(most);
-        rows->resize(particles() + system_.more());
-        std::fill(rows->begin(), rows->end(), Vector3d::Zero());
+        rows->assign(particles() + balloon_rows_ + contacts_.rows(), Vector3d::Zero());
     }
     earlier_.reserve(most);
-    drop_factors();
+    const std::size_t most_contacts = contacts_.contacts().capacity();
+    made_of_.bodies.reserve(contacts_.bodies().capacity());
+    made_of_.contacts.reserve(most_contacts);
+    for (auto* pairs : {&pairs_, &contact_pairs_, &pairs_now_})
+        pairs->reserve(balloon_pairs_ + 6 * most_contacts);
+}
+
+/// Only what pushes has blocks: most of what is near does not touch.
+void ElasticSystem::attach_contacts() {
+    pairs_now_.clear();
+    list_pairs(made_of_, first_body_row(), pairs_now_);
+    const std::uint32_t rows =
+        balloon_rows_ + 2 * static_cast<std::uint32_t>(made_of_.bodies.size());
+    if (rows == system_.more() && pairs_now_ == contact_pairs_) return;
+    std::swap(pairs_now_, contact_pairs_);
+    pairs_.resize(balloon_pairs_);
+    pairs_.insert(pairs_.end(), contact_pairs_.begin(), contact_pairs_.end());
+    system_.attach(rows, pairs_);
 }
 
 void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
     const Particles& p = world.particles;
-    if (has_contacts_ && contacts_.load(world, particles() + balloon_rows_, pairs)) attach();
-    if (!contacts_.empty()) {
-        drop_factors();
-        for (std::size_t i = 0; i < p.size(); ++i) x_[i] = p.position[i] - p.position[0];
-        for (const auto& elements : elements_) elements->begin(x_, h_);
-        assemble_elements();
-        contacts_.weigh(system_, mass_);
-        return;
+    if (has_contacts_) contacts_.load(world, first_body_row(), pairs);
+    size_rows();
+    new_factors_ = 0;
+    if (world.kept_factors != made_of_) {
+        has_factors_ = false;
+        made_of_ = world.kept_factors;
     }
-    if (p.factored == factored_) return;
-    drop_factors();
-    if (p.factored.size() != p.size()) return;
-    x_ = p.factored;
+    if (made_of_.places.size() != p.size() || made_of_.before.size() != p.size() ||
+        !contacts_.has_bodies_of(made_of_))
+        drop_factors();
+    if (has_factors_) return;
+    const bool is_made = !made_of_.places.empty();
+    if (!is_made && contacts_.empty()) return;
+    x_ = made_of_.places, before_step_ = made_of_.before;
+    if (!is_made) {
+        x_.resize(p.size());
+        for (std::size_t i = 0; i < p.size(); ++i) x_[i] = p.position[i] - p.position[0];
+        before_step_ = x_;
+    }
     for (const auto& elements : elements_) elements->begin(x_, h_);
-    factor();
+    if (is_made) {
+        factor_as_made();
+    } else {
+        assemble_elements();
+        contacts_.weigh(system_);
+    }
 }
 
-/// Factors with contacts in them are not those of the places alone.
+/// Where one set of factors did not do for a step, the last does not for the next one.
 void ElasticSystem::store(World& world) {
-    if (!contacts_.empty()) drop_factors();
-    if (world.particles.factored != factored_) world.particles.factored = factored_;
+    if (new_factors_ > 1) drop_factors();
+    if (world.kept_factors != made_of_) {
+        world.kept_factors.contacts.reserve(made_of_.contacts.capacity());
+        world.kept_factors.bodies.reserve(made_of_.bodies.capacity());
+        world.kept_factors = made_of_;
+    }
     contacts_.store(world);
 }
 
@@ -136,10 +172,15 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     h_ = h;
     const Particles& p = world.particles;
     double fastest = 0, furthest = 0;
+    Vector3d momentum = Vector3d::Zero();
+    double mass = 0;
+    for (std::size_t i = 0; i < p.size(); ++i)
+        momentum += mass_[i] * p.velocity[i], mass += mass_[i];
+    const Vector3d mean = mass > 0 ? Vector3d(momentum / mass) : momentum;
     for (std::size_t i = 0; i < p.size(); ++i) {
         start_[i] = p.position[i] - p.position[0];
         own_[i].setZero();
-        fastest = std::max(fastest, p.velocity[i].squaredNorm());
+        fastest = std::max(fastest, (p.velocity[i] - mean).squaredNorm());
         furthest = std::max(furthest, start_[i].squaredNorm());
     }
     enough_ = kEnoughOfGravity * world.settings.gravity.norm() * h +
@@ -152,7 +193,7 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
         elastic_start_ = elastic_energy_;
     }
     fall_ = h * world.settings.gravity;
-    is_first_ = true;
+    is_first_ = true, is_settled_ = false;
 }
 
 /// Volume of a balloon at the places now, and its gradient.
@@ -200,7 +241,8 @@ void ElasticSystem::assemble_elements() {
     system_.clear();
     for (std::uint32_t i = 0; i < particles(); ++i)
         system_.add(i, (mass_[i] > 0 ? mass_[i] : 1) * Matrix3d::Identity());
-    for (const auto& elements : elements_) elements->add_stiffness(x_, h_ * h_, system_);
+    for (const auto& elements : elements_)
+        elements->add_stiffness(x_, before_step_, h_ * h_, system_);
 }
 
 void ElasticSystem::assemble_balloons() {
@@ -222,18 +264,27 @@ void ElasticSystem::assemble_balloons() {
 }
 
 bool ElasticSystem::factor() {
+    made_of_.places = x_, made_of_.before = before_step_;
+    contacts_.list_stiffness(made_of_);
+    ++new_factors_;
+    return factor_as_made();
+}
+
+bool ElasticSystem::factor_as_made() {
+    attach_contacts();
     assemble_elements();
+    if (has_contacts_) contacts_.weigh(system_);
     assemble_balloons();
-    contacts_.add_stiffness(mass_, balloon_pairs_, system_);
+    add_contact_stiffness(made_of_, mass_, first_body_row(), contact_pairs_, balloon_pairs_,
+                          system_);
     has_factors_ = system_.factor();
-    factored_ = x_;
     if (!has_factors_) drop_factors();
     return has_factors_;
 }
 
 void ElasticSystem::drop_factors() {
     has_factors_ = false;
-    factored_.clear();
+    made_of_.clear();
 }
 
 /// Where the factors lead from here.
@@ -271,7 +322,8 @@ double ElasticSystem::slope() const {
     return sum;
 }
 
-/// From the end of a whole step to where the energy along it is least, about.
+/// From the end of a whole step to where the energy along it is least, about, which makes `way_`
+/// that much shorter.
 void ElasticSystem::search_line() {
     double low = 0, high = 1, at_high = slope();
     advance(-1);
@@ -292,67 +344,68 @@ void ElasticSystem::search_line() {
         else
             low = step, at_low = here;
     }
+    for (Vector3d& way : way_) way *= at;
 }
 
 /// Newton's method, in which factors are kept while they lead on, and Anderson's acceleration makes
-/// up for what their stiffness leaves out. A step is good where the same factors find less left to
-/// do at its end (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at every
-/// fold, for what moves across a stiff sheet stretches it in second order, and the next step takes
-/// that back. Where the end is not reached, the least energy of all steps stands; returns whether
-/// it was.
+/// up for what their stiffness leaves out. Whether they do is seen from what they find left to do
+/// at the end of a step (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at
+/// every fold, for what moves across a stiff sheet stretches it in second order, and the next step
+/// takes that back. Where the end is not reached, the least energy of all steps stands; returns
+/// whether it was.
 bool ElasticSystem::descend() {
     const auto dot = [this](const auto& x, const auto& y) { return product(x, y); };
     find_forces();
+    before_step_ = x_;
     keep_best();
     earlier_.clear(v_.size());
     Move move;
     bool known = false;
-    int steps = 0;       // with these factors
-    double at_look = 0;  // how far was left to go
+    int steps = 0;  // with these factors
+    // how far was left to go, with these factors and with new ones
+    double at_look = 0, at_new = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kSteps; ++i) {
-        bool fresh = false;
-        if (!has_factors_) {
+        const bool are_new = !has_factors_;
+        if (are_new) {
             if (!factor()) break;
-            fresh = true, known = false;
             steps = 0;
             earlier_.clear(v_.size());
         }
-        if (!known) move = find_direction();
-        if (steps == 0) at_look = move.size;
+        if (are_new || !known) move = find_direction();
         if (!std::isfinite(move.size)) {
             drop_factors();
             break;
         }
+        if (steps == 0) at_look = move.size;
+        const bool goes_round = are_new && !(move.size < kGood * at_new);
+        if (are_new) at_new = move.size;
+        const bool is_foreseen = !earlier_.empty();
         earlier_.find(direction_, way_, dot);
         std::swap(before_, direction_);
+        before_step_ = x_;
         advance(1);
         if (move.greatest <= enough_) return true;
         find_forces();
-        Move next = find_direction();
-        if (!(next.size < kGood * move.size)) {
-            const bool is_worse = !(next.size < move.size);
-            if (is_worse && (!earlier_.empty() || !fresh)) {
-                // back, and on without what was foreseen, or with new factors
-                advance(-1);
-                find_forces();
-                std::swap(before_, direction_);
-                if (earlier_.empty()) drop_factors();
-                earlier_.clear(v_.size());
-                known = has_factors_;
-                continue;
-            }
-            if (earlier_.empty() && slope() > 0) {
-                search_line();
-                next = find_direction();
-            }
+        if (goes_round && slope() > 0) search_line();
+        const Move next = find_direction();
+        if (is_foreseen && !(next.size < kTooMuch * move.size)) {
+            advance(-1);
+            find_forces();
+            before_step_ = x_;
+            drop_factors();
+            continue;
         }
         if (energy_ < least_) keep_best();
+        if (!is_foreseen && !(next.size < move.size)) {
+            drop_factors();
+            continue;
+        }
         earlier_.add(way_, before_, direction_, dot);
         if (++steps % kLook == 0) {
             if (!(next.size < kQuick * at_look)) drop_factors();
             at_look = next.size;
         }
-        known = has_factors_;
+        known = true;
         move = next;
     }
     v_ = best_;
@@ -361,15 +414,30 @@ bool ElasticSystem::descend() {
 
 void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 
-/// Minima, each with the contacts' impulses of the one before.
+/// Minima, each with the contacts' impulses of the one before, until they change it no more.
 void ElasticSystem::go_rounds() {
-    for (std::uint32_t round = 0; round < rounds_; ++round) {
+    is_settled_ = false;
+    for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
         const bool is_there = descend();
-        if (contacts_.empty()) break;
+        if (contacts_.empty()) {
+            is_settled_ = is_there;
+            return;
+        }
         find_forces();
         // short of the minimum, forces of contacts are not near those that hold anything up
-        if (is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_) break;
+        is_settled_ = is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_;
     }
+}
+
+/// Whether anything else has changed velocities since the last call.
+bool ElasticSystem::has_moved(const std::vector<Vector3d>& velocity) const {
+    double most = 0;
+    for (std::size_t i = 0; i < velocity.size(); ++i)
+        most = std::max(most, (velocity[i] - v_[i]).squaredNorm());
+    for (const ElasticContacts::Body& body : contacts_.bodies())
+        most = std::max({most, (body.v.v - v_[body.row]).squaredNorm(),
+                         (body.size * (body.v.w - v_[body.row + 1])).squaredNorm()});
+    return most > enough_ * enough_;
 }
 
 /// Contacts and implicit steps only take energy, but for what contacts give by themselves and what
@@ -387,6 +455,7 @@ bool ElasticSystem::gains_energy() const {
 }
 
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
+    if (is_settled_ && !has_moved(velocity)) return;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
         if (mass_[i] > 0) target_[i] -= own_[i] / mass_[i];

@@ -26,7 +26,8 @@ class ElasticSystem {
 public:
     ElasticSystem(const World& world, const Plan& plan);
 
-    /// Once a step: the factors that the step before left, and after it those that it leaves.
+    /// Once a step: the factors that the step before left, of the same bodies, and after it those
+    /// that it leaves.
     /// Removes from `pairs` (of bodies) those that are solved here.
     void load(const World& world, std::vector<BodyPair>& pairs);
     void store(World& world);
@@ -59,13 +60,16 @@ private:
     };
 
     void make_balloons(const World& world);
-    void attach();
+    void number_balloons();
+    void size_rows();
+    void attach_contacts();
     double measure(Balloon& balloon) const;
     void find_elastic_forces();
     void find_forces();
     void assemble_elements();
     void assemble_balloons();
     bool factor();
+    bool factor_as_made();
     Move find_direction();
     void advance(double step);
     void drop_factors();
@@ -74,10 +78,12 @@ private:
     void guess_rest();
     bool descend();
     void go_rounds();
+    bool has_moved(const std::vector<Vector3d>& velocity) const;
     bool gains_energy() const;
     double product(const std::vector<Vector3d>& x, const std::vector<Vector3d>& y) const;
     void keep_best();
 
+    std::uint32_t first_body_row() const { return particles() + balloon_rows_; }
     std::uint32_t particles() const { return static_cast<std::uint32_t>(mass_.size()); }
 
     std::vector<std::unique_ptr<Elements>> elements_;
@@ -85,18 +91,22 @@ private:
     std::vector<double> mass_;  ///< [particle], 0 of what stays [kg]
     ElasticContacts contacts_;
     bool has_contacts_;
-    std::uint32_t rounds_ = 0;             ///< of a call, at the most
-    std::vector<SparseLdlt::Pair> pairs_;  ///< of particles and attached rows, as told
+    std::uint32_t rounds_ = 0;  ///< of a call, at the most
+    /// Of particles and attached rows, as told: first those of balloons, then those of contacts.
+    std::vector<SparseLdlt::Pair> pairs_, contact_pairs_, pairs_now_;
     std::uint32_t balloon_rows_ = 0;
     std::size_t balloon_pairs_ = 0;
     SparseLdlt system_;
     bool has_factors_ = false;
+    int new_factors_ = 0;  ///< in this step
     double h_ = 0, enough_ = 0;
     Vector3d fall_ = Vector3d::Zero();  ///< what gravity does in a substep [m/s]
     bool is_first_ = false;             ///< call of `solve` in this substep
+    bool is_settled_ = false;           ///< the last call found the minimum
 
-    ParticlePlaces start_, x_, factored_;
-    std::vector<Vector3d> own_, elastic_;  ///< [particle] impulses [N s]; forces [N]
+    ParticlePlaces start_, x_, before_step_;  ///< now, and before the step that led there
+    KeptFactors made_of_;                     ///< the factors
+    std::vector<Vector3d> own_, elastic_;     ///< [particle] impulses [N s]; forces [N]
     /// [row of the system]: velocities and v̂ [m/s]; those of the least energy; those at the start
     /// of a call.
     std::vector<Vector3d> v_, target_, best_, begin_;

@@ -6,7 +6,9 @@
 ///
 /// which is what the rows of constraints/points.h minimise one by one. The stiffness has the
 /// squares of gradients, and how a pull stiffens an element across itself; what is left out would
-/// make it indefinite.
+/// make it indefinite. The pull is the one that the step before foresaw, as if stresses were
+/// unknowns of their own: a step across a stiff element stretches it in second order, which the
+/// next one takes back, and until then the pull is much too great.
 #pragma once
 
 #include "constraints/formulas.h"
@@ -37,9 +39,10 @@ public:
 
     /// Adds −∇E to the forces of the particles [N], and returns E [J].
     virtual double add_forces(const ParticlePlaces& x, std::vector<Vector3d>& force) const = 0;
-    /// `scale` times the stiffness [N/m]; it follows from the places and the length of the substep
-    /// alone.
-    virtual void add_stiffness(const ParticlePlaces& x, double scale, SparseLdlt& system) const = 0;
+    /// `scale` times the stiffness [N/m] at x, to which a step led from `before`; it follows from
+    /// these places and the length of the substep alone.
+    virtual void add_stiffness(const ParticlePlaces& x, const ParticlePlaces& before, double scale,
+                               SparseLdlt& system) const = 0;
 };
 
 template <class F>
@@ -111,7 +114,8 @@ public:
         return energy;
     }
 
-    void add_stiffness(const ParticlePlaces& x, double scale, SparseLdlt& system) const override {
+    void add_stiffness(const ParticlePlaces& x, const ParticlePlaces& before, double scale,
+                       SparseLdlt& system) const override {
         for (const Element& e : elements_) {
             if constexpr (Size::kIsLinear) {
                 const double k = scale * e.stiffness[0];
@@ -133,8 +137,10 @@ public:
                 Eigen::Matrix<double, kPoints, kPoints> across =
                     Eigen::Matrix<double, kPoints, kPoints>::Zero();
                 if constexpr (requires { &F::tension; }) {
+                    const Here there(e, before);
                     double force[kRows];
-                    for (int r = 0; r < kRows; ++r) force[r] = e.stiffness[r] * here.c[r];
+                    for (int r = 0; r < kRows; ++r)
+                        force[r] = e.stiffness[r] * there.foreseen(e, r, x, before);
                     across = F::tension(here.place, e.numbers, force);
                 }
                 add(e, system, [&](int i, int j) -> Matrix3d {
@@ -187,6 +193,14 @@ private:
         /// k (C − C₀) of a row.
         double force(const Element& e, int r) const {
             return e.stiffness[Size::kIsLinear ? 0 : r] * (c[r] - e.rest[r]);
+        }
+        /// C of a row at x, as its gradient at the places here foresees it.
+        double foreseen(const Element& e, int r, const ParticlePlaces& x,
+                        const ParticlePlaces& here) const {
+            double sum = c[r];
+            for (int i = 0; i < kPoints; ++i)
+                sum += rows.gradient[r][i].dot(x[e.node[i]] - here[e.node[i]]);
+            return sum;
         }
     };
 

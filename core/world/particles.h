@@ -18,8 +18,6 @@ struct Particles {
     std::vector<double> radius;              ///< [m]
     std::vector<std::uint32_t> material;
     std::vector<std::uint32_t> deformable;  ///< of which it is a point
-    std::vector<Vector3d> factored;  ///< places at which the stiffness of elastic energies was
-                                     ///< factored that is still in use, or none [m]
 
     std::size_t size() const { return position.size(); }
 };

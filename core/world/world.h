@@ -7,6 +7,7 @@
 #include "world/contacts.h"
 #include "world/elastic_impulses.h"
 #include "world/joints.h"
+#include "world/kept_factors.h"
 #include "world/links.h"
 #include "world/particle_contacts.h"
 #include "world/particles.h"
@@ -46,6 +47,7 @@ struct World {
     ParticleContactTable particle_contacts;
     std::vector<SurfaceContact> surface_contacts;
     std::vector<ElasticImpulse> elastic_impulses;  ///< sorted
+    KeptFactors kept_factors;                      ///< of deformables as one system
     ShapeStore shapes;
     std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table,
     std::int32_t kinematic_count = 0;  ///< then particles, kinematic bodies, and one row of zeros

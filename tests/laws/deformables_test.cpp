@@ -146,11 +146,11 @@ TEST_P(Deformables, KeepTheirFactorsAtRest) {
         hold(s, 1, {0, 1, 2, 3});
         Simulation simulation(s, colliders(), "reference");
         run_for(simulation, 0.05);
-        const std::vector<Vector> factored = simulation.world().particles.factored;
+        const std::vector<Vector> factored = simulation.world().kept_factors.places;
         EXPECT_EQ(factored.size(), simulation.world().particles.size());
         run_for(simulation, 0.2);
         if (gravity == 0) {
-            EXPECT_EQ(simulation.world().particles.factored, factored);
+            EXPECT_EQ(simulation.world().kept_factors.places, factored);
         }
     }
 }
