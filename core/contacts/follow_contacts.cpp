@@ -37,14 +37,6 @@ double share_of_a(const Bodies& b, const Contact& c) {
     return is_sharp(c) ? 0.5 : c.radius_a > 0 ? 1 : 0;
 }
 
-/// What moves by itself has moved since the contacts were matched.
-void find_scripted_frames(World& world) {
-    if (world.kinematic_count == 0) return;
-    for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-        if (world.bodies.motion[i] == Motion::kinematic)
-            world.contacts.frames[i] = frame_of(world.bodies, i);
-}
-
 void take_as_found(World& world, Workers& workers) {
     ContactTable& c = world.contacts;
     const bool rides = world.settings.substeps > 1;
@@ -129,14 +121,15 @@ void measure_anchor_slips(World& world, Workers& workers, bool first_substep) {
 
 void follow_contacts(World& world, const Plan& plan, Workers& workers, bool first_substep) {
     const bool rims = plan.runs(Effect::rims);
+    std::vector<BodyFrame>& frames = world.contacts.frames;
+    // those of the first substep are known where contacts were matched
+    if (!first_substep || frames.size() != world.bodies.size())
+        find_frames(world.bodies, frames, workers);
     if (first_substep) {
-        find_scripted_frames(world);
         take_as_found(world, workers);
         rims ? find_rims(world) : forget_rims(world);
     } else {
         if (rims) follow_rims(world);
-        if (!world.contacts.found.empty())
-            find_frames(world.bodies, world.contacts.frames, workers);
         measure(world, workers);
     }
     if (plan.runs(Effect::sticking_anchors)) measure_anchor_slips(world, workers, first_substep);

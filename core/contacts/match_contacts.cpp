@@ -124,12 +124,22 @@ std::size_t next_pair(const std::vector<Contact>& contacts, std::size_t at) {
     return at;
 }
 
+/// Any pair may come to any worker.
+void make_room_for_pairs(ContactTable& c, Workers& workers) {
+    std::uint32_t most = 0;
+    for (const ContactPair& pair : c.pairs) most = std::max(most, pair.count);
+    c.before.resize(workers.count());
+    for (PairBefore& pair : c.before) {
+        pair.used.reserve(most);
+        pair.contacts.found.reserve(most), pair.contacts.memory.reserve(most);
+    }
+}
+
 void match_fresh(World& world, bool anchors, Workers& workers) {
     ContactTable& table = world.contacts;
     RememberedContacts& fresh = table.fresh;
     fresh.memory.resize(fresh.found.size());
-    workers.run([&](std::uint32_t worker) {
-        const Range share = workers.share(static_cast<std::uint32_t>(fresh.found.size()), worker);
+    workers.share_out(fresh.found.size(), [&](Range share, std::uint32_t worker) {
         const std::size_t last = next_pair(fresh.found, share.last);
         std::size_t old = 0;
         for (std::size_t i = next_pair(fresh.found, share.first), end; i < last; i = end) {
@@ -182,7 +192,7 @@ void ride(World& world, bool anchors, Workers& workers) {
 
 void match_contacts(World& world, const Plan& plan, Workers& workers) {
     const bool anchors = plan.runs(Effect::sticking_anchors);
-    world.contacts.before.resize(workers.count());
+    make_room_for_pairs(world.contacts, workers);
     find_frames(world.bodies, world.contacts.frames, workers);
     match_fresh(world, anchors, workers);
     put_in(world);

@@ -63,11 +63,12 @@ public:
     /// The same for the pairs: visit(pair).
     template <class Visit>
     void each_pair(Workers& workers, Visit visit) const {
-        workers.run([&](std::uint32_t worker) __attribute__((flatten)) {
-            const Range mine = workers.share(block_count(), worker);
+        const auto visit_of = [&](Range blocks) __attribute__((flatten)) {
             for (std::size_t p = 0; p < slots_.size(); ++p)
-                if (slots_[p].block >= mine.first && slots_[p].block < mine.last) visit(p);
-        });
+                if (slots_[p].block >= blocks.first && slots_[p].block < blocks.last) visit(p);
+        };
+        if (slots_.size() < Workers::kFew) return visit_of({0, block_count()});
+        workers.run([&](std::uint32_t worker) { visit_of(workers.share(block_count(), worker)); });
     }
     /// The same for those of one pair.
     template <class Visit>

@@ -4,12 +4,12 @@
 namespace plumb {
 namespace {
 
-/// A barrier is usually a microsecond away: so often it is looked for before others may run.
+/// So often a condition is looked for before others may run: a barrier is usually a microsecond
+/// away.
 constexpr int kSpins = 2000;
 
-/// Then as often with a look at whether others want to run, some milliseconds: a worker that sleeps
-/// takes longer to wake than most tasks take, so it sleeps between steps and not within one.
-constexpr int kYields = 20000;
+/// So often a worker looks for the next step's first task before it sleeps.
+constexpr int kIdleSpins = 20000;
 
 template <class Condition>
 void wait_until(Condition reached) {
@@ -55,11 +55,12 @@ void Workers::barrier() {
 
 void Workers::wait_for_tasks(std::uint32_t worker) {
     for (std::uint64_t seen = 0;;) {
-        for (int spins = 0; round_ == seen; ++spins) {
-            if (spins > kSpins + kYields)
+        for (int spins = 0, idle = 0; round_ == seen;) {
+            if (awake_)
+                idle = 0;
+            else if (++idle > kIdleSpins)
                 round_.wait(seen);
-            else if (spins > kSpins)
-                std::this_thread::yield();
+            if (awake_ && ++spins > kSpins) std::this_thread::yield();
         }
         ++seen;
         if (stop_) return;

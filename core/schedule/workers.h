@@ -39,16 +39,34 @@ public:
             &task);
     }
 
-    /// Calls visit(item, worker) for `items` of them, which do not depend on each other; few are
-    /// not worth waking anybody for.
+    /// While it lives, idle workers look for tasks and do not sleep: to wake one takes longer than
+    /// most tasks of a step.
+    class Awake {
+    public:
+        explicit Awake(Workers& workers) : workers_(workers) { workers_.awake_ = true; }
+        ~Awake() { workers_.awake_ = false; }
+        Awake(const Awake&) = delete;
+        Awake& operator=(const Awake&) = delete;
+
+    private:
+        Workers& workers_;
+    };
+
+    /// Calls task(range, worker) for the shares of `items`; few are not worth waking anybody for.
+    template <class Task>
+    void share_out(std::size_t items, Task&& task) {
+        const auto n = static_cast<std::uint32_t>(items);
+        if (count_ == 1 || n < kFew) return task(Range{0, n}, 0u);
+        run([&](std::uint32_t worker) { task(share(n, worker), worker); });
+    }
+
+    /// Calls visit(item, worker) for `items` of them, which do not depend on each other.
     template <class Visit>
     void each(std::size_t items, Visit visit) {
-        const auto n = static_cast<std::uint32_t>(items);
-        const auto visit_share = [&](Range of, std::uint32_t worker) __attribute__((flatten)) {
-            for (std::uint32_t i = of.first; i < of.last; ++i) visit(i, worker);
-        };
-        if (count_ == 1 || n < kFew) return visit_share({0, n}, 0);
-        run([&](std::uint32_t worker) { visit_share(share(n, worker), worker); });
+        share_out(
+            items, [&](Range of, std::uint32_t worker) __attribute__((flatten)) {
+                for (std::uint32_t i = of.first; i < of.last; ++i) visit(i, worker);
+            });
     }
 
     /// Inside of a task: waits until every worker has come here.
@@ -60,9 +78,9 @@ public:
                 static_cast<std::uint32_t>(std::uint64_t(items) * (worker + 1) / count_)};
     }
 
-private:
-    static constexpr std::uint32_t kFew = 128;  ///< items that take about as long as to wake one
+    static constexpr std::uint32_t kFew = 128;  ///< items that take about as long as to call one
 
+private:
     using Call = void (*)(void* context, std::uint32_t worker);
     void run_all(Call call, void* context);
     void wait_for_tasks(std::uint32_t worker);
@@ -72,6 +90,7 @@ private:
     void* context_ = nullptr;
     std::atomic<std::uint64_t> round_{0};
     std::atomic<std::uint32_t> running_{0};
+    std::atomic<bool> awake_{false};
     std::atomic<bool> stop_{false};
     std::atomic<std::uint32_t> arrived_{0};
     std::atomic<std::uint64_t> barriers_{0};

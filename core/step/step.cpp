@@ -29,6 +29,7 @@ bool is_finite(const World& world) {
 /// sliding.
 StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
     const auto start = std::chrono::steady_clock::now();
+    const Workers::Awake awake(stepper.workers);
     StepReport report;
     Ledger& ledger = stepper.ledger = {};
     ledger.mark = start;

@@ -28,6 +28,25 @@ Scene box_at_rest(std::uint32_t substeps, bool exact, Precision precision) {
     return s;
 }
 
+/// What moves by itself does so where nothing can touch, or touching is forbidden.
+TEST(Contacts, AreNotNeededForWhatMovesByItself) {
+    for (const std::uint32_t substeps : {1u, 4u})
+        for (const bool forbidden : {false, true})
+            for (const std::uint32_t threads : {1u, 3u}) {
+                Scene s;
+                s.settings.substeps = substeps, s.settings.threads = threads;
+                if (forbidden) s.settings.forbid = {"contacts"};
+                BodySpec& plate = add_body(s, box(1, 0.1, 1), {0, 0, 0}, Motion::kinematic);
+                plate.velocity = {0.5, 0, 0};
+                BodySpec& falls = add_body(s, box(0.1, 0.1, 0.1), {0, 0.15, 0});
+                if (!forbidden) s.bodies[0].mask = falls.mask = 0;
+                Simulation simulation(s, colliders(), "reference");
+                for (int i = 0; i < 50; ++i) simulation.step();
+                EXPECT_NEAR(simulation.world().bodies.position[0].x(), 0.25, 1e-9);
+                EXPECT_NEAR(simulation.world().bodies.velocity[1].y(), -kGravity * 0.5, 1e-9);
+            }
+}
+
 class ContactWeights : public testing::TestWithParam<std::tuple<std::uint32_t, bool>> {};
 
 TEST_P(ContactWeights, ABoxAtRestBearsItsWeight) {
