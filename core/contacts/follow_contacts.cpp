@@ -123,8 +123,8 @@ void follow_contacts(World& world, const Plan& plan, Workers& workers, bool firs
     const bool rims = plan.runs(Effect::rims);
     std::vector<BodyFrame>& frames = world.contacts.frames;
     // those of the first substep are known where contacts were matched
-    if (!first_substep || frames.size() != world.bodies.size())
-        find_frames(world.bodies, frames, workers);
+    const bool are_known = first_substep && frames.size() == world.bodies.size();
+    if (!world.contacts.found.empty() && !are_known) find_frames(world.bodies, frames, workers);
     if (first_substep) {
         take_as_found(world, workers);
         rims ? find_rims(world) : forget_rims(world);
