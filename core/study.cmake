@@ -1,7 +1,7 @@
 # plumb::study: what accuracy costs in time. Cases with known answers, sweeps over settings, and what they tell.
 add_library(plumb_study STATIC
   study/cases.cpp study/two_rods.cpp study/cases/bounces.cpp study/cases/chains.cpp study/cases/double_pendulum.cpp
-  study/cases/friction.cpp study/cases/gears.cpp study/cases/parabola.cpp study/cases/pendulum.cpp study/cases/rolling.cpp
+  study/cases/friction.cpp study/cases/gears.cpp study/cases/heaps.cpp study/cases/masonry.cpp study/cases/parabola.cpp study/cases/pendulum.cpp study/cases/robots.cpp study/cases/rolling.cpp
   study/cases/springs.cpp study/cases/stack.cpp study/cases/tops.cpp
   study/cases/balloons.cpp study/cases/beams.cpp study/cases/cloth.cpp study/cases/ropes.cpp
   study/comparison.cpp study/comparison_rows.cpp study/findings.cpp study/free_run.cpp study/gauges.cpp study/journal.cpp study/point.cpp study/run_point.cpp study/self_reference.cpp

@@ -15,10 +15,8 @@ bool can_be_drawn(const Row& r) {
     return r.status == Status::done && !r.errors.empty() && !r.costs.empty();
 }
 
-/// How fine a row is: substeps, iterations, or steps per second.
-double fineness(const Row& r) {
-    return r.point.ladder == Ladder::step ? 1 / r.point.value : r.point.value;
-}
+/// How fine a row is: substeps, iterations, steps per second, or 1/accuracy.
+double fineness(const Row& r) { return falls(r.point.ladder) ? 1 / r.point.value : r.point.value; }
 
 /// Whether the point is what a user would choose, rather than a departure switched off to see what
 /// it buys.
@@ -134,6 +132,7 @@ std::string settings_sentence(const Point& p) {
     if (p.ladder == Ladder::iterations)
         text = "1 substep × " + std::string(value) + (p.value == 1 ? " iteration" : " iterations");
     if (p.ladder == Ladder::step) text = "steps of " + std::string(value) + " s";
+    if (p.ladder == Ladder::accuracy) text = "an accuracy of " + std::string(value);
     text += " in " + p.precision;
     if (p.curve != "pbd") text += ", " + p.curve;
     return text + ", on " + p.collider;
@@ -192,17 +191,26 @@ std::optional<Slope> slope_of(const StudyTable& table, const CurveRows& curve) {
     if (best_end == best_begin) return std::nullopt;
     Slope slope;
     slope.order = -fitted(dots, best_begin, best_end);
-    const bool is_step = curve.ladder == Ladder::step;
     const auto value = [&](std::size_t i) {
-        return is_step ? std::exp(-dots[i].x) : std::exp(dots[i].x);
+        return std::exp(falls(curve.ladder) ? -dots[i].x : dots[i].x);
     };
     slope.from = value(best_begin);
     slope.to = value(best_end - 1);
     const Orders& orders = table.find(curve.subject)->orders;
     if (curve.curve == kLeapfrogCurve) return slope;  // orders are stated without it
-    slope.expected = is_step                            ? orders.step
-                     : curve.ladder == Ladder::substeps ? orders.substeps
-                                                        : orders.iterations;
+    switch (curve.ladder) {
+        case Ladder::substeps:
+            slope.expected = orders.substeps;
+            break;
+        case Ladder::iterations:
+            slope.expected = orders.iterations;
+            break;
+        case Ladder::step:
+            slope.expected = orders.step;
+            break;
+        case Ladder::accuracy:
+            break;
+    }
     return slope;
 }
 

@@ -12,12 +12,6 @@
 namespace plumb::study {
 namespace {
 
-double mean_penetration(const World& world) {
-    const std::vector<double> depths = penetrations(world);
-    const double sum = std::accumulate(depths.begin(), depths.end(), 0.0);
-    return depths.empty() ? 0 : sum / static_cast<double>(depths.size());
-}
-
 double widest_joint(const World& world) {
     const std::vector<double> errors = joint_errors(world);
     return errors.empty() ? 0 : *std::max_element(errors.begin(), errors.end());
@@ -57,6 +51,12 @@ double cone_excess(const World& world) {
 }
 
 }  // namespace
+
+double mean_penetration(const World& world) {
+    const std::vector<double> depths = penetrations(world);
+    const double sum = std::accumulate(depths.begin(), depths.end(), 0.0);
+    return depths.empty() ? 0 : sum / static_cast<double>(depths.size());
+}
 
 std::vector<Metric> gauges_of(const Plan& plan, const World& world) {
     std::vector<Metric> gauges;

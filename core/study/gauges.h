@@ -19,4 +19,7 @@ namespace plumb::study {
 ///   volume           V / k V₀ − 1 of the balloon that is off the most, mean over time
 std::vector<Metric> gauges_of(const Plan& plan, const World& world);
 
+/// Depth, mean over the pairs that penetrate [m]; 0 where none does.
+double mean_penetration(const World& world);
+
 }  // namespace plumb::study

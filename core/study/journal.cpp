@@ -69,7 +69,7 @@ Json point_json(const Point& p) {
 }
 
 Ladder ladder_of(const std::string& name) {
-    for (const Ladder l : {Ladder::substeps, Ladder::iterations, Ladder::step})
+    for (const Ladder l : {Ladder::substeps, Ladder::iterations, Ladder::step, Ladder::accuracy})
         if (name == name_of(l)) return l;
     throw std::runtime_error("there is no ladder \"" + name + "\"");
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 namespace plumb::study {
 
@@ -123,6 +124,26 @@ private:
     Swings swings_;
 };
 
+/// How far the body that may move and came the farthest has come from where it was at the start.
+class LargestWay : public Judge {
+public:
+    /// `size`: what the way is told as a share of [m].
+    explicit LargestWay(double size) : size_(size) {}
+
+    void look(const World& world) override {
+        const Bodies& b = world.bodies;
+        if (start_.empty()) start_ = b.position;
+        for (std::size_t i = 0; i < b.size(); ++i)
+            if (b.motion[i] != Motion::fixed)
+                error_ = std::max(error_, size_of((b.position[i] - start_[i]).norm() / size_));
+    }
+    double error() const override { return error_; }
+
+private:
+    double size_, error_ = 0;
+    std::vector<Vector3d> start_;
+};
+
 /// A metric whose judges are made of a deviation alone.
 template <class J>
 Metric metric_by(std::string name, std::string unit, std::string what,
@@ -134,6 +155,11 @@ inline constexpr auto largest = metric_by<LargestDeviation>;
 inline constexpr auto last = metric_by<LastDeviation>;
 inline constexpr auto mean_over_time = metric_by<MeanDeviation>;
 inline constexpr auto of_mean = metric_by<DeviationOfMean>;
+
+/// What is to stand still. `size` [m], which `what` names.
+inline Metric shift_metric(std::string what, double size) {
+    return {"shift", "", std::move(what), [size] { return std::make_unique<LargestWay>(size); }, 0};
+}
 
 /// `value` swings through 0, `frequency` times a second.
 inline Metric frequency_metric(std::string what, LargestDeviation::Deviation value,

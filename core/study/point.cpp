@@ -19,7 +19,7 @@ double median(std::vector<double> values) {
 }  // namespace
 
 std::string_view name_of(Ladder ladder) {
-    constexpr std::array<std::string_view, 3> kNames{"substeps", "iterations", "step"};
+    constexpr std::array<std::string_view, 4> kNames{"substeps", "iterations", "step", "accuracy"};
     return kNames[static_cast<std::size_t>(ladder)];
 }
 

@@ -15,12 +15,19 @@ namespace plumb::study {
 enum class Ladder : std::uint32_t {
     substeps,    ///< substeps of one iteration each
     iterations,  ///< of both passes, in one substep
-    step         ///< dt, at the subject's own substeps and iterations
+    step,        ///< dt, at the subject's own substeps and iterations
+    accuracy     ///< Settings::accuracy, at the subject's own
 };
 std::string_view name_of(Ladder ladder);
 
+/// Whether a smaller value is the finer one.
+inline bool falls(Ladder ladder) { return ladder == Ladder::step || ladder == Ladder::accuracy; }
+
 /// The curve of runs with Settings::leapfrog_start.
 inline constexpr std::string_view kLeapfrogCurve = "leapfrog start";
+
+/// The curve of runs in which all islands are iterated.
+inline constexpr std::string_view kIteratedCurve = "without exact islands";
 
 /// One run of a subject at certain settings.
 struct Point {
@@ -28,7 +35,7 @@ struct Point {
     std::string curve;      ///< "pbd", "paper", "without warm start", …
     std::string precision;  ///< "single", "double"
     Ladder ladder = Ladder::substeps;
-    double value = 1;  ///< substeps, iterations, or dt [s]
+    double value = 1;  ///< substeps, iterations, dt [s], or an accuracy
     std::string collider;
     std::string contacts;               ///< "shared", "raw"
     std::vector<std::string> settings;  ///< key=value, applied to the subject's own in this order

@@ -13,11 +13,21 @@ bool refines(const CurveRows& c) {
     return c.curve == "pbd" || c.curve == "paper" || c.curve == kLeapfrogCurve;
 }
 
+/// Whether it shows what islands that are solved until they are right buy over iterations alone.
+bool solves_islands(const CurveRows& c) {
+    return (c.curve == "pbd" || c.curve == kIteratedCurve) && c.precision == "single" &&
+           c.ladder != Ladder::step;
+}
+
 /// What a line of a chart is called where the others differ from it in these alone.
 std::string refinement(const CurveRows& c) {
     return c.curve + ", " + std::string(name_of(c.ladder)) + ", " + c.precision;
 }
 std::string departure(const CurveRows& c) { return c.curve == "pbd" ? "all as it is" : c.curve; }
+std::string way_of_solving(const CurveRows& c) {
+    return (c.curve == "pbd" ? "exact islands, by " : "iterations alone, by ") +
+           std::string(name_of(c.ladder));
+}
 std::string collider(const CurveRows& c) { return c.collider + ", " + c.contacts; }
 
 ChartSeries series_of(const StudyTable& table, const CurveRows& curve, const std::string& name) {
@@ -105,6 +115,14 @@ std::vector<NamedChart> charts_of(const StudyTable& table) {
                        c.curve != "paper";
             },
             departure);
+        const auto is_iterated = [&](const CurveRows& c) {
+            return c.subject == s.name && c.curve == kIteratedCurve;
+        };
+        if (std::any_of(curves.begin(), curves.end(), is_iterated))
+            add(
+                "-islands",
+                [&](const CurveRows& c) { return solves_islands(c) && c.collider == first; },
+                way_of_solving);
         add(
             "-colliders",
             [&](const CurveRows& c) {

@@ -22,11 +22,14 @@ constexpr std::array kIterations{1, 2, 5, 10, 20, 50, 100, 200, 400};
 constexpr std::array kSteps{4.0,     2.0,      1.0,      1.0 / 2, 1.0 / 4,
                             1.0 / 8, 1.0 / 16, 1.0 / 32, 1.0 / 64};  ///< times the subject's dt
 
+constexpr std::array kAccuracies{1.0, 0.3, 0.1, 0.03, 0.01, 0.003, 0.001, 0.0001};
+
 /// Settings that make a curve, and what must run for it to say anything.
 struct Variant {
     const char* name;
     const char* setting;              ///< key=value; "" for none
     std::optional<Effect> called_by;  ///< left out where this does not run
+    bool by_iterations = false;       ///< and not by substeps alone
 };
 
 /// Each departure from the paper switched off by itself, and the choices that a user has beside.
@@ -37,7 +40,7 @@ constexpr std::array kVariants{
     Variant{"without shared cone", "shared_cone=false", Effect::friction},
     Variant{"without anchors", "anchor_stiffness=0", Effect::sticking_anchors},
     Variant{"without reuse of contacts", "reuse_distance=0", Effect::contact_reuse},
-    Variant{"without exact islands", "exact_islands=0", Effect::exact_islands},
+    Variant{kIteratedCurve.data(), "exact_islands=0", Effect::exact_islands, true},
     Variant{"patch by patch", "multilevel=true", Effect::deformables},
     Variant{"deformables as one system", "exact_deformables=100000", Effect::deformables},
     Variant{"explicit gyroscopic term", "gyroscopic=explicit", Effect::gyroscopic},
@@ -79,10 +82,14 @@ public:
                 climb("pbd", precision, ladder, colliders_.front(), "");
         for (const Ladder ladder : {Ladder::substeps, Ladder::iterations})
             climb("paper", "single", ladder, colliders_.front(), "preset=paper");
-        for (const Variant& v : kVariants)
-            if (!v.called_by || plan_.runs(*v.called_by))
-                climb(v.name, "single", Ladder::substeps, colliders_.front(), v.setting);
         const std::string& collider = colliders_.front();
+        for (const Variant& v : kVariants) {
+            if (v.called_by && !plan_.runs(*v.called_by)) continue;
+            climb(v.name, "single", Ladder::substeps, collider, v.setting);
+            if (v.by_iterations) climb(v.name, "single", Ladder::iterations, collider, v.setting);
+        }
+        if (plan_.runs(Effect::exact_islands) && has_large_islands())
+            climb("pbd", "single", Ladder::accuracy, collider, "");
         for (const char* precision : {"single", "double"})
             climb(kOneSubstep, precision, Ladder::step, collider, "substeps=1");
         climb(std::string(kLeapfrogCurve), "single", Ladder::step, collider, "leapfrog_start=true",
@@ -97,6 +104,15 @@ public:
     }
 
 private:
+    /// Whether so many bodies move that islands may be too large to be solved exactly as they are.
+    bool has_large_islands() const {
+        const auto& bodies = subject_.scene.bodies;
+        const auto moving = std::count_if(bodies.begin(), bodies.end(), [](const BodySpec& b) {
+            return b.motion == Motion::dynamic;
+        });
+        return moving > static_cast<std::ptrdiff_t>(subject_.scene.settings.exact_islands);
+    }
+
     void climb_on_each_collider() {
         for (const std::string& collider : colliders_) {
             if (collider != colliders_.front())
@@ -152,6 +168,9 @@ private:
             for (const int n : kIterations)
                 add(n, {"substeps=1", "velocity_iterations=" + std::to_string(n),
                         "position_iterations=" + std::to_string(n)});
+        if (ladder == Ladder::accuracy)
+            for (const double accuracy : kAccuracies)
+                add(accuracy, {"accuracy=" + number_text(accuracy)});
         if (ladder == Ladder::step)
             for (const double share : kSteps) {
                 const double dt = share * subject_.scene.settings.dt;

@@ -96,6 +96,27 @@ TEST(Findings, AdviceNamesNoDepartureAndNoRawContacts) {
               "ode");
 }
 
+/// A smaller accuracy is a finer one, as a smaller step is.
+TEST(Findings, AnAccuracyIsFinerTheSmallerItIs) {
+    StudyTable table = empty_table();
+    for (const double accuracy : {0.001, 1.0, 0.1, 0.01}) {
+        add(table, "pbd", accuracy, 1e-2 * accuracy, 10 / accuracy);
+        table.rows.back().point.ladder = Ladder::accuracy;
+    }
+    const std::vector<CurveRows> curves = curves_of(table);
+    ASSERT_EQ(curves.size(), 1u);
+    EXPECT_EQ(curves[0].rows, (std::vector<std::size_t>{1, 2, 3, 0}));
+    const auto slope = slope_of(table, curves[0]);
+    ASSERT_TRUE(slope);
+    EXPECT_NEAR(slope->order, 1, 1e-9);
+    EXPECT_EQ(slope->expected, 0);
+    EXPECT_NEAR(slope->from, 1, 1e-9);
+    EXPECT_NEAR(slope->to, 0.001, 1e-9);
+    EXPECT_EQ(advice_on(table, table.subjects[0]).back(),
+              "10 µm costs 10000 µs of CPU a simulated second: an accuracy of 0.001 in single, on "
+              "ode");
+}
+
 TEST(Findings, AGainIsTheRatioOfErrorsAtEqualCost) {
     StudyTable table = falling_table();
     for (double n = 1; n <= 32; n *= 2)

@@ -28,6 +28,14 @@ Subject cradle();
 
 Subject stack();
 Subject loaded_stack();
+Subject tower();
+
+Subject arch();
+Subject wall();
+
+Subject robot();
+
+Subject pile();
 
 Subject catenary();
 Subject hanging_chain();
