@@ -275,7 +275,7 @@ public:
             ContactMemory& memory = world.contacts.memory[contact];
             const RowImpulse p = impulse_of(rows, k, lane);
             remember_impulse(memory, p.normal, p.friction());
-            memory.missed = missed_after_sweeps(memory.missed);
+            memory.missed = missed_after_sweeps(memory.missed, world.steps);
             if (!rows.frictions) return;
             memory.sticks = does_stick(p.normal, p.x * p.x + p.y * p.y,
                                        double(rows.frictions[k].friction[lane]));

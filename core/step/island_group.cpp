@@ -192,6 +192,9 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
+    member.most_products = !member.is_large        ? kAnyProducts
+                           : is_new(world, member) ? kMostProducts
+                                                   : kMostInVain;
     ties_.end_island(member.ties);
     return true;
 }
@@ -613,17 +616,34 @@ void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
         shift[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift[i] - island.velocity[i]);
 }
 
+/// Whether most of its contacts remember nothing.
+bool IslandGroup::is_new(const World& world, const Member& m) const {
+    std::uint32_t known = 0;
+    for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
+        known += world.contacts.memory[contacts_[k]].matched;
+    return 2 * known < m.last_point - m.first_point;
+}
+
 /// Returns whether it is solved.
 bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort effort) {
-    const IslandReport report =
-        solver.solve(island_of(m), m.system, m.speed, effort, m.settling > 0 || m.stirred,
-                     m.is_large ? kMostProducts : kAnyProducts);
+    const IslandReport report = solver.solve(island_of(m), m.system, m.speed, effort,
+                                             m.settling > 0 || m.stirred, m.products_left);
     m.stirred |= report.stirred;
+    m.products_left -= std::min(m.products_left, report.factorisations * m.system.block_products());
     return report.solved;
+}
+
+/// A large island that has taken in vain what a step may spend on it is swept from now on.
+void IslandGroup::give_up_if_spent(Member& m) {
+    if (m.solved || m.products_left >= m.system.block_products()) return;
+    m.given_up = true;
+    m.splits = false;
+    m.effort = IslandEffort::swept;
 }
 
 /// Ties are not linear: what a solution leaves open of them is asked for again.
 void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
+    m.products_left = m.most_products;
     const double tolerance = world.settings.joint_tolerance;
     const Island island = island_of(m);
     const auto gains = [&](double share = 0) {
@@ -637,6 +657,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
             solver.sweep(island);
         else
             m.solved = solve_system(solver, m, IslandEffort::light);
+        give_up_if_spent(m);
         const std::size_t bodies = m.last_body - m.first_body;
         solver.open_apart(island, {opening_.data() + m.first_point, island.points.size()},
                           {shift_.data() + m.first_body, bodies});
@@ -669,6 +690,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         m.effort = IslandEffort::swept;
         m.splits = !m.flies;
     }
+    give_up_if_spent(m);
     if (m.parts) bound_energy(solver, m), ask();
     if (m.ties.empty()) return;
     if (is_pulled_apart(world, m)) return hold_torn(solver, m);
@@ -758,10 +780,11 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         const Member& m = members_[i];
         const std::uint8_t settling = m.stirred ? kSettlingSteps : m.settling - (m.settling > 0);
         const std::uint8_t left = m.may_be_disputed ? disputed_after(m.disputed, m.solved) : 0;
+        const std::uint8_t missed = !m.is_large ? 0 : m.given_up ? kInVain : kMissed;
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
             contacts.memory[contacts_[k]].disputed = left;
             contacts.memory[contacts_[k]].settling = settling;
-            contacts.memory[contacts_[k]].missed = m.is_large ? kMissed : 0;
+            contacts.memory[contacts_[k]].missed = missed;
             contacts.memory[contacts_[k]].disputed_overlap = static_cast<float>(m.overlap_before);
         }
     }

@@ -14,6 +14,7 @@
 #include "step/island_effort.h"
 #include "step/island_solver.h"
 #include "step/island_ties.h"
+#include "step/large_islands.h"
 #include "world/world.h"
 
 #include <vector>
@@ -92,7 +93,9 @@ private:
         bool was_open;  // at the start of this substep
         bool was_torn;  // the same, so far that it is torn
         double open;    // the worst tie [m], [rad]
-        bool given_up;  // in this step, its ties could not be closed
+        bool given_up;  // in this step: its ties could not be closed, or it was large and in vain
+        std::uint64_t most_products;  // that a substep may take, see large_islands.h
+        std::uint64_t products_left;  // of them, in this substep
     };
     bool take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
@@ -108,6 +111,8 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
+    bool is_new(const World& world, const Member& member) const;
+    static void give_up_if_spent(Member& member);
     bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;
     bool is_pulled_apart(const World& world, const Member& member);

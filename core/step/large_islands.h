@@ -12,6 +12,7 @@
 #include "effects/residual.h"
 #include "scene/settings.h"
 
+#include <algorithm>
 #include <cstdint>
 
 namespace plumb {
@@ -24,9 +25,15 @@ inline bool is_large(const Settings& settings, std::uint32_t bodies) {
 /// and constant forces add in a substep, in the root of the mean square.
 inline constexpr double kRestsBelow = 0.7;
 
-/// What its factorisations in a substep may take, in products of two 6 × 6 blocks: up to four
+/// What its factorisations in a substep may take, in products of two 6 × 6 blocks: up to ten
 /// seconds. One that could not have so many of them is left to sweeps; a wall of 3600 bricks can.
 inline constexpr std::uint64_t kMostProducts = 100'000'000, kFewest = 30;
+
+/// The same of one that is not new: one or two seconds. A structure finds its forces in some thirty
+/// factorisations; a large heap that has just settled misses its laws after hundreds, and in each
+/// substep again, though sweeps carry it well. What has taken so much in vain is swept for the rest
+/// of the step, and for a long while.
+inline constexpr std::uint64_t kMostInVain = 30'000'000;
 
 /// Whether the contacts of an island miss more than `accuracy`.
 inline bool misses(const IslandResidual& island, double accuracy) {
@@ -37,13 +44,16 @@ inline bool misses(const IslandResidual& island, double accuracy) {
 inline constexpr double kFails = 10;
 
 /// ContactMemory::missed: 0 where sweeps will do for the island of the contact, kMissed where it is
-/// to be solved exactly; above that, the steps for which it waits until that is tried again.
-inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 255;
+/// to be solved exactly; above that, for how many times kTick steps it waits until that is tried
+/// again, and where it was in vain.
+inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 33, kInVain = 255;
+inline constexpr std::uint64_t kTick = 8;
 inline bool waits(std::uint8_t missed) { return missed > kMissed; }
 
-/// After a step in which the island was swept.
-inline std::uint8_t missed_after_sweeps(std::uint8_t missed) {
-    const std::uint8_t left = missed - (missed > 0);
+/// After a step in which the island was swept. `step`: how many there were.
+inline std::uint8_t missed_after_sweeps(std::uint8_t missed, std::uint64_t step) {
+    if (!waits(missed)) return 0;
+    const std::uint8_t left = missed - (step % kTick == 0);
     return waits(left) ? left : 0;
 }
 

@@ -38,6 +38,23 @@ double mean_height(const World& world) {
     return sum / count;
 }
 
+/// A heap that sweeps carry well enough takes at most one step in 255 to find that its laws cannot
+/// be solved exactly, however many substeps and however little work each.
+TEST(LongHeaps, ALargeOneIsNotSolvedInVainAgainAndAgain) {
+    Scene scene = read_scene(PLUMB_TEST_ROOT "/samples/scenes/pile.json");
+    scene.settings.substeps = 4;
+    scene.settings.velocity_iterations = scene.settings.position_iterations = 1;
+    const ColliderLibrary colliders(PLUMB_TEST_PLUGINS);
+    Simulation simulation(scene, colliders, "ode");
+    int tried = 0;
+    for (int step = 0; step < 1000; ++step) {
+        ASSERT_TRUE(simulation.step().finite);
+        for (const IslandResidual& island : simulation.island_residuals())
+            tried += island.exact && island.bodies > scene.settings.exact_islands;
+    }
+    EXPECT_LE(tried, 4);
+}
+
 void expect_stays(const std::string& heap, const std::string& collider, double seconds) {
     Scene scene =
         read_scene(std::string(PLUMB_TEST_ROOT "/tests/hard/scenes/heap_") + heap + ".json");
