@@ -2,6 +2,7 @@
 #include "contacts/ghost_contacts.h"
 
 #include "contacts/contact_measures.h"
+#include "contacts/contact_reach.h"
 #include "contacts/pair_poses.h"
 #include "geometry/shape_support.h"
 #include "world/round_shapes.h"
@@ -190,8 +191,9 @@ void GhostContacts::choose(World& world) {
             const bool stays = memory.known && !memory.flush &&
                                (world.steps + contact.feature) % kSeldom != 0 &&
                                !is_fast(world, contact.a) && !is_fast(world, contact.b);
-            memory.ghost = memory.flush = false;
-            if (stays) continue;
+            memory.flush = false;
+            memory.ghost = is_out_of_reach(world, contact);
+            if (stays || memory.ghost) continue;
             judged_.push_back(i);
             for (const std::uint32_t body : {contact.a, contact.b})
                 listed_[body] = world.bodies.motion[body] == Motion::dynamic;

@@ -9,6 +9,9 @@
 /// the edge: it is a ghost, which stays in the table and never closes. Where they hold other
 /// points, it is turned: it holds its point above the same plane. Of what is concave, each convex
 /// part is judged by its own contacts. A ghost may not rest on another one.
+///
+/// A contact of bodies that cannot meet within the step is a ghost, too
+/// (contacts/contact_reach.h).
 #pragma once
 
 #include "schedule/workers.h"

@@ -134,5 +134,57 @@ TEST(FreeFlight, ASymmetricBodyPrecessesByItsFormula) {
     }
 }
 
+class SpinApart : public OnEveryCollider {};
+INSTANTIATE_TEST_SUITE_P(, SpinApart, every_collider(), where_name);
+
+/// Boxes in a row, which spin in spheres that do not meet: what a point of one runs towards another
+/// with is no approach. Half of them drift along the row, and keep their distances.
+TEST_P(SpinApart, BodiesInSpheresThatDoNotMeetLeaveEachOtherAlone) {
+    Random random(5);
+    for (int draw = 0; draw < 12; ++draw) {
+        Scene s = scene();
+        s.settings.gravity.setZero();
+        if (draw == 1) use_fine_steps(s.settings);
+        if (draw > 1) {
+            s.settings.dt = random.number(0.001, 0.02);
+            s.settings.substeps = 1 + random.below(40);
+        }
+        const double rate = std::pow(10.0, random.number(1, 3));
+        const Vector half(0.1, 0.2, 0.3), drift(draw % 2 ? 2 : 0, 0, 0);
+        const double apart = 2 * half.norm() + random.number(0.02, 0.5);
+        for (int i = 0; i < 8; ++i) {
+            BodySpec& b = add_body(s, box(half), {apart * i, 0, 0});
+            b.placement.rotation = random.rotation();
+            b.angular_velocity = rate * random.vector().normalized();
+            b.velocity = drift;
+        }
+        Simulation simulation(s, colliders(), collider());
+        std::vector<Vector> spins;
+        for (std::size_t i = 0; i < 8; ++i) spins.push_back(spin_of(simulation.world(), i));
+        run_for(simulation, 100 * s.settings.dt);
+        for (std::size_t i = 0; i < 8; ++i) {
+            const World& w = simulation.world();
+            EXPECT_LT((w.bodies.velocity[i] - drift).norm(), 1e-9) << rate << " rad/s, " << apart;
+            EXPECT_LT((spin_of(w, i) - spins[i]).norm(), 1e-6 * spins[i].norm());
+        }
+    }
+}
+
+/// A paddle that spins fast strikes a ball that comes into its circle, from afar and at rest.
+TEST_P(SpinApart, WhatComesIntoTheSphereIsStruck) {
+    for (const double rate : {30.0, 300.0}) {
+        Scene s = scene();
+        s.settings.gravity.setZero();
+        BodySpec& paddle = add_body(s, box(0.5, 0.1, 0.1), Vector::Zero());
+        paddle.angular_velocity = {0, 0, rate};
+        add_body(s, sphere(0.1), {1.5, 0, 0}).velocity = {-3, 0, 0};
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 1);
+        const Vector& v = simulation.world().bodies.velocity[1];
+        EXPECT_GT(v.norm(), 3.1) << rate << " rad/s: " << v.transpose();
+        EXPECT_LT(std::abs(simulation.world().bodies.angular_velocity[0].z()), rate);
+    }
+}
+
 }  // namespace
 }  // namespace plumb::test
