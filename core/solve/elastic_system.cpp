@@ -233,6 +233,11 @@ void ElasticSystem::find_elastic_forces() {
 void ElasticSystem::find_forces() {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
     find_elastic_forces();
+    sum_forces();
+}
+
+/// The same, where the places are those of the last elastic forces.
+void ElasticSystem::sum_forces() {
     energy_ = elastic_energy_;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         if (mass_[i] == 0) continue;
@@ -382,15 +387,14 @@ void ElasticSystem::search_line() {
     for (Vector3d& way : way_) way *= at;
 }
 
-/// Newton's method, in which factors are kept while they lead on, and Anderson's acceleration makes
-/// up for what their stiffness leaves out. Whether they do is seen from what they find left to do
-/// at the end of a step (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at
-/// every fold, for what moves across a stiff sheet stretches it in second order, and the next step
-/// takes that back. Where the end is not reached, the least energy of all steps stands; returns
-/// whether it was.
+/// From velocities whose forces are known: Newton's method, in which factors are kept while they
+/// lead on, and Anderson's acceleration makes up for what their stiffness leaves out. Whether they
+/// do is seen from what they find left to do at the end of a step (the natural test of Deuflhard
+/// 2011, §3.3): a test by energy would stop at every fold, for what moves across a stiff sheet
+/// stretches it in second order, and the next step takes that back. Where the end is not reached,
+/// the least energy of all steps stands; returns whether it was.
 bool ElasticSystem::descend() {
     const auto dot = [this](const auto& x, const auto& y) { return product(x, y); };
-    find_forces();
     before_step_ = x_;
     keep_best();
     earlier_.clear(v_.size());
@@ -455,7 +459,9 @@ void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 /// Minima, each with the contacts' impulses of the one before, until they change it no more.
 void ElasticSystem::go_rounds() {
     is_settled_ = false;
+    find_forces();
     for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
+        if (round > 0) sum_forces();
         const bool is_there = descend();
         if (contacts_.empty()) {
             is_settled_ = is_there;

@@ -66,6 +66,7 @@ private:
     double measure(Balloon& balloon) const;
     void find_elastic_forces();
     void find_forces();
+    void sum_forces();
     void assemble_elements();
     void assemble_balloons();
     bool factor();
