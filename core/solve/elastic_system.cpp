@@ -426,7 +426,10 @@ bool ElasticSystem::descend() {
         if (share < 1)
             for (Vector3d& way : way_) way *= share;
         advance(1);
-        if (move.greatest <= near_ * enough_ || move.size <= near_ * enough_size_) return true;
+        const bool is_end = move.greatest <= enough_ || move.size <= enough_size_;
+        if (is_end) near_ = 1;
+        if (is_end || move.greatest <= near_ * enough_ || move.size <= near_ * enough_size_)
+            return true;
         find_forces();
         if (goes_round && slope() > 0) search_line();
         const Move next = find_direction();
