@@ -18,6 +18,8 @@ namespace plumb {
 namespace front {
 
 inline constexpr std::uint32_t kPanel = 24;
+/// Columns of a panel that are factored one by one, after those before them have been taken off.
+inline constexpr std::uint32_t kNear = 6;
 
 /// Of any alignment.
 template <int W>
@@ -63,33 +65,53 @@ void take_off(double* f, std::uint32_t n, std::uint32_t first, std::uint32_t las
     take_off_rows<1, 1, kColumns>(f, n, row, first, last, column, scaled);
 }
 
+/// Those of columns [column, end), kColumns at once as long as there are so many.
+template <int W, int kColumns>
+void take_off_all(double* f, std::uint32_t n, std::uint32_t first, std::uint32_t last,
+                  std::uint32_t column, std::uint32_t end, const double* scaled) {
+    for (; column + kColumns <= end; column += kColumns)
+        take_off<W, kColumns>(f, n, first, last, column, scaled);
+    for (; column < end; ++column) take_off<W, 1>(f, n, first, last, column, scaled);
+}
+
+/// L and D of columns [near, end) of the panel that begins at `first`, off which those before have
+/// been taken; and what they are times the pivots, `memory`[k − first][row].
+template <int W>
+bool factor_near(double* f, std::uint32_t n, std::uint32_t first, std::uint32_t near,
+                 std::uint32_t end, double* memory) {
+    const std::size_t ld = n;
+    for (std::uint32_t j = near; j < end; ++j) {
+        double* column = f + j * ld;
+        for (std::uint32_t k = near; k < j; ++k) {
+            const double* left = f + k * ld;
+            const double scaled = memory[(k - first) * ld + j];
+            for (std::uint32_t i = j; i < n; ++i) column[i] -= left[i] * scaled;
+        }
+        const double pivot = column[j];
+        if (!(std::abs(pivot) > 0) || !std::isfinite(pivot)) return false;
+        const double inverse = 1 / pivot;
+        double* scaled = memory + (j - first) * ld;
+        for (std::uint32_t i = j + 1; i < n; ++i) {
+            scaled[i] = column[i];
+            column[i] *= inverse;
+        }
+    }
+    return true;
+}
+
 /// L D Lᵀ of the first `pivots` columns in place: L below the diagonal, D on it; the rest becomes
 /// the Schur complement. `memory` has kPanel n numbers. Returns whether all pivots were finite and
 /// not 0.
 template <int W>
 bool factor(double* f, std::uint32_t n, std::uint32_t pivots, double* memory) {
-    const std::size_t ld = n;
     for (std::uint32_t first = 0; first < pivots; first += kPanel) {
         const std::uint32_t last = first + kPanel < pivots ? first + kPanel : pivots;
-        for (std::uint32_t j = first; j < last; ++j) {
-            double* column = f + j * ld;
-            for (std::uint32_t k = first; k < j; ++k) {
-                const double* left = f + k * ld;
-                const double scaled = memory[(k - first) * ld + j];
-                for (std::uint32_t i = j; i < n; ++i) column[i] -= left[i] * scaled;
-            }
-            const double pivot = column[j];
-            if (!(std::abs(pivot) > 0) || !std::isfinite(pivot)) return false;
-            const double inverse = 1 / pivot;
-            double* scaled = memory + (j - first) * ld;
-            for (std::uint32_t i = j + 1; i < n; ++i) {
-                scaled[i] = column[i];
-                column[i] *= inverse;
-            }
+        for (std::uint32_t near = first; near < last; near += kNear) {
+            const std::uint32_t end = near + kNear < last ? near + kNear : last;
+            take_off_all<W, kNear>(f, n, first, near, near, end, memory);
+            if (!factor_near<W>(f, n, first, near, end, memory)) return false;
         }
-        std::uint32_t column = last;
-        for (; column + 4 <= n; column += 4) take_off<W, 4>(f, n, first, last, column, memory);
-        for (; column < n; ++column) take_off<W, 1>(f, n, first, last, column, memory);
+        take_off_all<W, 4>(f, n, first, last, last, n, memory);
     }
     return true;
 }

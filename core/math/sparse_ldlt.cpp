@@ -273,18 +273,24 @@ bool SparseLdlt::factor() {
     std::size_t pair = 0;
     for (std::uint32_t i = 0; i < fronts_.size(); ++i) {
         const Front& f = fronts_[i];
-        std::fill_n(front_.begin(), std::size_t(f.size) * f.size, 0.0);
+        // of each column what is on and below the diagonal
+        const auto column = [&](std::uint32_t c) {
+            return front_.begin() + std::size_t(c) * f.size + c;
+        };
+        for (std::uint32_t c = 0; c < f.size; ++c) std::fill_n(column(c), f.size - c, 0.0);
         if (i == root())
             std::copy(more_block_.begin(), more_block_.end(), front_.begin());
         else
             pair = gather(f, pair);
         for (const std::uint32_t child : children_[i]) add_child(fronts_[child], left_[child], i);
         if (!kernels_.factor(front_.data(), f.size, width(i), memory_.data())) return false;
-        std::copy_n(front_.begin(), std::size_t(width(i)) * f.size, factors_.begin() + f.factors);
-        const std::uint32_t left = f.size - width(i);
+        const std::uint32_t pivots = width(i), left = f.size - pivots;
+        for (std::uint32_t c = 0; c < pivots; ++c)
+            std::copy_n(column(c), f.size - c,
+                        factors_.begin() + f.factors + std::size_t(c) * f.size + c);
         for (std::uint32_t c = 0; c < left; ++c)
-            std::copy_n(front_.begin() + std::size_t(width(i) + c) * f.size + width(i) + c,
-                        left - c, stack_.begin() + left_[i] + std::size_t(c) * left + c);
+            std::copy_n(column(pivots + c), left - c,
+                        stack_.begin() + left_[i] + std::size_t(c) * left + c);
     }
     return true;
 }

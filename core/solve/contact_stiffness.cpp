@@ -38,6 +38,23 @@ void list_pairs(const KeptFactors& made_of, std::uint32_t first_row,
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
+double stiffness_along(const KeptFactors& made_of, std::uint32_t first_row,
+                       const std::vector<Vector3d>& way) {
+    constexpr double kSign[2] = {1, -1};
+    double sum = 0;
+    for (const KeptFactors::Contact& c : made_of.contacts) {
+        Vector3d u = Vector3d::Zero();
+        for (std::uint32_t k = 0; k < c.points; ++k) u += c.weight[k] * way[c.particle[k]];
+        for (int i = 0; i < 2; ++i) {
+            if (c.body[i] == kNoIndex) continue;
+            const std::uint32_t row = first_row + 2 * c.body[i];
+            u += kSign[i] * (way[row] + way[row + 1].cross(c.arm[i]));
+        }
+        sum += u.dot(c.stiffness * u);
+    }
+    return sum;
+}
+
 void add_contact_stiffness(const KeptFactors& made_of, const std::vector<double>& mass,
                            std::uint32_t first_row, const std::vector<SparseLdlt::Pair>& pairs,
                            std::size_t first_pair, SparseLdlt& system) {

@@ -14,6 +14,10 @@ namespace plumb {
 void list_pairs(const KeptFactors& made_of, std::uint32_t first_row,
                 std::vector<SparseLdlt::Pair>& pairs);
 
+/// How contacts resist a change of velocities [row of the system], times that change [J].
+double stiffness_along(const KeptFactors& made_of, std::uint32_t first_row,
+                       const std::vector<Vector3d>& way);
+
 /// Adds bodies and contacts. `pairs` were told to the system from `first_pair` on. `mass`:
 /// [particle], 0 of what stays.
 void add_contact_stiffness(const KeptFactors& made_of, const std::vector<double>& mass,

@@ -15,7 +15,7 @@ namespace {
 
 /// ρ is so many times what the points of a contact resist a push with, of two bodies the heavier
 /// one: more rounds are needed with less, and more digits are lost with more.
-constexpr double kFirm = 3;
+constexpr double kFirm = 5;
 
 /// Impulses are matched by least squares in so many rounds. This share of the mean diagonal is
 /// added to the diagonal, so that what no impulse can change is left as it is.
@@ -126,14 +126,8 @@ double ElasticContacts::add_forces(const std::vector<Vector3d>& target,
         energy += 0.5 * (missing.dot(force[body.row]) + turn.dot(force[body.row + 1]));
     }
     for (Contact& c : contacts_) {
-        Vector3d u = c.given;
-        for (std::uint32_t k = 0; k < c.points; ++k) u += c.weight[k] * v[c.particle[k]];
-        for (int i = 0; i < 2; ++i) {
-            if (c.sides[i].body == kNoIndex) continue;
-            const std::uint32_t row = bodies_[c.sides[i].body].row;
-            u += kSign[i] * velocity_at<double>({v[row], v[row + 1]}, c.sides[i].arm);
-        }
-        find_force(u, c, energy);
+        c.u = c.given + velocity_of(c, v);
+        find_force(c.u, c, energy);
         for (std::uint32_t k = 0; k < c.points; ++k) force[c.particle[k]] += c.weight[k] * c.q;
         for (int i = 0; i < 2; ++i) {
             if (c.sides[i].body == kNoIndex) continue;
@@ -145,13 +139,42 @@ double ElasticContacts::add_forces(const std::vector<Vector3d>& target,
     return energy;
 }
 
+/// Of the first side's point against that of the second, without what is given.
+Vector3d ElasticContacts::velocity_of(const Contact& c, const std::vector<Vector3d>& v) const {
+    Vector3d u = Vector3d::Zero();
+    for (std::uint32_t k = 0; k < c.points; ++k) u += c.weight[k] * v[c.particle[k]];
+    for (int i = 0; i < 2; ++i) {
+        if (c.sides[i].body == kNoIndex) continue;
+        const std::uint32_t row = bodies_[c.sides[i].body].row;
+        u += kSign[i] * velocity_at<double>({v[row], v[row + 1]}, c.sides[i].arm);
+    }
+    return u;
+}
+
+void ElasticContacts::begin_line(const std::vector<Vector3d>& way) {
+    for (Contact& c : contacts_) c.way = velocity_of(c, way);
+}
+
+double ElasticContacts::push_along(double share) const {
+    double sum = 0;
+    for (const Contact& c : contacts_) {
+        if (c.rho == 0) continue;
+        const Vector3d wish = c.p - c.rho * (c.u + share * c.way);
+        const double pull = wish.dot(c.normal);
+        const Vector3d across = wish - pull * c.normal;
+        const double size = across.norm(), most = c.friction * std::max(0.0, c.p.dot(c.normal));
+        sum += std::max(0.0, pull) * c.normal.dot(c.way);
+        sum += (size > most ? most / size : 1) * across.dot(c.way);
+    }
+    return sum;
+}
+
 void ElasticContacts::find_force(const Vector3d& u, Contact& c, double& energy) const {
     c.q.setZero();
     if (c.rho == 0) return;
     const Vector3d wish = c.p - c.rho * u;
-    const double along = wish.dot(c.normal);
-    if (along <= 0) return;
-    const Vector3d across = wish - along * c.normal;
+    const double pull = wish.dot(c.normal), along = std::max(0.0, pull);
+    const Vector3d across = wish - pull * c.normal;
     const double size = across.norm(), most = c.friction * std::max(0.0, c.p.dot(c.normal));
     c.slides = size >= most, c.held = c.slides && size > 0 ? most / size : 1;
     c.q = along * c.normal + c.held * across;
@@ -164,14 +187,14 @@ void ElasticContacts::list_stiffness(KeptFactors& made_of) const {
     for (const Body& body : bodies_)
         made_of.bodies.push_back({body.index, body.mass, body.inertia});
     for (const Contact& c : contacts_) {
+        if (c.q.isZero(0)) continue;
         const double along = c.q.dot(c.normal);
-        if (!(along > 0)) continue;
         const Vector3d across = c.q - along * c.normal;
         const double size = across.norm();
         const Matrix3d n = c.normal * c.normal.transpose();
-        Matrix3d d = c.rho * n;
+        Matrix3d d = (along > 0 ? c.rho : 0.0) * n;
         if (!c.slides)
-            d = c.rho * Matrix3d::Identity();
+            d += c.rho * (Matrix3d::Identity() - n);
         else if (size > 0)
             // along its way what slides is not held, across it as a force that turns with it
             d += c.rho * c.held *

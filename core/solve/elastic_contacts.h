@@ -17,7 +17,8 @@
 ///   φ  q_t² where it sticks, 2 b |p_t − ρ u_t| − b² where it slides
 ///
 /// With the friction that p_n allows, and not q_n, q follows from an energy (Haslinger 1983), or
-/// Newton's method would go round in circles. Once p has been found, both are the same.
+/// Newton's method would go round in circles. Once p has been found, both are the same. Until then
+/// there is friction, too, where a contact parts, or the energy would jump there.
 #pragma once
 
 #include "constraints/connector.h"
@@ -80,6 +81,8 @@ public:
         /// As above; once `match` has corrected it, q is what both sides are given.
         Vector3d p = Vector3d::Zero(), q = Vector3d::Zero();
         bool slides = false;
+        Vector3d u = Vector3d::Zero();        ///< of the last forces [m/s]
+        Vector3d way = Vector3d::Zero();      ///< of u along the line that was begun [m/s]
         double held = 1;                      ///< q_t is this share of p_t − ρ u_t
         Vector3d applied = Vector3d::Zero();  ///< part of q that velocities have felt
 
@@ -115,6 +118,10 @@ public:
     /// Ψ [J].
     double add_forces(const std::vector<Vector3d>& target, const std::vector<Vector3d>& v,
                       std::vector<Vector3d>& force);
+    /// A line of velocities, from those of the last forces by `way` [row of the system], and how
+    /// hard q pushes along it at a share of it [J].
+    void begin_line(const std::vector<Vector3d>& way);
+    double push_along(double share) const;
     /// Bodies, and −∂q/∂u of the last forces, into what factors are made of.
     void list_stiffness(KeptFactors& made_of) const;
     /// Whether these were made of the bodies that are here now.
@@ -144,6 +151,7 @@ private:
     void take_kept(const World& world);
     void begin_bodies(const World& world, double h, Contact& contact) const;
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
+    Vector3d velocity_of(const Contact& contact, const std::vector<Vector3d>& v) const;
     Eigen::Matrix<double, 3, 6> motion_of(const Side& side) const;
     bool factor_reach();
 

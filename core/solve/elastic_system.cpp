@@ -18,6 +18,9 @@ constexpr double kFilling = 1e8;
 /// does in a substep, or of the greatest velocity, or of the size of the whole in a substep: less
 /// is rounding.
 constexpr double kEnoughOfGravity = 1e-4, kEnoughOfSpeed = 1e-4, kRounding = 1e-12;
+/// Or where all that it changes has no more than the square of this share of the energy of motion:
+/// a fold that is about to buckle goes on for long, and moves hardly anything.
+constexpr double kEnoughOfMotion = 1e-4;
 
 /// Factors are kept as long as so many steps with them leave no more than this share to do.
 constexpr int kLook = 5;
@@ -29,6 +32,9 @@ constexpr std::uint32_t kRounds = 10, kLeastRounds = 2;
 /// They have found them where those would change velocities by no more than this times as much as
 /// is enough otherwise.
 constexpr double kEnoughOfContacts = 10;
+/// Until then, as far as this share of what they changed in the round before is near enough to a
+/// minimum, and in the first round this many times as much as otherwise.
+constexpr double kShareOfContacts = 0.1, kFirstRound = 10;
 
 /// A call that has gained more than this share of the energy before is not taken; nor one in which
 /// points that others move at v gave all that hangs on them more than this times m v².
@@ -171,7 +177,7 @@ void ElasticSystem::store(World& world) {
 void ElasticSystem::begin(const World& world, double h, double stiffness, double recovery) {
     h_ = h;
     const Particles& p = world.particles;
-    double fastest = 0, furthest = 0;
+    double fastest = 0, furthest = 0, motion = 0;
     Vector3d momentum = Vector3d::Zero();
     double mass = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
@@ -180,11 +186,14 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     for (std::size_t i = 0; i < p.size(); ++i) {
         start_[i] = p.position[i] - p.position[0];
         own_[i].setZero();
-        fastest = std::max(fastest, (p.velocity[i] - mean).squaredNorm());
+        const double square = (p.velocity[i] - mean).squaredNorm();
+        fastest = std::max(fastest, square), motion += mass_[i] * square;
         furthest = std::max(furthest, start_[i].squaredNorm());
     }
     enough_ = kEnoughOfGravity * world.settings.gravity.norm() * h +
               kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
+    enough_size_ = kEnoughOfMotion * std::sqrt(motion);
+    near_ = contacts_.empty() ? 1 : kFirstRound;
     for (const auto& elements : elements_) elements->begin(start_, h);
     contacts_.begin(world, h, stiffness, recovery);
     if (!contacts_.empty()) {
@@ -224,6 +233,11 @@ void ElasticSystem::find_elastic_forces() {
 void ElasticSystem::find_forces() {
     for (std::size_t i = 0; i < x_.size(); ++i) x_[i] = start_[i] + h_ * v_[i];
     find_elastic_forces();
+    sum_forces();
+}
+
+/// The same, where the places are those of the last elastic forces.
+void ElasticSystem::sum_forces() {
     energy_ = elastic_energy_;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         if (mass_[i] == 0) continue;
@@ -322,6 +336,32 @@ double ElasticSystem::slope() const {
     return sum;
 }
 
+/// Share of `way_` where the energy is least, about: of the contacts as it is, of all else as the
+/// factors have it. For the one has kinks, and across a fold the other is no guide.
+double ElasticSystem::share_of_way() {
+    if (contacts_.empty()) return 1;
+    contacts_.begin_line(way_);
+    const double fall = -slope(), of_contacts = contacts_.push_along(0);
+    const double bend = std::max(0.0, fall - stiffness_along(made_of_, first_body_row(), way_));
+    const auto rise = [&](double share) {
+        return of_contacts - fall + share * bend - contacts_.push_along(share);
+    };
+    double low = 0, high = 1, at_low = -fall, at_high = rise(1);
+    if (!(fall > 0) || at_high <= kFlat * fall) return 1;
+    for (int i = 0; i < kCuts; ++i) {
+        const double guess = low - at_low * (high - low) / (at_high - at_low);
+        const double inset = 0.1 * (high - low);
+        const double share = std::clamp(guess, low + inset, high - inset);
+        const double here = rise(share);
+        if (std::abs(here) <= kFlat * fall) return share;
+        if (here > 0)
+            high = share, at_high = here;
+        else
+            low = share, at_low = here;
+    }
+    return low > 0 ? low : high;
+}
+
 /// From the end of a whole step to where the energy along it is least, about, which makes `way_`
 /// that much shorter.
 void ElasticSystem::search_line() {
@@ -347,15 +387,14 @@ void ElasticSystem::search_line() {
     for (Vector3d& way : way_) way *= at;
 }
 
-/// Newton's method, in which factors are kept while they lead on, and Anderson's acceleration makes
-/// up for what their stiffness leaves out. Whether they do is seen from what they find left to do
-/// at the end of a step (the natural test of Deuflhard 2011, §3.3): a test by energy would stop at
-/// every fold, for what moves across a stiff sheet stretches it in second order, and the next step
-/// takes that back. Where the end is not reached, the least energy of all steps stands; returns
-/// whether it was.
+/// From velocities whose forces are known: Newton's method, in which factors are kept while they
+/// lead on, and Anderson's acceleration makes up for what their stiffness leaves out. Whether they
+/// do is seen from what they find left to do at the end of a step (the natural test of Deuflhard
+/// 2011, §3.3): a test by energy would stop at every fold, for what moves across a stiff sheet
+/// stretches it in second order, and the next step takes that back. Where the end is not reached,
+/// the least energy of all steps stands; returns whether it was.
 bool ElasticSystem::descend() {
     const auto dot = [this](const auto& x, const auto& y) { return product(x, y); };
-    find_forces();
     before_step_ = x_;
     keep_best();
     earlier_.clear(v_.size());
@@ -383,8 +422,14 @@ bool ElasticSystem::descend() {
         earlier_.find(direction_, way_, dot);
         std::swap(before_, direction_);
         before_step_ = x_;
+        const double share = share_of_way();
+        if (share < 1)
+            for (Vector3d& way : way_) way *= share;
         advance(1);
-        if (move.greatest <= enough_) return true;
+        const bool is_end = move.greatest <= enough_ || move.size <= enough_size_;
+        if (is_end) near_ = 1;
+        if (is_end || move.greatest <= near_ * enough_ || move.size <= near_ * enough_size_)
+            return true;
         find_forces();
         if (goes_round && slope() > 0) search_line();
         const Move next = find_direction();
@@ -417,7 +462,9 @@ void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 /// Minima, each with the contacts' impulses of the one before, until they change it no more.
 void ElasticSystem::go_rounds() {
     is_settled_ = false;
+    find_forces();
     for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
+        if (round > 0) sum_forces();
         const bool is_there = descend();
         if (contacts_.empty()) {
             is_settled_ = is_there;
@@ -425,7 +472,10 @@ void ElasticSystem::go_rounds() {
         }
         find_forces();
         // short of the minimum, forces of contacts are not near those that hold anything up
-        is_settled_ = is_there && contacts_.take_forces() <= kEnoughOfContacts * enough_;
+        if (!is_there) continue;
+        const double changed = contacts_.take_forces();
+        is_settled_ = near_ <= 1 && changed <= kEnoughOfContacts * enough_;
+        near_ = enough_ > 0 ? std::max(1.0, kShareOfContacts * changed / enough_) : 1;
     }
 }
 

@@ -66,6 +66,7 @@ private:
     double measure(Balloon& balloon) const;
     void find_elastic_forces();
     void find_forces();
+    void sum_forces();
     void assemble_elements();
     void assemble_balloons();
     bool factor();
@@ -74,6 +75,7 @@ private:
     void advance(double step);
     void drop_factors();
     double slope() const;
+    double share_of_way();
     void search_line();
     void guess_rest();
     bool descend();
@@ -99,7 +101,9 @@ private:
     SparseLdlt system_;
     bool has_factors_ = false;
     int new_factors_ = 0;  ///< in this step
-    double h_ = 0, enough_ = 0;
+    double h_ = 0;
+    double enough_ = 0, enough_size_ = 0;  ///< at the end, of a `Move`
+    double near_ = 1;  ///< times as much in a round whose contacts' impulses are rough
     Vector3d fall_ = Vector3d::Zero();  ///< what gravity does in a substep [m/s]
     bool is_first_ = false;             ///< call of `solve` in this substep
     bool is_settled_ = false;           ///< the last call found the minimum
