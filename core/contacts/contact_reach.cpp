@@ -8,29 +8,42 @@
 namespace plumb {
 namespace {
 
-/// By how much a body may come further along `ahead` than its point of the contact is now, within
-/// dt: its way, and what is left of its bounding sphere [m].
-double reach(const World& world, std::uint32_t body, const Vector3d& point, const Vector3d& ahead) {
+/// How far two bodies may move towards each other within dt, turning aside [m].
+double way_of(const World& world, const Contact& c) {
+    const Bodies& b = world.bodies;
+    const double dt = world.settings.dt;
+    double way = (b.velocity[c.a] - b.velocity[c.b]).norm() * dt + fall_in_step(world.settings);
+    for (const std::uint32_t i : {c.a, c.b}) way += b.force[i].norm() * b.inverse_mass[i] * dt * dt;
+    return way;
+}
+
+/// By how much a body may come further along `ahead` than its point of the contact is, as it turns
+/// within dt in its bounding sphere [m].
+double turn_ahead(const World& world, std::uint32_t body, const Vector3d& point,
+                  const Vector3d& ahead) {
     const Bodies& b = world.bodies;
     if (b.motion[body] == Motion::fixed) return 0;
-    const double dt = world.settings.dt, radius = b.bounding_radius[body];
-    const double way =
-        b.velocity[body].norm() * dt + b.force[body].norm() * b.inverse_mass[body] * dt * dt;
+    const double radius = b.bounding_radius[body];
     const double left = std::max(0.0, radius - ahead.dot(point - b.position[body]));
-    return way + std::min(left, b.angular_velocity[body].norm() * radius * dt);
+    return std::min(left, b.angular_velocity[body].norm() * radius * world.settings.dt);
 }
 
 }  // namespace
 
 bool is_out_of_reach(const World& world, const Contact& c) {
-    const double near = world.settings.margin + fall_in_step(world.settings);
-    if (c.gap <= near) return false;
+    if (c.gap <= world.settings.margin) return false;
+    const Bodies& b = world.bodies;
     for (const std::uint32_t body : {c.a, c.b})
-        if (world.bodies.motion[body] == Motion::kinematic) return false;
+        if (b.motion[body] == Motion::kinematic) return false;
+    const double near = world.settings.margin + way_of(world, c);
+    if (c.gap <= near) return false;
+    const bool both_turn = b.motion[c.a] != Motion::fixed && b.motion[c.b] != Motion::fixed;
+    const double apart = (b.position[c.a] - b.position[c.b]).norm();
+    if (both_turn && apart > near + b.bounding_radius[c.a] + b.bounding_radius[c.b]) return true;
     const Vector3d n = to_eigen(c.normal);
     const Vector3d point_a = to_eigen(c.point_a) - c.radius_a * n,
                    point_b = to_eigen(c.point_b) + c.radius_b * n;
-    return c.gap > near + reach(world, c.a, point_a, -n) + reach(world, c.b, point_b, n);
+    return c.gap > near + turn_ahead(world, c.a, point_a, -n) + turn_ahead(world, c.b, point_b, n);
 }
 
 }  // namespace plumb
