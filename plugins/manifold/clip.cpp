@@ -177,16 +177,25 @@ void point_on_segment(FacingPoints& out, const Roles& r) {
     if (norm(offset - s * ef) <= r.slack) emit(out, r, p, q + s * e, 0);
 }
 
+/// The greatest distance of a face's corners from the first [m].
+double extent_of(const SupportFace& face) {
+    double extent = 0;
+    for (int i = 1; i < face.count; ++i)
+        extent = std::max(extent, norm(face.corner[i] - face.corner[0]));
+    return extent;
+}
+
 }  // namespace
 
 FacingPoints facing_points(const SupportFace& a, const SupportFace& b, Vec3 n) {
     // The simpler face is cut by the richer one.
     const bool a_is_subject = std::min(a.count, 3) <= std::min(b.count, 3);
     const SupportFace &subject = a_is_subject ? a : b, &window = a_is_subject ? b : a;
-    double size = 0;
-    for (int i = 1; i < subject.count; ++i)
-        size = std::max(size, norm(subject.corner[i] - subject.corner[0]));
-    const Roles r{subject, window, a_is_subject, n, 1e-7 * (size + subject.radius) + 1e-12};
+    // What is left is no larger than the smaller of them: a slack of the larger one's would move
+    // the points of a wheel on a long floor.
+    double size = extent_of(subject) + subject.radius;
+    if (window.count >= 3) size = std::min(size, extent_of(window));
+    const Roles r{subject, window, a_is_subject, n, 1e-7 * size + 1e-12};
 
     FacingPoints out;
     const bool round = window.rim_radius > 0;
