@@ -14,8 +14,9 @@ namespace {
 constexpr double kStop = 1e-8;
 
 /// To this it is solved once it does not, and in the steps after that (kSettlingSteps); but for
-/// what is missed by more than kMoves, which will not stay as it is anyway.
-constexpr double kSettled = 1e-12, kMoves = 1e-6;
+/// what is missed by more than kMoves, which will not stay as it is anyway, and is solved to kStop;
+/// and by more than kStirs, which is solved to kSolved.
+constexpr double kSettled = 1e-12, kMoves = 1e-6, kStirs = 1e-3;
 
 /// What an island may miss without counting as unsolved.
 constexpr double kSolved = 1e-6;
@@ -128,7 +129,10 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     report.residual = residual();
     if (report.residual <= stop) return report;
     report.stirred = report.residual > kStop * speed;
-    enough_ = (report.residual > kMoves * speed ? kStop : kSettled) * speed;
+    enough_ = (report.residual > kStirs * speed   ? kSolved
+               : report.residual > kMoves * speed ? kStop
+                                                  : kSettled) *
+              speed;
     most_factorisations_ = most_products / std::max<std::uint64_t>(1, system.block_products());
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;

@@ -40,7 +40,7 @@ double mean_height(const World& world) {
 
 /// A heap that sweeps carry well enough takes at most one step in 255 to find that its laws cannot
 /// be solved exactly, however many substeps and however little work each.
-TEST(LongHeaps, ALargeOneIsNotSolvedInVainAgainAndAgain) {
+TEST(LargeHeaps, AreNotSolvedInVainAgainAndAgain) {
     Scene scene = read_scene(PLUMB_TEST_ROOT "/samples/scenes/pile.json");
     scene.settings.substeps = 4;
     scene.settings.velocity_iterations = scene.settings.position_iterations = 1;
