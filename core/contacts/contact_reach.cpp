@@ -8,12 +8,14 @@
 namespace plumb {
 namespace {
 
-/// How far two bodies may move towards each other within dt, turning aside [m].
+/// How far two bodies may move towards each other within dt, turning aside [m]. Not at their
+/// relative velocity: of two that fall together the lower one may be stopped.
 double way_of(const World& world, const Contact& c) {
     const Bodies& b = world.bodies;
     const double dt = world.settings.dt;
-    double way = (b.velocity[c.a] - b.velocity[c.b]).norm() * dt + fall_in_step(world.settings);
-    for (const std::uint32_t i : {c.a, c.b}) way += b.force[i].norm() * b.inverse_mass[i] * dt * dt;
+    double way = fall_in_step(world.settings);
+    for (const std::uint32_t i : {c.a, c.b})
+        way += b.velocity[i].norm() * dt + b.force[i].norm() * b.inverse_mass[i] * dt * dt;
     return way;
 }
 

@@ -191,9 +191,8 @@ void GhostContacts::choose(World& world) {
             const bool stays = memory.known && !memory.flush &&
                                (world.steps + contact.feature) % kSeldom != 0 &&
                                !is_fast(world, contact.a) && !is_fast(world, contact.b);
-            memory.flush = false;
-            memory.ghost = is_out_of_reach(world, contact);
-            if (stays || memory.ghost) continue;
+            memory.ghost = memory.flush = false;
+            if (stays) continue;
             judged_.push_back(i);
             for (const std::uint32_t body : {contact.a, contact.b})
                 listed_[body] = world.bodies.motion[body] == Motion::dynamic;
@@ -313,7 +312,7 @@ void GhostContacts::find(World& world, Workers& workers) {
     }
     ghosts_.clear();
     for (std::uint32_t i = 0; i < c.found.size(); ++i)
-        if (c.memory[i].ghost) ghosts_.push_back(i);
+        if (c.memory[i].ghost || is_out_of_reach(world, c.found[i])) ghosts_.push_back(i);
 }
 
 void GhostContacts::keep_open(ContactTable& contacts) const {

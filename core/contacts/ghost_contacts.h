@@ -10,7 +10,7 @@
 /// points, it is turned: it holds its point above the same plane. Of what is concave, each convex
 /// part is judged by its own contacts. A ghost may not rest on another one.
 ///
-/// A contact of bodies that cannot meet within the step is a ghost, too
+/// A contact of bodies that cannot meet within the step does not close in it either
 /// (contacts/contact_reach.h).
 #pragma once
 

@@ -28,7 +28,7 @@ struct alignas(64) ContactMemory {
     std::uint8_t missed = 0;    ///< 1: it misses Settings::accuracy; more: the steps until it is
                                 ///< tried again (step/large_islands.h)
     bool flush = false;         ///< it is with what lies below the plane of another
-    bool ghost = false;         ///< it never closes (contacts/ghost_contacts.h)
+    bool ghost = false;         ///< and others ensure what it would (contacts/ghost_contacts.h)
     bool known = false;         ///< whether the step before had this very feature
     bool matched = false;  ///< whether it has impulses of the step before, its own or inherited
     Vector3d stick_a = Vector3d::Zero();  ///< points of a and b that met when it began to stick,

@@ -3,7 +3,7 @@
 /// statics knows.
 #include "study/measured.h"
 
-#include "study/cases.h"
+#include "reader/reader.h"
 #include "study/sweep_plan.h"
 
 #include <algorithm>
