@@ -192,9 +192,9 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
-    member.most_products = !member.is_large        ? kAnyProducts
-                           : is_new(world, member) ? kMostProducts
-                                                   : kMostInVain;
+    member.most_products =
+        member.is_large ? most_products(is_new(world, member), member.system.block_products())
+                        : kAnyProducts;
     ties_.end_island(member.ties);
     return true;
 }
@@ -779,8 +779,10 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];
         const std::uint8_t settling = m.stirred ? kSettlingSteps : m.settling - (m.settling > 0);
-        const std::uint8_t left = m.may_be_disputed ? disputed_after(m.disputed, m.solved) : 0;
-        const std::uint8_t missed = !m.is_large ? 0 : m.given_up ? kInVain : kMissed;
+        const bool in_vain = m.is_large && m.given_up;
+        const std::uint8_t left =
+            m.may_be_disputed && !in_vain ? disputed_after(m.disputed, m.solved) : 0;
+        const std::uint8_t missed = !m.is_large ? 0 : in_vain ? kInVain : kMissed;
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
             contacts.memory[contacts_[k]].disputed = left;
             contacts.memory[contacts_[k]].settling = settling;
@@ -801,7 +803,7 @@ void IslandGroup::note_what_misses(World& world, const IslandResiduals& residual
     };
     const auto note = [&](ContactMemory& memory, const IslandResidual& island) {
         const bool fails = memory.exact && misses(island, kFails * s.accuracy);
-        memory.missed = fails ? kTriesAgain : std::max(memory.missed, kMissed);
+        memory.missed = std::max(memory.missed, fails ? kTriesAgain : kMissed);
     };
     const std::vector<IslandResidual>& all = residuals.islands();
     if (!(s.accuracy > 0) || std::none_of(all.begin(), all.end(), needs_more)) return;

@@ -13,10 +13,12 @@ namespace {
 /// Where the law holds to this, nothing is done: what rests so stays as it is.
 constexpr double kStop = 1e-8;
 
-/// To this it is solved once it does not, and in the steps after that (kSettlingSteps); but for
-/// what is missed by more than kMoves, which will not stay as it is anyway, and is solved to kStop;
-/// and by more than kStirs, which is solved to kSolved.
+/// To this it is solved once it does not, and in the steps after that (kSettlingSteps). What is
+/// missed by more than kMoves will not stay as it is anyway, and is solved to kStop. A heap of more
+/// than so many bodies that is missed by more than kStirs is solved to kSolved: in the next step
+/// its forces are others.
 constexpr double kSettled = 1e-12, kMoves = 1e-6, kStirs = 1e-3;
+constexpr std::size_t kHeap = 64;
 
 /// What an island may miss without counting as unsolved.
 constexpr double kSolved = 1e-6;
@@ -129,10 +131,8 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     report.residual = residual();
     if (report.residual <= stop) return report;
     report.stirred = report.residual > kStop * speed;
-    enough_ = (report.residual > kStirs * speed   ? kSolved
-               : report.residual > kMoves * speed ? kStop
-                                                  : kSettled) *
-              speed;
+    const bool stirs = report.residual > kStirs * speed && island.bodies.size() > kHeap;
+    enough_ = (stirs ? kSolved : report.residual > kMoves * speed ? kStop : kSettled) * speed;
     most_factorisations_ = most_products / std::max<std::uint64_t>(1, system.block_products());
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;

@@ -26,14 +26,20 @@ inline bool is_large(const Settings& settings, std::uint32_t bodies) {
 inline constexpr double kRestsBelow = 0.7;
 
 /// What its factorisations in a substep may take, in products of two 6 × 6 blocks: up to ten
-/// seconds. One that could not have so many of them is left to sweeps; a wall of 3600 bricks can.
+/// seconds. One that could not have kFewest of them is left to sweeps; a wall of 3600 bricks can.
 inline constexpr std::uint64_t kMostProducts = 100'000'000, kFewest = 30;
 
-/// The same of one that is not new: one or two seconds. A structure finds its forces in some thirty
-/// factorisations; a large heap that has just settled misses its laws after hundreds, and in each
-/// substep again, though sweeps carry it well. What has taken so much in vain is swept for the rest
-/// of the step, and for a long while.
-inline constexpr std::uint64_t kMostInVain = 30'000'000;
+/// The same of one that is not new: up to three seconds, or so many factorisations. A structure
+/// finds its forces in some thirty; a large heap that has just settled misses its laws after
+/// hundreds, and in each substep again, though sweeps carry it well. What has taken so much in vain
+/// is swept for the rest of the step, and for a long while.
+inline constexpr std::uint64_t kMostInVain = 30'000'000, kMostTrials = 2 * kFewest;
+
+/// The bound on an island for which a factorisation takes `products`.
+inline std::uint64_t most_products(bool is_new, std::uint64_t products) {
+    if (is_new) return kMostProducts;
+    return std::min(kMostProducts, std::max(kMostInVain, kMostTrials * products));
+}
 
 /// Whether the contacts of an island miss more than `accuracy`.
 inline bool misses(const IslandResidual& island, double accuracy) {
@@ -44,8 +50,9 @@ inline bool misses(const IslandResidual& island, double accuracy) {
 inline constexpr double kFails = 10;
 
 /// ContactMemory::missed: 0 where sweeps will do for the island of the contact, kMissed where it is
-/// to be solved exactly; above that, for how many times kTick steps it waits until that is tried
-/// again, and where it was in vain.
+/// to be solved exactly. Above that it waits for so many times kTick steps until it is tried again:
+/// kTriesAgain where its system was too large or it missed far too much, kInVain where it has taken
+/// all that it may and was not solved.
 inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 33, kInVain = 255;
 inline constexpr std::uint64_t kTick = 8;
 inline bool waits(std::uint8_t missed) { return missed > kMissed; }

@@ -25,8 +25,8 @@ struct alignas(64) ContactMemory {
                                 ///< out, or left it as it is
     std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
     std::uint8_t settling = 0;  ///< steps for which it is solved to a finer tolerance (the same)
-    std::uint8_t missed = 0;    ///< 1: it misses Settings::accuracy; more: the steps until it is
-                                ///< tried again (step/large_islands.h)
+    std::uint8_t missed = 0;    ///< 1: its island misses Settings::accuracy; more: it waits for so
+                                ///< long (step/large_islands.h)
     bool flush = false;         ///< it is with what lies below the plane of another
     bool ghost = false;         ///< and others ensure what it would (contacts/ghost_contacts.h)
     bool known = false;         ///< whether the step before had this very feature

@@ -38,8 +38,8 @@ double mean_height(const World& world) {
     return sum / count;
 }
 
-/// A heap that sweeps carry well enough takes at most one step in 255 to find that its laws cannot
-/// be solved exactly, however many substeps and however little work each.
+/// A heap that sweeps carry well enough takes at most one step in some 2000 to find that its laws
+/// cannot be solved exactly, however many substeps and however little work each.
 TEST(LargeHeaps, AreNotSolvedInVainAgainAndAgain) {
     Scene scene = read_scene(PLUMB_TEST_ROOT "/samples/scenes/pile.json");
     scene.settings.substeps = 4;
@@ -52,7 +52,7 @@ TEST(LargeHeaps, AreNotSolvedInVainAgainAndAgain) {
         for (const IslandResidual& island : simulation.island_residuals())
             tried += island.exact && island.bodies > scene.settings.exact_islands;
     }
-    EXPECT_LE(tried, 4);
+    EXPECT_LE(tried, 2);
 }
 
 void expect_stays(const std::string& heap, const std::string& collider, double seconds) {

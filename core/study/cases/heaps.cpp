@@ -6,7 +6,6 @@
 #include "study/gauges.h"
 #include "study/judges.h"
 
-#include <array>
 #include <cmath>
 #include <numbers>
 

@@ -53,7 +53,7 @@ Subject arch() {
         add_voussoir(s.scene, from, from + pitch, kInner - 0.2, kOuter + 0.2).motion =
             Motion::fixed;
     s.scene.materials[0].friction = 0.6;
-    s.metrics = {shift_metric("largest way of a stone, of the span", 2 * kRadius),
+    s.metrics = {shift_metric("farthest that a stone has moved, of the span", 2 * kRadius),
                  last("force", "", "error of what the abutments bear in the end",
                       [](const World& w) { return support_error(w, kStones); })};
     s.tolerance = 1e-10;
@@ -80,7 +80,7 @@ Subject wall() {
     }
     const auto ground = static_cast<std::uint32_t>(s.scene.bodies.size());
     add_ground(s.scene);
-    s.metrics = {shift_metric("largest way of a brick, of its length", 2 * half.x()),
+    s.metrics = {shift_metric("farthest that a brick has moved, of its length", 2 * half.x()),
                  last("force", "", "error of what the ground bears in the end",
                       [ground](const World& w) { return support_error(w, ground); })};
     s.tolerance = 1.5e-8;

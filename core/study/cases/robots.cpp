@@ -6,7 +6,6 @@
 #include "study/judges.h"
 
 #include <algorithm>
-#include <array>
 
 namespace plumb::study {
 namespace {
@@ -65,7 +64,7 @@ Subject robot() {
     for (const double x : {-0.3, 0.3})
         for (const double z : {-0.2, 0.2}) add_leg(s.scene, 0, {x, kHip, z}, x < 0 ? 1 : -1);
     add_ground(s.scene);
-    s.metrics = {shift_metric("largest way of a part, of the height", kHip),
+    s.metrics = {shift_metric("farthest that a part has moved, of the height", kHip),
                  last("force", "", "largest error of a foot's load in the end", [](const World& w) {
                      double worst = 0;
                      for (const std::uint32_t shank : {2u, 4u, 6u, 8u})

@@ -37,7 +37,7 @@ void add_cubes(Subject& s, const std::vector<double>& masses) {
     for (std::uint32_t i = 0; i < masses.size(); ++i)
         add_body(s.scene, box(Vector3d::Constant(kHalf)), {0, kHalf * (2 * i + 1), 0}).mass =
             masses[i];
-    s.metrics = {shift_metric("largest way of a cube, of its edge", 2 * kHalf),
+    s.metrics = {shift_metric("farthest that a cube has moved, of its edge", 2 * kHalf),
                  last("force", "", "largest error of a level's force in the end", force_error)};
 }
 
