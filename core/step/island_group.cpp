@@ -192,9 +192,8 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
-    member.most_products =
-        member.is_large ? most_products(is_new(world, member), member.system.block_products())
-                        : kAnyProducts;
+    member.products = member.is_large ? kMostProducts : kAnyProducts;
+    member.in_vain = in_vain_before(world, member);
     ties_.end_island(member.ties);
     return true;
 }
@@ -616,12 +615,14 @@ void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
         shift[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift[i] - island.velocity[i]);
 }
 
-/// Whether most of its contacts remember nothing.
-bool IslandGroup::is_new(const World& world, const Member& m) const {
-    std::uint32_t known = 0;
-    for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
-        known += world.contacts.memory[contacts_[k]].matched;
-    return 2 * known < m.last_point - m.first_point;
+/// What it has taken in vain until now.
+std::uint64_t IslandGroup::in_vain_before(const World& world, const Member& m) const {
+    std::uint64_t most = 0;
+    for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
+        const ContactMemory& memory = world.contacts.memory[contacts_[k]];
+        if (memory.matched) most = std::max(most, in_vain_of(memory.missed));
+    }
+    return most;
 }
 
 /// Returns whether it is solved.
@@ -633,9 +634,11 @@ bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort eff
     return report.solved;
 }
 
-/// A large island that has taken in vain what a step may spend on it is swept from now on.
-void IslandGroup::give_up_if_spent(Member& m) {
-    if (m.solved || m.products_left >= m.system.block_products()) return;
+/// A large island that has taken too much in vain is swept from now on.
+void IslandGroup::give_up_if_in_vain(Member& m) {
+    if (!m.is_large) return;
+    m.in_vain = m.solved ? 0 : m.in_vain + m.products - m.products_left;
+    if (m.in_vain <= kMostInVain * kInVainUnit) return;
     m.given_up = true;
     m.splits = false;
     m.effort = IslandEffort::swept;
@@ -643,7 +646,7 @@ void IslandGroup::give_up_if_spent(Member& m) {
 
 /// Ties are not linear: what a solution leaves open of them is asked for again.
 void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
-    m.products_left = m.most_products;
+    m.products_left = m.products;
     const double tolerance = world.settings.joint_tolerance;
     const Island island = island_of(m);
     const auto gains = [&](double share = 0) {
@@ -657,7 +660,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
             solver.sweep(island);
         else
             m.solved = solve_system(solver, m, IslandEffort::light);
-        give_up_if_spent(m);
+        give_up_if_in_vain(m);
         const std::size_t bodies = m.last_body - m.first_body;
         solver.open_apart(island, {opening_.data() + m.first_point, island.points.size()},
                           {shift_.data() + m.first_body, bodies});
@@ -690,7 +693,7 @@ void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
         m.effort = IslandEffort::swept;
         m.splits = !m.flies;
     }
-    give_up_if_spent(m);
+    give_up_if_in_vain(m);
     if (m.parts) bound_energy(solver, m), ask();
     if (m.ties.empty()) return;
     if (is_pulled_apart(world, m)) return hold_torn(solver, m);
@@ -782,7 +785,10 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         const bool in_vain = m.is_large && m.given_up;
         const std::uint8_t left =
             m.may_be_disputed && !in_vain ? disputed_after(m.disputed, m.solved) : 0;
-        const std::uint8_t missed = !m.is_large ? 0 : in_vain ? kInVain : kMissed;
+        const std::uint64_t left_in_vain = m.in_vain - std::min(m.in_vain, kInVainUnit);
+        const std::uint8_t missed = !m.is_large ? 0
+                                    : in_vain   ? kInVain
+                                                : missed_after(left_in_vain);
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
             contacts.memory[contacts_[k]].disputed = left;
             contacts.memory[contacts_[k]].settling = settling;

@@ -94,8 +94,9 @@ private:
         bool was_torn;  // the same, so far that it is torn
         double open;    // the worst tie [m], [rad]
         bool given_up;  // in this step: its ties could not be closed, or it was large and in vain
-        std::uint64_t most_products;  // that a substep may take, see large_islands.h
+        std::uint64_t products;       // that a substep may take, see large_islands.h
         std::uint64_t products_left;  // of them, in this substep
+        std::uint64_t in_vain;        // of a large island, since it was solved
     };
     bool take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
@@ -111,8 +112,8 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
-    bool is_new(const World& world, const Member& member) const;
-    static void give_up_if_spent(Member& member);
+    std::uint64_t in_vain_before(const World& world, const Member& member) const;
+    static void give_up_if_in_vain(Member& member);
     bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;
     bool is_pulled_apart(const World& world, const Member& member);

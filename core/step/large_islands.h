@@ -29,17 +29,12 @@ inline constexpr double kRestsBelow = 0.7;
 /// seconds. One that could not have kFewest of them is left to sweeps; a wall of 3600 bricks can.
 inline constexpr std::uint64_t kMostProducts = 100'000'000, kFewest = 30;
 
-/// The same of one that is not new: up to three seconds, or so many factorisations. A structure
-/// finds its forces in some thirty; a large heap that has just settled misses its laws after
-/// hundreds, and in each substep again, though sweeps carry it well. What has taken so much in vain
-/// is swept for the rest of the step, and for a long while.
-inline constexpr std::uint64_t kMostInVain = 30'000'000, kMostTrials = 2 * kFewest;
-
-/// The bound on an island for which a factorisation takes `products`.
-inline std::uint64_t most_products(bool is_new, std::uint64_t products) {
-    if (is_new) return kMostProducts;
-    return std::min(kMostProducts, std::max(kMostInVain, kMostTrials * products));
-}
+/// A structure finds its forces in some thirty factorisations, or in a hundred once it is jolted. A
+/// large heap that has just settled misses its laws after hundreds, and in each substep again,
+/// though sweeps carry it well. So what is taken in vain is summed up, less one of these for each
+/// step, until the island is solved once. One that comes to more than kMostInVain of them is swept
+/// for the rest of the step, and for a long while.
+inline constexpr std::uint64_t kInVainUnit = 10'000'000, kMostInVain = 15;
 
 /// Whether the contacts of an island miss more than `accuracy`.
 inline bool misses(const IslandResidual& island, double accuracy) {
@@ -49,13 +44,21 @@ inline bool misses(const IslandResidual& island, double accuracy) {
 /// What was to be exact and misses so many times the accuracy is left to sweeps for a while.
 inline constexpr double kFails = 10;
 
-/// ContactMemory::missed: 0 where sweeps will do for the island of the contact, kMissed where it is
-/// to be solved exactly. Above that it waits for so many times kTick steps until it is tried again:
-/// kTriesAgain where its system was too large or it missed far too much, kInVain where it has taken
-/// all that it may and was not solved.
+/// ContactMemory::missed: 0 where sweeps will do for the island of the contact; where it is to be
+/// solved exactly, 1 and what has been taken in vain [kInVainUnit]. Above that it waits for so many
+/// times kTick steps until it is tried again: kTriesAgain where its system was too large or it
+/// missed far too much, kInVain where it has taken all that it may.
 inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 33, kInVain = 255;
 inline constexpr std::uint64_t kTick = 8;
-inline bool waits(std::uint8_t missed) { return missed > kMissed; }
+inline bool waits(std::uint8_t missed) { return missed > kMissed + kMostInVain; }
+
+/// Products taken in vain, and how they are remembered at the end of a step.
+inline std::uint64_t in_vain_of(std::uint8_t missed) {
+    return missed > kMissed ? (missed - kMissed) * kInVainUnit : 0;
+}
+inline std::uint8_t missed_after(std::uint64_t in_vain) {
+    return static_cast<std::uint8_t>(kMissed + std::min(kMostInVain, in_vain / kInVainUnit));
+}
 
 /// After a step in which the island was swept. `step`: how many there were.
 inline std::uint8_t missed_after_sweeps(std::uint8_t missed, std::uint64_t step) {
