@@ -105,6 +105,11 @@ inline bool is_open(const World& world, std::size_t i) {
 /// What gravity moves a body by in a step, from rest and as the step counts it [m].
 inline double fall_in_step(const Settings& s) { return s.gravity.norm() * s.dt * s.dt; }
 
+/// How far the centre of a body may come within dt [s] at its velocity and by its own force [m].
+inline double way_in(const Bodies& b, std::size_t i, double dt) {
+    return b.velocity[i].norm() * dt + b.force[i].norm() * b.inverse_mass[i] * dt * dt;
+}
+
 /// A pair that approaches faster collides: √(2 g ε) [m/s].
 inline double collision_threshold(const Settings& s) {
     return std::sqrt(2 * s.gravity.norm() * s.collision_depth);

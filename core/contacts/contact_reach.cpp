@@ -11,12 +11,9 @@ namespace {
 /// How far two bodies may move towards each other within dt, turning aside [m]. Not at their
 /// relative velocity: of two that fall together the lower one may be stopped.
 double way_of(const World& world, const Contact& c) {
-    const Bodies& b = world.bodies;
     const double dt = world.settings.dt;
-    double way = fall_in_step(world.settings);
-    for (const std::uint32_t i : {c.a, c.b})
-        way += b.velocity[i].norm() * dt + b.force[i].norm() * b.inverse_mass[i] * dt * dt;
-    return way;
+    return fall_in_step(world.settings) + way_in(world.bodies, c.a, dt) +
+           way_in(world.bodies, c.b, dt);
 }
 
 /// By how much a body may come further along `ahead` than its point of the contact is, as it turns

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/contact_faults.h"
+#include "contacts/contact_measures.h"
 #include "contacts/contact_stages.h"
 #include "contacts/renew_contacts.h"
 #include "world/motion_script.h"
@@ -28,8 +29,7 @@ double travel_in(const World& world, std::size_t i, double dt) {
         return travel_of(b, i, (to.position - b.position[i]).norm(),
                          to.rotation.angularDistance(b.orientation[i]));
     }
-    const double way = b.velocity[i].norm() * dt + b.force[i].norm() * b.inverse_mass[i] * dt * dt;
-    return travel_of(b, i, way, b.angular_velocity[i].norm() * dt);
+    return travel_of(b, i, way_in(b, i, dt), b.angular_velocity[i].norm() * dt);
 }
 
 bool before(const Contact& x, const Contact& y) {

@@ -193,7 +193,7 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
     member.products = member.is_large ? kMostProducts : kAnyProducts;
-    member.in_vain = in_vain_before(world, member);
+    member.in_vain = member.is_large ? in_vain_before(world, member) : 0;
     ties_.end_island(member.ties);
     return true;
 }

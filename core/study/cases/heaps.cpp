@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 /// What falls into a heap.
-#include "measure/measure.h"
 #include "study/cases/list.h"
 #include "study/cases/parts.h"
 #include "study/gauges.h"
@@ -29,9 +28,7 @@ double mean_speed(const World& w) {
 Subject pile() {
     Subject s = begin_subject("pile", "490 boxes and balls fall between four walls",
                               "nothing overlaps, and all rests in the end", 5);
-    s.scene.settings.dt = 0.01;
-    s.scene.settings.substeps = 1;
-    s.scene.settings.velocity_iterations = s.scene.settings.position_iterations = 5;
+    use_coarse_steps(s);
     add_ground(s.scene);
     constexpr double kRoom = 2.2;  // half of what the walls leave [m]
     for (const double side : {-1.0, 1.0}) {

@@ -64,9 +64,7 @@ Subject arch() {
 Subject wall() {
     Subject s = begin_subject("wall", "A wall of 40 × 11 loose bricks stands",
                               "nothing pushes it; the ground bears the weight", 2);
-    s.scene.settings.dt = 0.01;
-    s.scene.settings.substeps = 1;
-    s.scene.settings.velocity_iterations = s.scene.settings.position_iterations = 5;
+    use_coarse_steps(s);
     constexpr std::uint32_t kBricks = 40, kCourses = 11;
     const Vector3d half(0.1, 0.035, 0.05);
     for (std::uint32_t course = 0; course < kCourses; ++course) {
