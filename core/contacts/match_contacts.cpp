@@ -60,6 +60,7 @@ void hand_on_impulses(const PairRun& now, const PairRun& before,
         heir.rolling_impulse += memory.rolling_impulse;
         heir.exact |= memory.exact;
         heir.missed = std::max(heir.missed, memory.missed);
+        heir.moved |= memory.moved;
         heir.matched = true;
     }
 }

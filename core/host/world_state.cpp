@@ -80,7 +80,7 @@ void each_number_of_memory(Io& io, Table& table) {
         vector(io, m.friction_impulse), vector(io, m.rolling_impulse);
         vector(io, m.stick_a), vector(io, m.stick_b);
         io(m.sticks), io(m.exact), io(m.jammed), io(m.disputed), io(m.settling), io(m.missed),
-            io(m.flush), io(m.ghost), io(m.known), io(m.matched);
+            io(m.moved), io(m.flush), io(m.ghost), io(m.known), io(m.matched);
     }
 }
 

@@ -6,6 +6,7 @@
 #include "contacts/contact_measures.h"
 #include "schedule/joint_trees.h"
 #include "solve/linked_point.h"
+#include "step/island_effort.h"
 #include "step/joint_state.h"
 #include "step/large_islands.h"
 #include "step/substep_time.h"
@@ -360,6 +361,10 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         leave(world, island, pairs);
         return IslandWay::left;
     }
+    if (waits(world, island, pairs)) {
+        leave(world, island, pairs);
+        return IslandWay::left;
+    }
     if ((obstacles & (kHard | kPulled)) || ((obstacles & kRests) && !is_driven(island)) ||
         (meshed && is_driven(island) && is_torn(world, island)))
         return IslandWay::swept;
@@ -515,7 +520,38 @@ bool IslandChoice::rests_and_misses(const World& world, const ContactIsland& isl
         missed = std::max(missed, memory.missed), known += memory.matched;
     }
     const bool is_new = 2 * known < island.last_pair - island.first_pair;
-    if (waits(missed) || (missed == 0 && !is_new)) return false;
+    if (plumb::waits(missed) || (missed == 0 && !is_new)) return false;
+    return rests(world, island, pairs);
+}
+
+/// Of a heap that is not large: whether most of it was given up, and moves. What comes to it does
+/// not wait.
+bool IslandChoice::waits(const World& world, const ContactIsland& island,
+                         const std::vector<BodyPair>& pairs) const {
+    if (!is_loose(island) || island.last_body - island.first_body <= kHeap) return false;
+    const auto waits = [](const ContactMemory& m) { return plumb::waits(m.missed); };
+    return most_of(world, island, pairs, waits) && !rests(world, island, pairs);
+}
+
+bool IslandChoice::moved_on(const World& world, const ContactIsland& island,
+                            const std::vector<BodyPair>& pairs) const {
+    return most_of(world, island, pairs, [](const ContactMemory& m) { return m.moved; });
+}
+
+/// Whether what most of the pairs remember is so.
+template <class Is>
+bool IslandChoice::most_of(const World& world, const ContactIsland& island,
+                           const std::vector<BodyPair>& pairs, Is is) const {
+    std::uint32_t known = 0, so = 0;
+    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
+        const ContactMemory& memory = world.contacts.memory[pairs[found_.pairs()[i]].first];
+        known += memory.matched, so += memory.matched && is(memory);
+    }
+    return 2 * so > known;
+}
+
+bool IslandChoice::rests(const World& world, const ContactIsland& island,
+                         const std::vector<BodyPair>& pairs) const {
     const Bodies& b = world.bodies;
     bool is_deep = false;
     const Stir stir = stir_of(world, island, pairs, [&](std::uint32_t k) {

@@ -75,6 +75,14 @@ public:
     bool is_meshed(const ContactIsland& island) const;
     bool is_torn(const World& world, const ContactIsland& island) const;
 
+    /// Whether it lies still, as far as sweeps tell, and overlaps by little (step/large_islands.h).
+    bool rests(const World& world, const ContactIsland& island,
+               const std::vector<BodyPair>& pairs) const;
+
+    /// Of a heap that moves: whether it was given up, and sweeps have not brought it to rest.
+    bool moved_on(const World& world, const ContactIsland& island,
+                  const std::vector<BodyPair>& pairs) const;
+
     /// Whether it touches and hangs by nothing that is immovable.
     bool flies(const World& world, const ContactIsland& island,
                const std::vector<BodyPair>& pairs) const;
@@ -130,6 +138,11 @@ private:
                  const std::vector<BodyPair>& pairs, bool hard) const;
     bool rests_and_misses(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const;
+    bool waits(const World& world, const ContactIsland& island,
+               const std::vector<BodyPair>& pairs) const;
+    template <class Is>
+    bool most_of(const World& world, const ContactIsland& island,
+                 const std::vector<BodyPair>& pairs, Is is) const;
     void find_upset(const World& world, const ContactIsland& island,
                     const std::vector<BodyPair>& pairs);
     void mark(const World& world, const BodyPair& pair, double bears);

@@ -13,6 +13,9 @@
 
 namespace plumb {
 
+/// A heap has more than so many bodies.
+inline constexpr std::size_t kHeap = 64;
+
 enum class IslandEffort : std::uint8_t {
     full,   ///< solved until its laws hold, overlap and slip among them
     swept,  ///< disputed: opened apart, and solved with little work; else improved by sweeps

@@ -192,8 +192,16 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     }
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
+    const bool is_heap = !member.is_large && member.may_be_disputed && n > kHeap;
+    member.unit = 0, member.free = 0;
+    member.moves = is_heap && !choice_.rests(world, island, pairs);
+    member.moved_on = member.moves && choice_.moved_on(world, island, pairs);
+    if (member.is_large)
+        member.unit = kLargeUnit, member.free = kFreeUnits * kLargeUnit;
+    else if (member.moves && !member.moved_on)
+        member.unit = kHeapUnit * member.system.block_products();
     member.products = member.is_large ? kMostProducts : kAnyProducts;
-    member.in_vain = member.is_large ? in_vain_before(world, member) : 0;
+    member.in_vain = in_vain_before(world, member);
     ties_.end_island(member.ties);
     return true;
 }
@@ -224,7 +232,7 @@ void IslandGroup::choose_effort(const World& world, Member& member, bool swept) 
         member.settling = std::max(member.settling, world.contacts.memory[contacts_[k]].settling);
     member.overlap = member.overlap_before = 0;
     member.is_deep = swept;
-    member.splits = false;
+    member.splits = member.opens = false;
     member.effort = swept ? IslandEffort::swept : IslandEffort::full;
     if (!member.may_be_disputed) return;
     for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
@@ -242,6 +250,7 @@ void IslandGroup::choose_effort(const World& world, Member& member, bool swept) 
     if (begins) begin_dispute(member);
     member.effort = effort_of(member.disputed);
     member.splits = member.effort == IslandEffort::swept && !member.flies;
+    member.opens = member.splits && !is_shallow(world, member);
 }
 
 void IslandGroup::begin_dispute(Member& member) {
@@ -620,9 +629,10 @@ std::uint64_t IslandGroup::in_vain_before(const World& world, const Member& m) c
     std::uint64_t most = 0;
     for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
         const ContactMemory& memory = world.contacts.memory[contacts_[k]];
-        if (memory.matched) most = std::max(most, in_vain_of(memory.missed));
+        if (memory.matched && !waits(memory.missed))
+            most = std::max(most, in_vain_of(memory.missed));
     }
-    return most;
+    return most * m.unit;
 }
 
 /// Returns whether it is solved.
@@ -634,11 +644,11 @@ bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort eff
     return report.solved;
 }
 
-/// A large island that has taken too much in vain is swept from now on.
+/// What has taken too much in vain is swept from now on (step/large_islands.h).
 void IslandGroup::give_up_if_in_vain(Member& m) {
-    if (!m.is_large) return;
+    if (m.unit == 0 || (m.opens && !m.is_large)) return;
     m.in_vain = m.solved ? 0 : m.in_vain + m.products - m.products_left;
-    if (m.in_vain <= kMostInVain * kInVainUnit) return;
+    if (m.in_vain <= (m.is_large ? kMostInVain : kMostOfHeap) * m.unit) return;
     m.given_up = true;
     m.splits = false;
     m.effort = IslandEffort::swept;
@@ -782,17 +792,19 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];
         const std::uint8_t settling = m.stirred ? kSettlingSteps : m.settling - (m.settling > 0);
-        const bool in_vain = m.is_large && m.given_up;
+        const bool in_vain = m.unit > 0 && m.given_up;
         const std::uint8_t left =
             m.may_be_disputed && !in_vain ? disputed_after(m.disputed, m.solved) : 0;
-        const std::uint64_t left_in_vain = m.in_vain - std::min(m.in_vain, kInVainUnit);
-        const std::uint8_t missed = !m.is_large ? 0
-                                    : in_vain   ? kInVain
-                                                : missed_after(left_in_vain);
+        const std::uint64_t left_in_vain = m.in_vain - std::min(m.in_vain, m.free);
+        const std::uint8_t missed = m.unit == 0 ? 0
+                                    : in_vain   ? (m.is_large ? kInVain : kHeapInVain)
+                                                : missed_after(left_in_vain / m.unit);
+        const bool moved = m.moves && (in_vain || (m.moved_on && (m.opens || !m.solved)));
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
             contacts.memory[contacts_[k]].disputed = left;
             contacts.memory[contacts_[k]].settling = settling;
             contacts.memory[contacts_[k]].missed = missed;
+            contacts.memory[contacts_[k]].moved = moved;
             contacts.memory[contacts_[k]].disputed_overlap = static_cast<float>(m.overlap_before);
         }
     }

@@ -87,6 +87,7 @@ private:
         IslandEffort effort;    // in this step
         bool is_deep;           // some of it overlaps too deeply for an exact solution
         bool splits;            // in this step: what is swept is opened apart from velocities
+        bool opens;             // and something overlaps by much
         bool solved;
         bool bounces;   // in this substep
         bool parts;     // in this substep, and must gain nothing by it
@@ -96,7 +97,11 @@ private:
         bool given_up;  // in this step: its ties could not be closed, or it was large and in vain
         std::uint64_t products;       // that a substep may take, see large_islands.h
         std::uint64_t products_left;  // of them, in this substep
-        std::uint64_t in_vain;        // of a large island, since it was solved
+        std::uint64_t in_vain;        // since it was solved,
+        std::uint64_t unit;           // in these; 0: it is never given up
+        std::uint64_t free;           // of it, in a step
+        bool moves;                   // at the start of the step
+        bool moved_on;                // and sweeps did not bring it to rest
     };
     bool take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);

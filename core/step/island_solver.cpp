@@ -18,7 +18,6 @@ constexpr double kStop = 1e-8;
 /// than so many bodies that is missed by more than kStirs is solved to kSolved: in the next step
 /// its forces are others.
 constexpr double kSettled = 1e-12, kMoves = 1e-6, kStirs = 1e-3;
-constexpr std::size_t kHeap = 64;
 
 /// What an island may miss without counting as unsolved.
 constexpr double kSolved = 1e-6;

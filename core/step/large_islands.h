@@ -31,10 +31,20 @@ inline constexpr std::uint64_t kMostProducts = 100'000'000, kFewest = 30;
 
 /// A structure finds its forces in some thirty factorisations, or in a hundred once it is jolted. A
 /// large heap that has just settled misses its laws after hundreds, and in each substep again,
-/// though sweeps carry it well. So what is taken in vain is summed up, less one of these for each
-/// step, until the island is solved once. One that comes to more than kMostInVain of them is swept
-/// for the rest of the step, and for a long while.
-inline constexpr std::uint64_t kInVainUnit = 10'000'000, kMostInVain = 15;
+/// though sweeps carry it well. So what is taken in vain is summed up, less what a step may take
+/// freely, until the island is solved once. One that comes to more than kMostInVain units is swept
+/// for the rest of the step, and for a while.
+inline constexpr std::uint8_t kMostInVain = 60;
+
+/// A unit of large islands [products], and how many of them are free.
+inline constexpr std::uint64_t kLargeUnit = 2'500'000, kFreeUnits = 4;
+
+/// A smaller heap, of more than kHeap bodies, takes in vain most while it moves, a step's forces
+/// being of no use to the next. Its unit is so many of its own factorisations, and it may take
+/// fewer. One that was given up is tried again as soon as it rests. If sweeps do not bring it to
+/// rest, it is solved as far as that goes until it does.
+inline constexpr std::uint64_t kHeapUnit = 8;
+inline constexpr std::uint8_t kMostOfHeap = 20;
 
 /// Whether the contacts of an island miss more than `accuracy`.
 inline bool misses(const IslandResidual& island, double accuracy) {
@@ -45,19 +55,20 @@ inline bool misses(const IslandResidual& island, double accuracy) {
 inline constexpr double kFails = 10;
 
 /// ContactMemory::missed: 0 where sweeps will do for the island of the contact; where it is to be
-/// solved exactly, 1 and what has been taken in vain [kInVainUnit]. Above that it waits for so many
-/// times kTick steps until it is tried again: kTriesAgain where its system was too large or it
-/// missed far too much, kInVain where it has taken all that it may.
-inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 33, kInVain = 255;
+/// solved exactly, 1 and what has been taken in vain [units]. Above that it waits for so many times
+/// kTick steps until it is tried again: kTriesAgain where its system was too large or it missed far
+/// too much, kInVain where it is large and has taken all that it may, kHeapInVain where it is a
+/// smaller heap.
+inline constexpr std::uint8_t kMissed = 1, kTriesAgain = 77, kHeapInVain = 93, kInVain = 255;
 inline constexpr std::uint64_t kTick = 8;
 inline bool waits(std::uint8_t missed) { return missed > kMissed + kMostInVain; }
 
-/// Products taken in vain, and how they are remembered at the end of a step.
+/// Units taken in vain, as they are remembered.
 inline std::uint64_t in_vain_of(std::uint8_t missed) {
-    return missed > kMissed ? (missed - kMissed) * kInVainUnit : 0;
+    return missed > kMissed ? missed - kMissed : 0u;
 }
-inline std::uint8_t missed_after(std::uint64_t in_vain) {
-    return static_cast<std::uint8_t>(kMissed + std::min(kMostInVain, in_vain / kInVainUnit));
+inline std::uint8_t missed_after(std::uint64_t units) {
+    return static_cast<std::uint8_t>(kMissed + std::min<std::uint64_t>(kMostInVain, units));
 }
 
 /// After a step in which the island was swept. `step`: how many there were.
