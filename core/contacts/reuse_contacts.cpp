@@ -75,6 +75,7 @@ public:
         while (read_ < pairs.size() && key_of(pairs[read_]) < key) contact_ += pairs[read_++].count;
         const double margin = world_.settings.margin + motions_[a].sweep + motions_[b].sweep;
         if (read_ == pairs.size() || key_of(pairs[read_]) != key) {
+            if (is_beyond(a, b, margin)) return false;
             kept_.born.push_back({a, b, 0, 0, true, margin, 0, 0});
             renew(kept_.born.back(), kept_.born_poses.emplace_back(), margin);
             return true;
@@ -84,10 +85,14 @@ public:
         __builtin_prefetch(&pose + kAhead), __builtin_prefetch(&(&pose + kAhead)->turn);
         pair.first = contact_;
         contact_ += pair.count;
-        if (is_kept(pair, pose, margin))
+        if (is_kept(pair, pose, margin)) {
             keep(pair);
-        else
+        } else if (is_beyond(a, b, margin)) {
+            ++read_;
+            return false;
+        } else {
             renew(pair, pose, margin);
+        }
         const bool wanted = pair.fresh;
         if (write_ != read_) pairs[write_] = pair, kept_.poses[write_] = pose;
         ++write_, ++read_;
@@ -128,6 +133,13 @@ private:
     double smaller_radius(const KeptPair& pair) const {
         const std::vector<double>& radius = world_.bodies.bounding_radius;
         return std::min(radius[pair.a], radius[pair.b]);
+    }
+
+    /// Whether the bounding spheres are so far apart that the narrow phase would find nothing.
+    bool is_beyond(std::uint32_t a, std::uint32_t b, double margin) const {
+        const Bodies& all = world_.bodies;
+        const double reach = all.bounding_radius[a] + all.bounding_radius[b] + margin;
+        return (all.position[a] - all.position[b]).squaredNorm() > reach * reach;
     }
 
     bool is_kept(KeptPair& pair, const PairPose& then, double margin) const {

@@ -7,7 +7,7 @@ namespace plumb {
 namespace {
 
 constexpr double kSpare = 0.03;         ///< of a part's least extent, left around it everywhere
-constexpr double kDetectionsAhead = 8;  ///< for which a moving part gets room
+constexpr double kDetectionsAhead = 8;  ///< for which a moving part gets room where it goes
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr Aabb kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
@@ -16,6 +16,12 @@ bool contains(const Aabb& outer, const Aabb& inner) {
     return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
            inner.high.x <= outer.high.x && inner.high.y <= outer.high.y &&
            inner.high.z <= outer.high.z;
+}
+
+/// Lets bounds hold what goes so far from within them.
+void stretch(Aabb& b, Vec3 way) {
+    b.low = b.low + Vec3{std::min(way.x, 0.0), std::min(way.y, 0.0), std::min(way.z, 0.0)};
+    b.high = b.high + Vec3{std::max(way.x, 0.0), std::max(way.y, 0.0), std::max(way.z, 0.0)};
 }
 
 double least_extent(const Aabb& b) {
@@ -45,13 +51,14 @@ void Candidates::find_escaped(BodyTable& table) {
 
 void Candidates::fatten(Part& part, Made& made) const {
     double spare = kSpare * least_extent(part.bounds);
-    const Vec3 moved = part.bounds.low - made.low;
-    const double travel = std::max({std::abs(moved.x), std::abs(moved.y), std::abs(moved.z)});
-    const auto detections = static_cast<double>(detection_ - made.detection);
-    if (made.detection > 0) spare += kDetectionsAhead * travel / detections;
     if (!std::isfinite(spare)) spare = 0;  // a half-space
     const Vec3 grown{spare, spare, spare};
     part.fat = {part.bounds.low - grown, part.bounds.high + grown};
+    const Vec3 moved = part.bounds.low - made.low;
+    if (made.detection > 0 && std::isfinite(moved.x + moved.y + moved.z)) {
+        const auto detections = static_cast<double>(detection_ - made.detection);
+        stretch(part.fat, kDetectionsAhead / detections * moved);
+    }
     made = {part.bounds.low, detection_};
 }
 
