@@ -76,6 +76,7 @@ void Statistics::add(const Simulation& simulation, const StepReport& report) {
     unsolved_islands += report.unsolved_islands;
     costly_islands += report.costly_islands;
     unsolved_trees += report.unsolved_trees;
+    coarse_trees += report.coarse_trees;
     torn += report.torn_elements;
     broken += report.broken_joints;
     tree_error = std::max(tree_error, report.tree_error);

@@ -65,7 +65,8 @@ public:
     std::uint32_t contact_max = 0;
     std::uint32_t asleep_max = 0, asleep_end = 0;  ///< StepReport::asleep
     std::uint64_t clamped_recoveries = 0, unsolved_islands = 0, costly_islands = 0,
-                  unsolved_trees = 0, rejected_contacts = 0, collider_failures = 0;
+                  unsolved_trees = 0, coarse_trees = 0, rejected_contacts = 0,
+                  collider_failures = 0;
     std::uint64_t torn = 0;                                  ///< elements of deformables
     std::uint64_t broken = 0;                                ///< joints that gave way
     std::array<std::uint64_t, kContactFaultCount> faults{};  ///< contacts left out, by fault

@@ -247,15 +247,12 @@ Json summary(const std::string& scene_file, const Scene& scene, const Simulation
     j["fallen_through"] = fallen_through(scene, world);
     j["torn"] = s.torn;
     j["broken"] = s.broken;
-    j["clamps"] = {{"recovery", s.clamped_recoveries},
-                   {"unsolved_islands", s.unsolved_islands},
-                   {"costly_islands", s.costly_islands},
-                   {"unsolved_trees", s.unsolved_trees},
-                   {"tree_error_m", s.tree_error},
-                   {"stretched_links", s.stretched_links},
-                   {"link_error_m", s.link_error},
-                   {"rejected_contacts", s.rejected_contacts},
-                   {"collider_failures", s.collider_failures}};
+    j["clamps"] = {
+        {"recovery", s.clamped_recoveries},         {"unsolved_islands", s.unsolved_islands},
+        {"costly_islands", s.costly_islands},       {"unsolved_trees", s.unsolved_trees},
+        {"coarse_trees", s.coarse_trees},           {"tree_error_m", s.tree_error},
+        {"stretched_links", s.stretched_links},     {"link_error_m", s.link_error},
+        {"rejected_contacts", s.rejected_contacts}, {"collider_failures", s.collider_failures}};
     j["residual"] = s.residual().json();
     j["state_hash"] = hex(state_hash(world));
     j["effects"] = effects_summary(simulation, s);

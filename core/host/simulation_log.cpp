@@ -35,6 +35,9 @@ void Simulation::Parts::tell_step(const StepReport& report) const {
     if (report.unsolved_trees > 0)
         to->trace("step {}: {} trees of joints were left open, by {:.3g} at the most", world.steps,
                   report.unsolved_trees, report.tree_error);
+    if (report.coarse_trees > 0)
+        to->trace("step {}: {} trees of joints snap too fast for their parts and lose energy",
+                  world.steps, report.coarse_trees);
     if (report.gaping.joints > 0)
         to->trace(
             "step {}: {} joints are open or past a limit, by {:.3g} m and {:.3g} rad at the most",

@@ -42,6 +42,15 @@ constexpr double kJerk = 0.01;
 /// to keep.
 constexpr double kCalmTime = 5, kDampedCalmTime = 0.05;
 
+/// How much of what moves a part may gain or lose; and what of it is told where no more parts may
+/// be taken [J/J]. Of fewer parts, each does so the more, by this at least for half as many.
+constexpr double kDefect = 1e-4, kCoarse = 1e-3, kDefectOfHalf = 4;
+
+/// How many times more parts there may be while something snaps, and for how long they are kept
+/// [s].
+constexpr std::uint32_t kSnap = 8;
+constexpr double kSnapTime = 0.05;
+
 /// What is left of a joint's error by its last Newton step has always the same sign, and feeds or
 /// brakes the swing: it must be small against the way of a part.
 constexpr double kFiner = 0.01;
@@ -159,6 +168,28 @@ void take_back(World& world, const std::vector<std::uint32_t>& bodies, double la
     for (const std::uint32_t i : bodies) world.bodies.velocity[i] -= late * world.settings.gravity;
 }
 
+/// What a part gained or lost that no force accounts for, against what moves [J/J]; `fall`: for how
+/// long gravity pushed [s]; `unclosed`: by how much joints may be open, whose pull does work on
+/// that [m]. Velocities are those of the middles of parts of one length.
+double energy_defect(const World& world, const std::vector<std::uint32_t>& bodies,
+                     const SubstepTime& time, double fall, double unclosed) {
+    const Bodies& b = world.bodies;
+    const Vector3d& g = world.settings.gravity;
+    double defect = 0, moving = 0, known = 0;
+    for (const std::uint32_t i : bodies) {
+        const Vector3d &v = b.velocity[i], &w = b.angular_velocity[i];
+        const Vector3d &v0 = b.velocity_now[i], &w0 = b.angular_velocity_now[i];
+        const double now = kinetic_energy(b, i);
+        const double then = 0.5 * (b.mass[i] * v0.squaredNorm() + inertia_product(b, i, w0, w0));
+        const Vector3d push = fall * b.mass[i] * g + time.push() * b.force[i];
+        const Vector3d twist = time.push() * b.torque[i];
+        defect += now - then - 0.5 * (push.dot(v + v0) + twist.dot(w + w0));
+        moving += now + then;
+        known += b.mass[i] * g.norm() * (g.norm() * fall * fall + unclosed);
+    }
+    return moving + known > 0 ? std::max(0.0, std::abs(defect) - known) / (moving + known) : 0;
+}
+
 void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
                     const std::vector<std::uint32_t>& drives, double factor) {
     for (const std::uint32_t i : joints)
@@ -196,9 +227,11 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
         for (Tree* tree : {tree_at(joint.a), tree_at(joint.b)})
             if (tree && !joint.broken && !forest.in_tree[i]) tree->may_divide = false;
         if (!forest.in_tree[i]) continue;
+        const bool gives_way = joint.compliance > 0 || joint.angular_compliance > 0;
         Tree& tree = *(tree_at(joint.a) ? tree_at(joint.a) : tree_at(joint.b));
         tree_with[i] = &tree;
         tree.has_lines |= joint.length > 0;
+        tree.keeps_energy &= !gives_way;
         for (const std::uint32_t body : {joint.a, joint.b})
             if (body != kNoIndex && world.bodies.motion[body] == Motion::kinematic)
                 tree.holders.push_back(body);
@@ -209,7 +242,8 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
     std::vector<std::uint8_t> damped(world.joints.size(), 0);
     for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i) {
         const JointDrive& drive = world.joints.drives[i];
-        if (Tree* tree = tree_with[drive.joint]) tree->drives.push_back(i);
+        if (Tree* tree = tree_with[drive.joint])
+            tree->drives.push_back(i), tree->keeps_energy = false;
         if (brakes(drive)) damped[drive.joint] = 1;
     }
     for (Tree& tree : trees_)
@@ -290,16 +324,31 @@ void DividedTrees::choose(World& world, double h) {
         if (needed >= before) {
             pace = {needed, before, 0};
         } else {
-            const bool calm = ++pace.calm * h > (tree.is_damped ? kDampedCalmTime : kCalmTime);
+            const double calm_time = before > world.settings.tree_parts ? kSnapTime
+                                     : tree.is_damped                   ? kDampedCalmTime
+                                                                        : kCalmTime;
+            const bool calm = ++pace.calm * h > calm_time;
             pace = {calm ? before / 2 : before, before, calm ? 0 : pace.calm};
         }
     }
 }
 
+/// Whether a part that was just solved moves as it should: with the arms of its start, and with the
+/// energy that it had.
+bool DividedTrees::is_followed(const World& world, const SubstepTime& time, double fall,
+                               Tree& tree) {
+    if (tree.solver.took_levers_of_the_end()) return false;
+    if (!tree.keeps_energy || fall != time.h) return true;
+    const double unclosed = kFiner * world.settings.joint_tolerance * tree.joints.size();
+    const double defect = energy_defect(world, tree.bodies, time, fall, unclosed);
+    tree.defect = std::max(tree.defect, defect);
+    return defect <= kDefect;
+}
+
 /// From where its bodies began. Returns whether the part can stand as it is, which the `last` try
-/// has to.
+/// has to unless it `may_snap`.
 bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& time, double fall,
-                            bool last, Tree& tree) const {
+                            bool last, bool may_snap, Tree& tree) const {
     Bodies& b = world.bodies;
     for (const std::uint32_t body : tree.bodies) {
         b.velocity[body] = b.velocity_now[body];
@@ -312,6 +361,13 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, tree);
     tree.solver.take_velocities(b);
     if (!last && !tree.solver.open().empty()) return false;
+    const double defect = tree.defect;
+    const bool followed = is_followed(world, time, fall, tree);
+    if (!followed && may_snap) {
+        tree.defect = defect;  // of parts that stand
+        return false;
+    }
+    tree.is_coarse |= !followed && (tree.solver.took_levers_of_the_end() || tree.defect > kCoarse);
     tree.solver.store_impulses(world.joints);
     return last || (time.h * angular_rate(world, tree.joints) <= kTooFar &&
                     time.h * eccentric_spin(world, tree.joints) <= kTooFast &&
@@ -337,7 +393,7 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
     if (tree.was_open) pace.parts = 2;
     std::uint32_t parts = std::max(pace.parts, 1u);
     double before = h / std::max(pace.before, 1u);
-    tree.error = -1;
+    tree.error = -1, tree.defect = 0, tree.is_coarse = false;
     for (std::uint32_t done = 0; done < parts; ++done) {
         if (done > 0) {
             remember_velocities(world.bodies, tree.bodies);
@@ -349,8 +405,9 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
             const double fall = fresh ? time.push() : 0.5 * (before + time.h);
             // the tables hold impulses of whole substeps
             scale_impulses(world.joints, tree.joints, tree.drives, fall / h);
-            const bool last = 2 * parts > world.settings.tree_parts;
-            const bool stands = try_part(world, plan, time, fall, last, tree);
+            const std::uint32_t most = world.settings.tree_parts;
+            const bool last = 2 * parts > most, may_snap = 2 * parts <= kSnap * most;
+            const bool stands = try_part(world, plan, time, fall, last, may_snap, tree);
             scale_impulses(world.joints, tree.joints, tree.drives, h / fall);
             if (stands) break;
         }
@@ -360,6 +417,7 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
             tree.error = std::max(tree.error, open.error);
     }
     if (parts > std::max(pace.parts, 1u)) pace = {parts, pace.before, 0};
+    if (kDefectOfHalf * tree.defect > kDefect) pace.calm = 0;
 }
 
 const MotionLists& DividedTrees::advance(World& world, const Plan& plan, Workers& workers, double h,
@@ -386,9 +444,11 @@ const MotionLists& DividedTrees::advance(World& world, const Plan& plan, Workers
         for (std::size_t i = worker; i < trees_.size(); i += workers.count())
             if (is_apart(trees_[i])) advance(world, plan, h, trees_[i]);
     });
-    for (const Tree& tree : trees_)
-        if (is_apart(tree) && tree.error >= 0)
-            report.open_trees.push_back({tree.first, tree.error});
+    for (const Tree& tree : trees_) {
+        if (!is_apart(tree)) continue;
+        if (tree.error >= 0) report.open_trees.push_back({tree.first, tree.error});
+        report.coarse_trees += tree.is_coarse;
+    }
     const auto leave = [&](const std::vector<std::uint32_t>& from, std::vector<std::uint32_t>& to) {
         to.clear();
         std::copy_if(from.begin(), from.end(), std::back_inserter(to),

@@ -13,6 +13,11 @@
 /// for a while, since steps of one length are what keeps energy for good (Hairer, Lubich, Wanner,
 /// Geometric Numerical Integration, VIII). Where the length changes, forces push from the middle of
 /// the part before to the middle of the next, as leapfrog does.
+///
+/// Light links between heavy ends snap: they come to a straight line within a small part of what
+/// parts are made for, and there a joint's impulse at the start's arm has no solution at all, or
+/// one that is far off. A part that had to be closed otherwise, or in which energy comes or goes,
+/// is therefore divided further, and so are those after it as long as they need it.
 #pragma once
 
 #include "effects/plan.h"
@@ -50,11 +55,14 @@ private:
         std::vector<std::uint32_t> revolute;  ///< joints whose turns are counted
         MotionLists motion;                   ///< of its bodies
         TreeSolver<1> solver;
-        bool may_divide = true;  ///< nothing else ever holds or moves its bodies
-        bool has_lines = false;  ///< of distance joints
-        bool is_damped = false;  ///< all its joints take energy from what moves
-        bool is_free = false;    ///< and nothing touches them in this step
-        bool was_open = false;   ///< in this substep, undivided
+        bool may_divide = true;    ///< nothing else ever holds or moves its bodies
+        bool has_lines = false;    ///< of distance joints
+        bool is_damped = false;    ///< all its joints take energy from what moves
+        bool keeps_energy = true;  ///< none gives or takes any
+        bool is_free = false;      ///< and nothing touches them in this step
+        bool was_open = false;     ///< in this substep, undivided
+        bool is_coarse = false;    ///< in this substep: it was faster than its parts can follow
+        double defect = 0;         ///< of energy, of a part of this substep at the most [J/J]
         double error = -1;  ///< how far it was left open in this substep [m], [rad]; none: −1
 
         Tree(const World& world, const JointForest& forest);
@@ -64,8 +72,9 @@ private:
     static bool turns_little(const Bodies& bodies, const Tree& tree, double h);
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
+    static bool is_followed(const World& world, const SubstepTime& time, double fall, Tree& tree);
     bool try_part(World& world, const Plan& plan, const SubstepTime& time, double fall, bool last,
-                  Tree& tree) const;
+                  bool may_snap, Tree& tree) const;
     void turn_as_free(const Bodies& bodies, double h, Tree& tree) const;
 
     std::deque<Tree> trees_;

@@ -166,8 +166,10 @@ void TreeSolver<W>::solve(const BodyRows<Real>& rows, bool alone) {
 template <int W>
 void TreeSolver<W>::solve() {
     open_.clear();
+    levers_of_the_end_ = false;
     if (!progress_.start()) return;
     if (search()) return;
+    levers_of_the_end_ = true;
     turn_levers_to_the_end();
     forget();
     if (search()) return;

@@ -57,6 +57,10 @@ public:
     template <class Real>
     void solve(const BodyRows<Real>& rows, bool alone);
 
+    /// Whether the last solve closed some trees only with levers of the substep's end, which lose
+    /// energy: with those of its start, there was no solution near.
+    bool took_levers_of_the_end() const { return levers_of_the_end_; }
+
     /// What the last solve left open.
     const std::vector<OpenTree>& open() const { return open_; }
 
@@ -133,6 +137,7 @@ private:
     double tolerance_, h_ = 0;
     std::vector<OpenTree> open_;
     bool fresh_ = true;  ///< no step was made in this substep
+    bool levers_of_the_end_ = false;
     TreeTables tables_;
     TreeProgress progress_;
     TreeNodes nodes_;
