@@ -44,7 +44,7 @@ constexpr double kCalmTime = 5, kDampedCalmTime = 0.05;
 
 /// How much of what moves a part may gain or lose; and what of it is told where no more parts may
 /// be taken [J/J]. Of fewer parts, each does so the more, by this at least for half as many.
-constexpr double kDefect = 1e-4, kCoarse = 1e-3, kDefectOfHalf = 4;
+constexpr double kDefect = 2e-5, kCoarse = 2e-4, kDefectOfHalf = 4;
 
 /// How many times more parts there may be while something snaps, and for how long they are kept
 /// [s].
