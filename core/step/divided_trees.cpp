@@ -42,12 +42,11 @@ constexpr double kJerk = 0.01;
 /// to keep.
 constexpr double kCalmTime = 5, kDampedCalmTime = 0.05;
 
-/// How much of what moves a part may gain or lose; and what of it is told where no more parts may
-/// be taken [J/J]. Of fewer parts, each does so the more, by this at least for half as many.
+/// How much of what moves a part may gain or lose, and how much is told where no more parts may be
+/// taken [J/J]; and how many times as much a part of twice the length does.
 constexpr double kDefect = 2e-5, kCoarse = 2e-4, kDefectOfHalf = 4;
 
-/// How many times more parts there may be while something snaps, and for how long they are kept
-/// [s].
+/// How many times tree_parts there may be while something snaps, and how long they are kept [s].
 constexpr std::uint32_t kSnap = 8;
 constexpr double kSnapTime = 0.05;
 
