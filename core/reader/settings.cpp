@@ -132,7 +132,7 @@ const Table<Settings>& settings_table() {
         field<S>(
             "tree_parts", W{{1, 4096}}, &S::tree_parts,
             "into how many parts a tree of joints that touches nothing may divide a substep in "
-            "which it turns far; 1: none"),
+            "which it turns far, and up to eight times as many while it snaps; 1: none"),
         field<S>("joint_tolerance", Number{{1e-12, 1}}, &S::joint_tolerance,
                  "up to which trees of joints are closed [m], [rad]"),
         field<S>("sleep_speed", Number{{0, 1e3}}, &S::sleep_speed,

@@ -71,7 +71,8 @@ struct Settings {
     bool multilevel = false;              ///< sheets and ropes are also solved patch by patch, from
                                           ///< the whole down to a few elements
     std::uint32_t tree_parts = 64;        ///< into how many parts a tree of joints that touches
-                                          ///< nothing may divide a substep; 1 = none
+                                          ///< nothing may divide a substep (eight times as many
+                                          ///< while it snaps); 1 = none
     double joint_tolerance = 5e-7;        ///< up to which trees of joints are closed [m], [rad]
 
     double sleep_speed = 0;   ///< bodies that touch one another fall asleep once no point of them
