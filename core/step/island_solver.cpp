@@ -50,13 +50,6 @@ constexpr int kLightRounds = 1;
 constexpr std::uint32_t kLightFactorisations = 10;
 constexpr double kLightShare = 30;
 
-/// An island of so few bodies is swept there and back first, up to so often, as long as each time
-/// leaves no more than this share: most of those that fall come to their end so, at a fraction of
-/// what rounds take.
-constexpr std::size_t kFew = 8;
-constexpr int kFirstSweeps = 30;
-constexpr double kLeadsFast = 0.6;
-
 /// Sweeps of an island that is swept, there and back.
 constexpr int kSweeps = 20;
 
@@ -139,10 +132,6 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     report.stirred = report.residual > kStop * speed;
     const bool stirs = report.residual > kStirs * speed && island.bodies.size() > kHeap;
     enough_ = (stirs ? kSolved : report.residual > kMoves * speed ? kStop : kSettled) * speed;
-    if (island.bodies.size() <= kFew) {
-        sweep_first(report);
-        if (report.residual <= enough_) return report;
-    }
     most_factorisations_ = most_products / std::max<std::uint64_t>(1, system.block_products());
     const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
                            most_shift() < kFast * speed;
@@ -154,16 +143,6 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
     }
     report.solved = report.residual <= kSolved * speed;
     return report;
-}
-
-void IslandSolver::sweep_first(IslandReport& report) {
-    double before = kInfinity;
-    for (int i = 0; i < kFirstSweeps; ++i) {
-        if (report.residual <= enough_ || report.residual > kLeadsFast * before) return;
-        before = report.residual;
-        sweep_both_ways();
-        report.residual = residual();
-    }
 }
 
 void IslandSolver::keep_row_impulses(const Island& island) {

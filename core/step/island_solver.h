@@ -94,7 +94,6 @@ private:
     void restore_state();
     bool stands(IslandReport& report, double speed);
     void improve(IslandReport& report, double speed);
-    void sweep_first(IslandReport& report);
     void sweep_on(IslandReport& report, double speed);
     double most_shift() const;
     template <int N>
