@@ -114,8 +114,7 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
         const Change& d = changes_[row];
         const Vector3d &v = start_[body], &w = bodies.angular_velocity_now[body];
         work.at_start += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
-        work.of_change +=
-            0.5 * (bodies.mass[body] * d.v.squaredNorm() + inertia_product(bodies, body, d.w, d.w));
+        work.of_change += kinetic_energy(bodies, body, d.v, d.w);
     }
     return work.share(0);
 }

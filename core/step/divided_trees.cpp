@@ -178,8 +178,7 @@ double energy_defect(const World& world, const std::vector<std::uint32_t>& bodie
     for (const std::uint32_t i : bodies) {
         const Vector3d &v = b.velocity[i], &w = b.angular_velocity[i];
         const Vector3d &v0 = b.velocity_now[i], &w0 = b.angular_velocity_now[i];
-        const double now = kinetic_energy(b, i);
-        const double then = 0.5 * (b.mass[i] * v0.squaredNorm() + inertia_product(b, i, w0, w0));
+        const double now = kinetic_energy(b, i), then = kinetic_energy(b, i, v0, w0);
         const Vector3d push = fall * b.mass[i] * g + time.push() * b.force[i];
         const Vector3d twist = time.push() * b.torque[i];
         defect += now - then - 0.5 * (push.dot(v + v0) + twist.dot(w + w0));
@@ -332,16 +331,12 @@ void DividedTrees::choose(World& world, double h) {
     }
 }
 
-/// Whether a part that was just solved moves as it should: with the arms of its start, and with the
-/// energy that it had.
-bool DividedTrees::is_followed(const World& world, const SubstepTime& time, double fall,
-                               Tree& tree) {
-    if (tree.solver.took_levers_of_the_end()) return false;
-    if (!tree.keeps_energy || fall != time.h) return true;
+/// The energy_defect of a part that was just solved; 0 where it cannot be told.
+double DividedTrees::defect_of(const World& world, const SubstepTime& time, double fall,
+                               const Tree& tree) {
+    if (!tree.keeps_energy || fall != time.h) return 0;
     const double unclosed = kFiner * world.settings.joint_tolerance * tree.joints.size();
-    const double defect = energy_defect(world, tree.bodies, time, fall, unclosed);
-    tree.defect = std::max(tree.defect, defect);
-    return defect <= kDefect;
+    return energy_defect(world, tree.bodies, time, fall, unclosed);
 }
 
 /// From where its bodies began. Returns whether the part can stand as it is, which the `last` try
@@ -360,13 +355,12 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, tree);
     tree.solver.take_velocities(b);
     if (!last && !tree.solver.open().empty()) return false;
-    const double defect = tree.defect;
-    const bool followed = is_followed(world, time, fall, tree);
-    if (!followed && may_snap) {
-        tree.defect = defect;  // of parts that stand
-        return false;
-    }
-    tree.is_coarse |= !followed && (tree.solver.took_levers_of_the_end() || tree.defect > kCoarse);
+    const bool braked = tree.solver.took_levers_of_the_end();
+    const double defect = braked ? 0 : defect_of(world, time, fall, tree);
+    const bool followed = !braked && defect <= kDefect;
+    if (!followed && may_snap) return false;
+    tree.defect = std::max(tree.defect, defect);
+    tree.is_coarse |= !followed && (braked || tree.defect > kCoarse);
     tree.solver.store_impulses(world.joints);
     return last || (time.h * angular_rate(world, tree.joints) <= kTooFar &&
                     time.h * eccentric_spin(world, tree.joints) <= kTooFast &&

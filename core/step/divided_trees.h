@@ -72,7 +72,8 @@ private:
     static bool turns_little(const Bodies& bodies, const Tree& tree, double h);
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
-    static bool is_followed(const World& world, const SubstepTime& time, double fall, Tree& tree);
+    static double defect_of(const World& world, const SubstepTime& time, double fall,
+                            const Tree& tree);
     bool try_part(World& world, const Plan& plan, const SubstepTime& time, double fall, bool last,
                   bool may_snap, Tree& tree) const;
     void turn_as_free(const Bodies& bodies, double h, Tree& tree) const;

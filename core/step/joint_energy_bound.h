@@ -100,8 +100,7 @@ private:
             Energy& energy = energies_[islands_.island_of()[static_cast<std::size_t>(row)]];
             energy.at_start += kinetic_energy(b, i);
             energy.linear += b.mass[i] * v.dot(x.v) + inertia_product(b, i, w, x.w);
-            energy.square +=
-                0.5 * (b.mass[i] * x.v.squaredNorm() + inertia_product(b, i, x.w, x.w));
+            energy.square += kinetic_energy(b, i, x.v, x.w);
         }
         const double recovery = world.settings.recovery_speed;
         for (const BodyPair& pair : pairs) {

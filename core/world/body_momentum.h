@@ -31,10 +31,13 @@ inline double inertia_product(const Bodies& b, std::size_t i, const Vector3d& v,
     return (back * v).cwiseProduct(b.inertia[i]).dot(back * w);
 }
 
-/// Of body i, by its present velocities [J].
+/// Of body i, at a velocity and an angular velocity [J].
+inline double kinetic_energy(const Bodies& b, std::size_t i, const Vector3d& v, const Vector3d& w) {
+    return 0.5 * (b.mass[i] * v.squaredNorm() + inertia_product(b, i, w, w));
+}
+/// The same by its present ones.
 inline double kinetic_energy(const Bodies& b, std::size_t i) {
-    const Vector3d& w = b.angular_velocity[i];
-    return 0.5 * (b.mass[i] * b.velocity[i].squaredNorm() + inertia_product(b, i, w, w));
+    return kinetic_energy(b, i, b.velocity[i], b.angular_velocity[i]);
 }
 
 }  // namespace plumb
