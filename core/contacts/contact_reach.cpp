@@ -37,8 +37,7 @@ bool is_out_of_reach(const World& world, const Contact& c) {
     const double near = world.settings.margin + way_of(world, c);
     if (c.gap <= near) return false;
     const bool both_turn = b.motion[c.a] != Motion::fixed && b.motion[c.b] != Motion::fixed;
-    const double apart = (b.position[c.a] - b.position[c.b]).norm();
-    if (both_turn && apart > near + b.bounding_radius[c.a] + b.bounding_radius[c.b]) return true;
+    if (both_turn && spheres_are_apart(b, c.a, c.b, near)) return true;
     const Vector3d n = to_eigen(c.normal);
     const Vector3d point_a = to_eigen(c.point_a) - c.radius_a * n,
                    point_b = to_eigen(c.point_b) + c.radius_b * n;

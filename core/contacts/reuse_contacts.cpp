@@ -64,8 +64,9 @@ public:
         kept_.born.clear(), kept_.born_poses.clear();
     }
 
-    /// Whether the narrow phase must run on a pair. Nothing is kept of one that is out of order or
-    /// of no bodies, which is a fault of the collider.
+    /// Whether the narrow phase must run on a pair: it would find nothing where bounding spheres
+    /// are too far apart. Nothing is kept of one that is out of order or of no bodies, which is a
+    /// fault of the collider.
     bool is_wanted(std::uint32_t a, std::uint32_t b) {
         const std::uint64_t key = pair_key(a, b);
         if (!(a < b) || b >= motions_.size() || key <= last_) return true;
@@ -75,7 +76,7 @@ public:
         while (read_ < pairs.size() && key_of(pairs[read_]) < key) contact_ += pairs[read_++].count;
         const double margin = world_.settings.margin + motions_[a].sweep + motions_[b].sweep;
         if (read_ == pairs.size() || key_of(pairs[read_]) != key) {
-            if (is_beyond(a, b, margin)) return false;
+            if (spheres_are_apart(world_.bodies, a, b, margin)) return false;
             kept_.born.push_back({a, b, 0, 0, true, margin, 0, 0});
             renew(kept_.born.back(), kept_.born_poses.emplace_back(), margin);
             return true;
@@ -87,7 +88,7 @@ public:
         contact_ += pair.count;
         if (is_kept(pair, pose, margin)) {
             keep(pair);
-        } else if (is_beyond(a, b, margin)) {
+        } else if (spheres_are_apart(world_.bodies, a, b, margin)) {
             ++read_;
             return false;
         } else {
@@ -133,13 +134,6 @@ private:
     double smaller_radius(const KeptPair& pair) const {
         const std::vector<double>& radius = world_.bodies.bounding_radius;
         return std::min(radius[pair.a], radius[pair.b]);
-    }
-
-    /// Whether the bounding spheres are so far apart that the narrow phase would find nothing.
-    bool is_beyond(std::uint32_t a, std::uint32_t b, double margin) const {
-        const Bodies& all = world_.bodies;
-        const double reach = all.bounding_radius[a] + all.bounding_radius[b] + margin;
-        return (all.position[a] - all.position[b]).squaredNorm() > reach * reach;
     }
 
     bool is_kept(KeptPair& pair, const PairPose& then, double margin) const {

@@ -71,6 +71,13 @@ inline Vector3d in_world(const Bodies& bodies, std::size_t i, const Vector3d& po
     return bodies.position[i] + bodies.orientation[i] * point;
 }
 
+/// Whether the bounding spheres of two bodies are farther apart than that [m]; what goes on for
+/// ever is near everything.
+inline bool spheres_are_apart(const Bodies& bodies, std::size_t a, std::size_t b, double distance) {
+    const double reach = bodies.bounding_radius[a] + bodies.bounding_radius[b] + distance;
+    return (bodies.position[a] - bodies.position[b]).squaredNorm() > reach * reach;
+}
+
 /// Where the body's geometry is in the world.
 inline Placement geometry_placement(const Bodies& bodies, std::size_t i) {
     const Placement& local = bodies.geometry_in_body[i];

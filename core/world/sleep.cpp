@@ -84,11 +84,9 @@ void stop(Bodies& b, std::size_t i) {
         (*column)[i].setZero();
 }
 
-/// Whether two bodies could touch: what goes on for ever is near everything.
+/// Whether two bodies could touch.
 bool are_near(const World& world, std::uint32_t a, std::uint32_t b) {
-    const Bodies& t = world.bodies;
-    const double reach = t.bounding_radius[a] + t.bounding_radius[b] + 2 * world.settings.margin;
-    return !((t.position[a] - t.position[b]).norm() > reach);
+    return !spheres_are_apart(world.bodies, a, b, 2 * world.settings.margin);
 }
 
 }  // namespace
