@@ -356,12 +356,9 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         if (is_tied && !meshed) leave(world, island, pairs);
         return IslandWay::left;
     }
-    if (is_large(world.settings, n)) {
-        if (rests_and_misses(world, island, pairs)) return IslandWay::exact;
-        leave(world, island, pairs);
-        return IslandWay::left;
-    }
-    if (waits(world, island, pairs)) {
+    const bool large = is_large(world.settings, n);
+    if (large && rests_and_misses(world, island, pairs)) return IslandWay::exact;
+    if (large || waits_for_rest(world, island, pairs)) {
         leave(world, island, pairs);
         return IslandWay::left;
     }
@@ -520,17 +517,17 @@ bool IslandChoice::rests_and_misses(const World& world, const ContactIsland& isl
         missed = std::max(missed, memory.missed), known += memory.matched;
     }
     const bool is_new = 2 * known < island.last_pair - island.first_pair;
-    if (plumb::waits(missed) || (missed == 0 && !is_new)) return false;
+    if (waits(missed) || (missed == 0 && !is_new)) return false;
     return rests(world, island, pairs);
 }
 
 /// Of a heap that is not large: whether most of it was given up, and moves. What comes to it does
 /// not wait.
-bool IslandChoice::waits(const World& world, const ContactIsland& island,
-                         const std::vector<BodyPair>& pairs) const {
+bool IslandChoice::waits_for_rest(const World& world, const ContactIsland& island,
+                                  const std::vector<BodyPair>& pairs) const {
     if (!is_loose(island) || island.last_body - island.first_body <= kHeap) return false;
-    const auto waits = [](const ContactMemory& m) { return plumb::waits(m.missed); };
-    return most_of(world, island, pairs, waits) && !rests(world, island, pairs);
+    const auto given_up = [](const ContactMemory& m) { return waits(m.missed); };
+    return most_of(world, island, pairs, given_up) && !rests(world, island, pairs);
 }
 
 bool IslandChoice::moved_on(const World& world, const ContactIsland& island,

@@ -138,8 +138,8 @@ private:
                  const std::vector<BodyPair>& pairs, bool hard) const;
     bool rests_and_misses(const World& world, const ContactIsland& island,
                           const std::vector<BodyPair>& pairs) const;
-    bool waits(const World& world, const ContactIsland& island,
-               const std::vector<BodyPair>& pairs) const;
+    bool waits_for_rest(const World& world, const ContactIsland& island,
+                        const std::vector<BodyPair>& pairs) const;
     template <class Is>
     bool most_of(const World& world, const ContactIsland& island,
                  const std::vector<BodyPair>& pairs, Is is) const;

@@ -193,15 +193,15 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
     const bool is_heap = !member.is_large && member.may_be_disputed && n > kHeap;
-    member.unit = 0, member.free = 0;
+    member.unit = 0;
     member.moves = is_heap && !choice_.rests(world, island, pairs);
     member.moved_on = member.moves && choice_.moved_on(world, island, pairs);
     if (member.is_large)
-        member.unit = kLargeUnit, member.free = kFreeUnits * kLargeUnit;
+        member.unit = kLargeUnit;
     else if (member.moves && !member.moved_on)
         member.unit = kHeapUnit * member.system.block_products();
     member.products = member.is_large ? kMostProducts : kAnyProducts;
-    member.in_vain = in_vain_before(world, member);
+    member.in_vain = member.unit > 0 ? in_vain_before(world, member) : 0;
     ties_.end_island(member.ties);
     return true;
 }
@@ -250,7 +250,7 @@ void IslandGroup::choose_effort(const World& world, Member& member, bool swept) 
     if (begins) begin_dispute(member);
     member.effort = effort_of(member.disputed);
     member.splits = member.effort == IslandEffort::swept && !member.flies;
-    member.opens = member.splits && !is_shallow(world, member);
+    member.opens = member.moves && member.splits && !is_shallow(world, member);
 }
 
 void IslandGroup::begin_dispute(Member& member) {
@@ -646,7 +646,7 @@ bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort eff
 
 /// What has taken too much in vain is swept from now on (step/large_islands.h).
 void IslandGroup::give_up_if_in_vain(Member& m) {
-    if (m.unit == 0 || (m.opens && !m.is_large)) return;
+    if (m.unit == 0 || m.opens) return;
     m.in_vain = m.solved ? 0 : m.in_vain + m.products - m.products_left;
     if (m.in_vain <= (m.is_large ? kMostInVain : kMostOfHeap) * m.unit) return;
     m.given_up = true;
@@ -795,7 +795,8 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
         const bool in_vain = m.unit > 0 && m.given_up;
         const std::uint8_t left =
             m.may_be_disputed && !in_vain ? disputed_after(m.disputed, m.solved) : 0;
-        const std::uint64_t left_in_vain = m.in_vain - std::min(m.in_vain, m.free);
+        const std::uint64_t free = m.is_large ? kFreeUnits * m.unit : 0;
+        const std::uint64_t left_in_vain = m.in_vain - std::min(m.in_vain, free);
         const std::uint8_t missed = m.unit == 0 ? 0
                                     : in_vain   ? (m.is_large ? kInVain : kHeapInVain)
                                                 : missed_after(left_in_vain / m.unit);

@@ -87,20 +87,19 @@ private:
         IslandEffort effort;    // in this step
         bool is_deep;           // some of it overlaps too deeply for an exact solution
         bool splits;            // in this step: what is swept is opened apart from velocities
-        bool opens;             // and something overlaps by much
+        bool opens;             // the same of a heap that moves, and something overlaps by much
         bool solved;
         bool bounces;   // in this substep
         bool parts;     // in this substep, and must gain nothing by it
         bool was_open;  // at the start of this substep
         bool was_torn;  // the same, so far that it is torn
         double open;    // the worst tie [m], [rad]
-        bool given_up;  // in this step: its ties could not be closed, or it was large and in vain
+        bool given_up;  // in this step: its ties could not be closed, or it took too much in vain
         std::uint64_t products;       // that a substep may take, see large_islands.h
         std::uint64_t products_left;  // of them, in this substep
         std::uint64_t in_vain;        // since it was solved,
         std::uint64_t unit;           // in these; 0: it is never given up
-        std::uint64_t free;           // of it, in a step
-        bool moves;                   // at the start of the step
+        bool moves;                   // a heap (step/large_islands.h), at the start of the step
         bool moved_on;                // and sweeps did not bring it to rest
     };
     bool take(const World& world, const ContactIsland& island, const ContactIslands& found,
