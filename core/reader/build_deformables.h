@@ -35,8 +35,9 @@ inline DeformableSpec balloon(double radius, std::uint32_t cells,
     return soft(DeformableKind::balloon, ball_surface(radius, cells), at);
 }
 inline DeformableSpec block(const Eigen::Vector3d& half, std::array<std::uint32_t, 3> cells,
-                            const Eigen::Vector3d& at = Eigen::Vector3d::Zero()) {
-    return soft(DeformableKind::solid, box_lattice(half, cells), at);
+                            const Eigen::Vector3d& at = Eigen::Vector3d::Zero(),
+                            CellCut cut = CellCut::five) {
+    return soft(DeformableKind::solid, box_lattice(half, cells, cut), at);
 }
 
 /// Adds a deformable and returns it, to be changed until the next is added.

@@ -28,41 +28,87 @@ constexpr std::array<std::array<std::uint32_t, 4>, 5> kFive{
 /// Cells become tetrahedra, and points are numbered as they are met.
 class Lattice {
 public:
-    Lattice(const Eigen::Vector3d& corner, const Eigen::Vector3d& cell, const Cell& cells)
-        : corner_(corner), cell_(cell), cells_(cells) {}
+    using Place = std::array<std::uint32_t, 3>;  ///< in halves of a cell: corners are even
 
-    void add(const Cell& cell) {
+    Lattice(const Eigen::Vector3d& corner, const Eigen::Vector3d& cell, const Cell& cells)
+        : corner_(corner), half_(cell / 2), cells_(cells) {}
+
+    /// Cuts all cells that are in; is_in(cell) is asked of cells within the bounds.
+    template <class IsIn>
+    Elements cut(CellCut way, IsIn is_in) {
+        for (std::uint32_t y = 0; y < cells_[1]; ++y)
+            for (std::uint32_t z = 0; z < cells_[2]; ++z)
+                for (std::uint32_t x = 0; x < cells_[0]; ++x) {
+                    const Cell cell{x, y, z};
+                    if (!is_in(cell)) continue;
+                    if (way == CellCut::five)
+                        add_five(cell);
+                    else
+                        add_around_centre(cell, is_in);
+                }
+        made_.triangles = surface_of(made_.tetrahedra);
+        return std::move(made_);
+    }
+
+    std::uint32_t point(const Place& at) {
+        const auto key = at[0] + (2 * std::uint64_t{cells_[0]} + 1) *
+                                     (at[2] + (2 * std::uint64_t{cells_[2]} + 1) * at[1]);
+        const auto next = static_cast<std::uint32_t>(made_.points.size());
+        const auto [place, is_new] = numbers_.emplace(key, next);
+        if (is_new)
+            made_.points.push_back(corner_ +
+                                   half_.cwiseProduct(Eigen::Vector3d(at[0], at[1], at[2])));
+        return place->second;
+    }
+
+private:
+    void add_five(const Cell& cell) {
         const bool mirrored = (cell[0] + cell[1] + cell[2]) % 2 == 1;
         for (const auto& five : kFive) {
             std::array<std::uint32_t, 4> t;
             for (std::size_t k = 0; k < 4; ++k) {
                 const std::uint32_t c = mirrored ? five[k] ^ 1u : five[k];
-                t[k] = point({cell[0] + (c & 1u), cell[1] + (c >> 1 & 1u), cell[2] + (c >> 2)});
+                t[k] = point({2 * (cell[0] + (c & 1u)), 2 * (cell[1] + (c >> 1 & 1u)),
+                              2 * (cell[2] + (c >> 2))});
             }
             if (mirrored) std::swap(t[0], t[1]);
             made_.tetrahedra.push_back(t);
         }
     }
 
-    std::uint32_t point(const Cell& at) {
-        const auto key =
-            at[0] + (std::uint64_t{cells_[0]} + 1) *
-                        (at[2] + (std::uint64_t{cells_[2]} + 1) * std::uint64_t{at[1]});
-        const auto next = static_cast<std::uint32_t>(made_.points.size());
-        const auto [place, is_new] = numbers_.emplace(key, next);
-        if (is_new)
-            made_.points.push_back(corner_ +
-                                   cell_.cwiseProduct(Eigen::Vector3d(at[0], at[1], at[2])));
-        return place->second;
+    /// Across each face four tetrahedra around the line from the cell's centre to that of the
+    /// neighbour, or of the face where there is none. What two cells share is added by the first.
+    template <class IsIn>
+    void add_around_centre(const Cell& cell, IsIn is_in) {
+        const Place centre{2 * cell[0] + 1, 2 * cell[1] + 1, 2 * cell[2] + 1};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (const bool forwards : {false, true}) {
+                Cell next = cell;
+                next[axis] += forwards ? 1u : ~0u;  // wraps around below 0, to beyond the bounds
+                const bool shared = next[axis] < cells_[axis] && is_in(next);
+                if (shared && !forwards) continue;
+                Place tip = centre;
+                forwards ? tip[axis] += shared ? 2 : 1 : tip[axis] -= 1;
+                add_around(axis, forwards, centre, tip);
+            }
+    }
+    void add_around(std::size_t axis, bool forwards, const Place& centre, const Place& tip) {
+        constexpr std::array<std::array<bool, 2>, 4> kRound{
+            {{false, false}, {true, false}, {true, true}, {false, true}}};  // seen from +axis
+        std::array<std::uint32_t, 4> ring;
+        for (std::size_t k = 0; k < 4; ++k) {
+            Place corner = centre;
+            const std::array<bool, 3> far{forwards, kRound[k][0], kRound[k][1]};
+            for (std::size_t i = 0; i < 3; ++i) corner[(axis + i) % 3] += far[i] ? 1u : ~0u;
+            ring[k] = point(corner);
+        }
+        if (!forwards) std::swap(ring[1], ring[3]);
+        const std::uint32_t from = point(centre), to = point(tip);
+        for (std::size_t k = 0; k < 4; ++k)
+            made_.tetrahedra.push_back({from, ring[k], ring[(k + 1) % 4], to});
     }
 
-    Elements take() {
-        made_.triangles = surface_of(made_.tetrahedra);
-        return std::move(made_);
-    }
-
-private:
-    Eigen::Vector3d corner_, cell_;
+    Eigen::Vector3d corner_, half_;
     Cell cells_;
     std::unordered_map<std::uint64_t, std::uint32_t> numbers_;
     Elements made_;
@@ -156,7 +202,7 @@ std::uint32_t cells_over(double size, double cell) {
 
 }  // namespace
 
-Elements mesh_lattice(const TriangleMesh& mesh, double cell) {
+Elements mesh_lattice(const TriangleMesh& mesh, double cell, CellCut cut) {
     if (const auto fault = deformable_faults::edge_fault(mesh.triangles, true))
         throw BadShape("no cells can be put into the mesh: " + fault->sentence);
     Eigen::Vector3d low = mesh.vertices.front(), high = low;
@@ -169,27 +215,29 @@ Elements mesh_lattice(const TriangleMesh& mesh, double cell) {
     const Eigen::Vector3d corner =
         (low + high) / 2 - cell / 2 * Eigen::Vector3d(cells[0], cells[1], cells[2]);
     const Crossings crossings(mesh, corner, cell, cells);
-    Lattice lattice(corner, Eigen::Vector3d::Constant(cell), cells);
-    for (std::uint32_t y = 0; y < cells[1]; ++y)
-        for (std::uint32_t z = 0; z < cells[2]; ++z)
-            for (std::uint32_t x = 0; x < cells[0]; ++x)
-                if (crossings.winding({x, y, z}) != 0) lattice.add({x, y, z});
-    Elements made = lattice.take();
+    Elements made =
+        Lattice(corner, Eigen::Vector3d::Constant(cell), cells).cut(cut, [&](const Cell& at) {
+            return crossings.winding(at) != 0;
+        });
     if (made.points.empty())
         throw BadShape("no cell has its centre inside the mesh; make \"cell\" smaller");
     return made;
 }
 
-Elements box_lattice(const Eigen::Vector3d& half_extents, std::array<std::uint32_t, 3> cells) {
+Elements box_lattice(const Eigen::Vector3d& half_extents, std::array<std::uint32_t, 3> cells,
+                     CellCut cut) {
     const Eigen::Vector3d count(cells[0], cells[1], cells[2]);
     Lattice lattice(-half_extents, (2 * half_extents).cwiseQuotient(count), cells);
     for (std::uint32_t y = 0; y <= cells[1]; ++y)
         for (std::uint32_t z = 0; z <= cells[2]; ++z)
-            for (std::uint32_t x = 0; x <= cells[0]; ++x) lattice.point({x, y, z});
-    for (std::uint32_t y = 0; y < cells[1]; ++y)
-        for (std::uint32_t z = 0; z < cells[2]; ++z)
-            for (std::uint32_t x = 0; x < cells[0]; ++x) lattice.add({x, y, z});
-    return lattice.take();
+            for (std::uint32_t x = 0; x <= cells[0]; ++x) lattice.point({2 * x, 2 * y, 2 * z});
+    return lattice.cut(cut, [](const Cell&) { return true; });
+}
+
+std::uint64_t box_lattice_points(std::array<std::uint64_t, 3> cells, CellCut cut) {
+    const auto [x, y, z] = cells;
+    const std::uint64_t corners = (x + 1) * (y + 1) * (z + 1);
+    return cut == CellCut::five ? corners : corners + x * y * z + 2 * (x * y + y * z + z * x);
 }
 
 std::vector<std::array<std::uint32_t, 3>> surface_of(

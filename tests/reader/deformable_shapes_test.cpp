@@ -185,6 +185,44 @@ TEST(DeformableShapes, BoxOfCellsIsFull) {
     }
 }
 
+TEST(DeformableShapes, ABodyCentredBoxIsFull) {
+    using enum reader::CellCut;
+    for (const std::array<std::uint32_t, 3> cells : {std::array{1u, 1u, 1u}, {2u, 3u, 4u}}) {
+        const Elements box = reader::box_lattice({0.5, 1, 1.5}, cells, body_centered);
+        const auto [nx, ny, nz] = cells;
+        const std::uint32_t outer = 2 * (nx * ny + ny * nz + nz * nx), all = nx * ny * nz,
+                            corners = (nx + 1) * (ny + 1) * (nz + 1);
+        EXPECT_EQ(fault_of(box, DeformableKind::solid), "");
+        EXPECT_EQ(box.points.size(), corners + all + outer);
+        EXPECT_EQ(box.points.size(), reader::box_lattice_points({nx, ny, nz}, body_centered));
+        EXPECT_EQ(reader::box_lattice({0.5, 1, 1.5}, cells).points.size(),
+                  reader::box_lattice_points({nx, ny, nz}, five));
+        // four around the line through each face
+        EXPECT_EQ(box.tetrahedra.size(), 4 * ((6 * all - outer) / 2 + outer));
+        EXPECT_EQ(box.triangles.size(), 4 * outer);
+        EXPECT_FALSE(deformable_faults::edge_fault(box.triangles, true));
+        for (const auto& [a, b, c, d] : box.tetrahedra) {
+            const Eigen::Vector3d& o = box.points[a];
+            EXPECT_GT((box.points[b] - o).cross(box.points[c] - o).dot(box.points[d] - o), 0);
+        }
+        EXPECT_NEAR(volume_of_tetrahedra(box), 6, 1e-12);
+        EXPECT_NEAR(volume_within(box), 6, 1e-12);
+        EXPECT_NEAR(area_of(box), 2 * (2 + 6 + 3), 1e-12);
+        EXPECT_EQ(box.points[nx], Eigen::Vector3d(0.5, -1, -1.5));
+        EXPECT_EQ(box.points[corners - 1], Eigen::Vector3d(0.5, 1, 1.5));
+    }
+}
+
+TEST(DeformableShapes, BodyCentredCellsFillAMesh) {
+    const reader::TriangleMesh mesh = mesh_of(reader::ball_surface(1, 24));
+    const Elements five = reader::mesh_lattice(mesh, 0.2),
+                   centred = reader::mesh_lattice(mesh, 0.2, reader::CellCut::body_centered);
+    EXPECT_EQ(fault_of(centred, DeformableKind::solid), "");
+    EXPECT_NEAR(volume_of_tetrahedra(centred), volume_of_tetrahedra(five), 1e-12);
+    EXPECT_NEAR(volume_within(centred), volume_within(five), 1e-12);
+    EXPECT_EQ(centred.triangles.size(), 2 * five.triangles.size());
+}
+
 TEST(DeformableShapes, CellsFillAMesh) {
     // A box whose edges are whole numbers of cells, and whose faces meet the middles of none.
     const Elements box = reader::box_lattice({0.3, 0.2, 0.5}, {1, 1, 1});

@@ -290,6 +290,27 @@ TEST(Deformables, AreLimitedInNumber) {
         with(
             R"("kind": "solid", "shape": {"lattice": {"size": [1, 1, 1], "cells": [10000, 10000, 10000]}})"),
         "/deformables/0/shape/lattice", "but a scene may have at most 1000000");
+    expect_error(
+        with(
+            R"("kind": "solid", "shape": {"lattice": {"size": [1, 1, 1], "cells": [79, 79, 79], "tetrahedra": "body_centered"}})"),
+        "/deformables/0/shape/lattice", "these are 1042485 points");
+}
+
+TEST(Deformables, AreCutAsTold) {
+    const auto points = [](const std::string& keys) {
+        return scene_of(with(R"("kind": "solid", "shape": {"lattice": {"size": [1, 1, 1], )" +
+                             keys + "}}"))
+            .deformables[0]
+            .points.size();
+    };
+    const std::string one = R"("cells": [1, 1, 1])";
+    EXPECT_EQ(points(one), 8u);
+    EXPECT_EQ(points(one + R"(, "tetrahedra": "five")"), 8u);
+    EXPECT_EQ(points(one + R"(, "tetrahedra": "body_centered")"), 15u);
+    expect_error(
+        with(
+            R"("kind": "solid", "shape": {"lattice": {"size": [1, 1, 1], "tetrahedra": "body_centred"}})"),
+        "/deformables/0/shape/lattice/tetrahedra", "did you mean \"body_centered\"?");
 }
 
 }  // namespace plumb::test

@@ -26,6 +26,18 @@ TEST(Cantilever, SwingsAtItsFrequency) {
     EXPECT_LT(error_of(study::cantilever(), "frequency"), 0.025);
 }
 
+/// The square of a cell's size is what errors fall with: in cells of half the size they are a third
+/// at most.
+TEST(Cantilever, ComesToTheFormulaInSmallerCells) {
+    const std::vector<double> coarse = errors_of(study::cantilever_of(2), "reference"),
+                              fine = errors_of(study::cantilever_of(4), "reference");
+    ASSERT_EQ(coarse.size(), 2u);
+    for (std::size_t metric = 0; metric < 2; ++metric) {
+        EXPECT_GT(fine[metric], 1e-3);
+        EXPECT_LT(fine[metric], coarse[metric] / 3) << metric;
+    }
+}
+
 TEST(PressedBalloon, GrowsAsMuchInLargerSubstepsOfMoreSweeps) {
     study::Subject subject = study::pressed_balloon();
     subject.scene.settings.substeps = 10, subject.scene.settings.position_iterations = 40;

@@ -52,6 +52,7 @@ Subject rope_catenary();
 Subject hanging_rope();
 
 Subject cantilever();
+Subject cantilever_of(std::uint32_t across);  ///< the same with so many cells across
 
 Subject balloon();
 Subject pressed_balloon();
