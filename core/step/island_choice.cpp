@@ -6,6 +6,7 @@
 #include "contacts/contact_measures.h"
 #include "schedule/joint_trees.h"
 #include "solve/linked_point.h"
+#include "step/island_account.h"
 #include "step/island_effort.h"
 #include "step/joint_state.h"
 #include "step/large_islands.h"

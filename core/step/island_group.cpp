@@ -193,15 +193,9 @@ bool IslandGroup::take(const World& world, const ContactIsland& island, const Co
     member.last_body = static_cast<std::uint32_t>(bodies_.size());
     member.last_point = static_cast<std::uint32_t>(points_.size());
     const bool is_heap = !member.is_large && member.may_be_disputed && n > kHeap;
-    member.unit = 0;
     member.moves = is_heap && !choice_.rests(world, island, pairs);
     member.moved_on = member.moves && choice_.moved_on(world, island, pairs);
-    if (member.is_large)
-        member.unit = kLargeUnit;
-    else if (member.moves && !member.moved_on)
-        member.unit = kHeapUnit * member.system.block_products();
-    member.products = member.is_large ? kMostProducts : kAnyProducts;
-    member.in_vain = member.unit > 0 ? in_vain_before(world, member) : 0;
+    member.account = account_of(world, member);
     ties_.end_island(member.ties);
     return true;
 }
@@ -223,6 +217,21 @@ bool IslandGroup::is_shallow(const World& world, const Member& member) const {
         const Contact& contact = world.contacts.found[i];
         return -contact.gap <= kShallow * smaller_radius(world.bodies, contact);
     });
+}
+
+/// Of a large island, or of a heap that moves: with what it has taken in vain until now.
+IslandAccount IslandGroup::account_of(const World& world, const Member& m) const {
+    IslandAccount account;
+    if (m.is_large)
+        account = IslandAccount::of_large();
+    else if (m.moves && !m.moved_on)
+        account = IslandAccount::of_heap(m.system.block_products());
+    if (!account.is_kept()) return account;
+    for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
+        const ContactMemory& memory = world.contacts.memory[contacts_[k]];
+        if (memory.matched) account.recall(memory.missed);
+    }
+    return account;
 }
 
 void IslandGroup::choose_effort(const World& world, Member& member, bool swept) {
@@ -624,39 +633,25 @@ void IslandGroup::draw_together(IslandSolver& solver, Member& m) {
         shift[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift[i] - island.velocity[i]);
 }
 
-/// What it has taken in vain until now.
-std::uint64_t IslandGroup::in_vain_before(const World& world, const Member& m) const {
-    std::uint64_t most = 0;
-    for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
-        const ContactMemory& memory = world.contacts.memory[contacts_[k]];
-        if (memory.matched && !waits(memory.missed))
-            most = std::max(most, in_vain_of(memory.missed));
-    }
-    return most * m.unit;
-}
-
 /// Returns whether it is solved.
 bool IslandGroup::solve_system(IslandSolver& solver, Member& m, IslandEffort effort) {
     const IslandReport report = solver.solve(island_of(m), m.system, m.speed, effort,
-                                             m.settling > 0 || m.stirred, m.products_left);
+                                             m.settling > 0 || m.stirred, m.account.left());
     m.stirred |= report.stirred;
-    m.products_left -= std::min(m.products_left, report.factorisations * m.system.block_products());
+    m.account.take(report.factorisations * m.system.block_products());
     return report.solved;
 }
 
-/// What has taken too much in vain is swept from now on (step/large_islands.h).
+/// What has taken too much in vain is swept from now on.
 void IslandGroup::give_up_if_in_vain(Member& m) {
-    if (m.unit == 0 || m.opens) return;
-    m.in_vain = m.solved ? 0 : m.in_vain + m.products - m.products_left;
-    if (m.in_vain <= (m.is_large ? kMostInVain : kMostOfHeap) * m.unit) return;
-    m.given_up = true;
+    if (m.opens || !m.account.end_substep(m.solved)) return;
     m.splits = false;
     m.effort = IslandEffort::swept;
 }
 
 /// Ties are not linear: what a solution leaves open of them is asked for again.
 void IslandGroup::solve(const World& world, IslandSolver& solver, Member& m) {
-    m.products_left = m.products;
+    m.account.begin_substep();
     const double tolerance = world.settings.joint_tolerance;
     const Island island = island_of(m);
     const auto gains = [&](double share = 0) {
@@ -792,14 +787,10 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (std::size_t i = 0; i < count_; ++i) {
         const Member& m = members_[i];
         const std::uint8_t settling = m.stirred ? kSettlingSteps : m.settling - (m.settling > 0);
-        const bool in_vain = m.unit > 0 && m.given_up;
+        const bool in_vain = m.account.is_given_up();
         const std::uint8_t left =
             m.may_be_disputed && !in_vain ? disputed_after(m.disputed, m.solved) : 0;
-        const std::uint64_t free = m.is_large ? kFreeUnits * m.unit : 0;
-        const std::uint64_t left_in_vain = m.in_vain - std::min(m.in_vain, free);
-        const std::uint8_t missed = m.unit == 0 ? 0
-                                    : in_vain   ? (m.is_large ? kInVain : kHeapInVain)
-                                                : missed_after(left_in_vain / m.unit);
+        const std::uint8_t missed = m.account.missed();
         const bool moved = m.moves && (in_vain || (m.moved_on && (m.opens || !m.solved)));
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k) {
             contacts.memory[contacts_[k]].disputed = left;
@@ -813,27 +804,6 @@ void IslandGroup::store_impulses(ContactTable& contacts) const {
     for (const BodyPair& pair : set_aside_)
         for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
             contacts.memory[k].missed = kTriesAgain;
-}
-
-void IslandGroup::note_what_misses(World& world, const IslandResiduals& residuals) const {
-    const Settings& s = world.settings;
-    const auto needs_more = [&](const IslandResidual& island) {
-        return is_large(s, island.bodies) && misses(island, s.accuracy);
-    };
-    const auto note = [&](ContactMemory& memory, const IslandResidual& island) {
-        const bool fails = memory.exact && misses(island, kFails * s.accuracy);
-        memory.missed = std::max(memory.missed, fails ? kTriesAgain : kMissed);
-    };
-    const std::vector<IslandResidual>& all = residuals.islands();
-    if (!(s.accuracy > 0) || std::none_of(all.begin(), all.end(), needs_more)) return;
-    ContactTable& c = world.contacts;
-    for (const ContactPair& pair : c.pairs) {
-        const std::int32_t a = world.bodies.row[pair.a], b = world.bodies.row[pair.b];
-        const IslandResidual* island = residuals.of(std::min(a, b));
-        if (!island || !needs_more(*island)) continue;
-        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
-            note(c.memory[k], *island);
-    }
 }
 
 }  // namespace plumb

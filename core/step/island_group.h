@@ -10,11 +10,11 @@
 #include "effects/report.h"
 #include "schedule/workers.h"
 #include "solve/island_residuals.h"
+#include "step/island_account.h"
 #include "step/island_choice.h"
 #include "step/island_effort.h"
 #include "step/island_solver.h"
 #include "step/island_ties.h"
-#include "step/large_islands.h"
 #include "world/world.h"
 
 #include <vector>
@@ -59,9 +59,6 @@ public:
     void store_tie_impulses(World& world) const;
     void store_impulses(ContactTable& contacts) const;
 
-    /// After these: which large islands are to be solved in the next step (step/large_islands.h).
-    void note_what_misses(World& world, const IslandResiduals& residuals) const;
-
     /// Once a step: which ties are left to others for a while.
     void rest_ties(World& world);
 
@@ -94,13 +91,10 @@ private:
         bool was_open;  // at the start of this substep
         bool was_torn;  // the same, so far that it is torn
         double open;    // the worst tie [m], [rad]
-        bool given_up;  // in this step: its ties could not be closed, or it took too much in vain
-        std::uint64_t products;       // that a substep may take, see large_islands.h
-        std::uint64_t products_left;  // of them, in this substep
-        std::uint64_t in_vain;        // since it was solved,
-        std::uint64_t unit;           // in these; 0: it is never given up
-        bool moves;                   // a heap (step/large_islands.h), at the start of the step
-        bool moved_on;                // and sweeps did not bring it to rest
+        bool given_up;  // in this step: its ties could not be closed
+        IslandAccount account;
+        bool moves;     // a heap (step/island_account.h), at the start of the step
+        bool moved_on;  // and sweeps did not bring it to rest
     };
     bool take(const World& world, const ContactIsland& island, const ContactIslands& found,
               const std::vector<BodyPair>& pairs);
@@ -116,7 +110,7 @@ private:
     void take_geometry(const World& world);
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
     void solve(const World& world, IslandSolver& solver, Member& member);
-    std::uint64_t in_vain_before(const World& world, const Member& member) const;
+    IslandAccount account_of(const World& world, const Member& member) const;
     static void give_up_if_in_vain(Member& member);
     bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
     void note_open(StepReport& report, const Member& member) const;

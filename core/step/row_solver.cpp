@@ -15,6 +15,7 @@
 #include "step/joint_energy_bound.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
+#include "step/large_islands.h"
 #include "step/push_out_shares.h"
 
 #include <algorithm>
@@ -228,7 +229,7 @@ public:
         for (const auto& group : groups_) group->end_step(world);
         if (!islands_) return;
         islands_->store_impulses(world.contacts);
-        islands_->note_what_misses(world, residuals_);
+        note_what_misses(world, residuals_);
         islands_->rest_ties(world);
     }
 

@@ -26,7 +26,7 @@ struct alignas(64) ContactMemory {
     std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
     std::uint8_t settling = 0;  ///< steps for which it is solved to a finer tolerance (the same)
     std::uint8_t missed = 0;    ///< 1: its island misses Settings::accuracy; more: it waits for so
-                                ///< long (step/large_islands.h)
+                                ///< long (step/island_account.h)
     bool moved = false;         ///< and it moved when it was given up
     bool flush = false;         ///< it is with what lies below the plane of another
     bool ghost = false;         ///< and others ensure what it would (contacts/ghost_contacts.h)
