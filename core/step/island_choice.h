@@ -75,6 +75,9 @@ public:
     bool is_meshed(const ContactIsland& island) const;
     bool is_torn(const World& world, const ContactIsland& island) const;
 
+    /// Whether a tie of it may give it energy (step/tie_work.h).
+    bool can_do_work(const World& world, const ContactIsland& island) const;
+
     /// Whether it lies still, as far as sweeps tell, and overlaps by little (step/large_islands.h).
     bool rests(const World& world, const ContactIsland& island,
                const std::vector<BodyPair>& pairs) const;
@@ -121,7 +124,6 @@ private:
     void put(const World& world, std::uint32_t body, std::uint8_t obstacle);
     std::uint8_t obstacles_of(const ContactIsland& island) const;
 
-    bool can_do_work(const World& world, const ContactIsland& island) const;
     bool is_loose(const ContactIsland& island) const;  // nothing ties or drives it
     bool is_slow(const World& world, const Contact& contact) const;
 

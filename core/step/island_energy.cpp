@@ -33,13 +33,13 @@ double energy_of_centre(std::span<const IslandBody> bodies, std::span<const Vect
 /// Ties that were not closed must add no energy: from nothing, and at rates that are linear in the
 /// velocities, they are closed by as large a share as there is energy for. It grows with the share
 /// at least in proportion.
-void IslandGroup::close_gently(IslandSolver& solver, Member& m) {
-    const Island island = island_of(m);
-    const std::span<const Vector6d> start = starts_of(m);
+void IslandGroup::close_gently(IslandSolver& solver, ExactIsland& m) {
+    const Island island = columns_.all_of(m);
+    const std::span<const Vector6d> start = bodies_in(columns_.start, m);
     const double before = kinetic_energy(island.bodies, start);
     const auto begin = [&] { std::copy(start.begin(), start.end(), island.velocity.begin()); };
     const auto ask = [&](double share) {
-        ties_.ask(m.ties, island.velocity);
+        columns_.ties.ask(m.ties, island.velocity);
         for (IslandRow& row : island.rows)
             if (closes(row)) row.wanted *= share;
     };
@@ -54,7 +54,7 @@ void IslandGroup::close_gently(IslandSolver& solver, Member& m) {
         const double least = close(0);
         if (least < before) close((before - least) / (whole - least));
     }
-    m.open = ties_.ask(m.ties, island.velocity);
+    m.open = columns_.ties.ask(m.ties, island.velocity);
 }
 
 /// Where friction turns slip about, the speeds that restitution asks for can be more energy than
@@ -62,9 +62,9 @@ void IslandGroup::close_gently(IslandSolver& solver, Member& m) {
 /// another body, whose push-out is. Then only a share of what is asked for beyond rest is given:
 /// energy grows with the share at least in proportion. What overlaps at rest is pushed out all the
 /// same.
-void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
-    const Island island = island_of(m);
-    const std::span<const Vector6d> start = starts_of(m);
+void IslandGroup::bound_energy(IslandSolver& solver, ExactIsland& m) {
+    const Island island = columns_.all_of(m);
+    const std::span<const Vector6d> start = bodies_in(columns_.start, m);
     const double before = kinetic_energy(island.bodies, start);
     const double whole = kinetic_energy(island.bodies, island.velocity);
     if (whole <= before) return;
@@ -74,7 +74,7 @@ void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
     }
     const auto ask_for_more = [&](double share) {
         for (std::uint32_t k = m.first_point; k < m.last_point; ++k)
-            points_[k].wanted[0] += share * parting_[k];
+            columns_.points[k].wanted[0] += share * columns_.parting[k];
         m.solved &= solve_system(solver, m, m.effort);
         return kinetic_energy(island.bodies, island.velocity);
     };
@@ -85,9 +85,9 @@ void IslandGroup::bound_energy(IslandSolver& solver, Member& m) {
 /// What is wedged between surfaces that are all but parallel leaves many times as fast as these
 /// part. Sweeps of a heap that was squeezed, and is left to itself, fling nothing out of it: only
 /// such a share of their impulses is taken.
-void IslandGroup::bound_speed(const World& world, const Member& m) {
-    const Island island = island_of(m);
-    const std::span<const Vector6d> start = starts_of(m);
+void IslandGroup::bound_speed(const World& world, const ExactIsland& m) {
+    const Island island = columns_.all_of(m);
+    const std::span<const Vector6d> start = bodies_in(columns_.start, m);
     const double share = share_without_flinging(world.settings, [&](auto visit) {
         for (std::size_t i = 0; i < island.bodies.size(); ++i)
             visit(start[i].head<3>(), (island.velocity[i] - start[i]).head<3>());

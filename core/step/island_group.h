@@ -10,13 +10,13 @@
 #include "effects/report.h"
 #include "schedule/workers.h"
 #include "solve/island_residuals.h"
-#include "step/island_account.h"
+#include "step/exact_island.h"
 #include "step/island_choice.h"
-#include "step/island_effort.h"
+#include "step/island_columns.h"
 #include "step/island_solver.h"
-#include "step/island_ties.h"
 #include "world/world.h"
 
+#include <span>
 #include <vector>
 
 namespace plumb {
@@ -63,104 +63,58 @@ public:
     void rest_ties(World& world);
 
 private:
-    struct Member {
-        std::uint32_t first_body, last_body, first_point, last_point;
-        IslandTieRange ties;
-        double speed;  // at which its contacts and ties would part in this substep [m/s]
-        BlockCholesky::Pattern pattern;
-        BlockCholesky system;
-        bool is_large;  // beyond Settings::exact_islands
-        bool may_be_disputed;
-        bool may_give_up;       // its joints, where they stay open: sweeps do no worse
-        bool is_meshed;         // by ties that others only iterate, and nothing drives it
-        bool is_driven;         // kinematic bodies move it
-        bool gains_nothing;     // no lid, motor or spring does work on it
-        bool flies;             // it touches and hangs by nothing that is immovable
-        std::uint8_t settling;  // steps that are left, see island_effort.h
-        bool stirred;           // in this step
-        std::uint8_t disputed;  // steps that are left, see island_effort.h
-        double overlap;         // of all its contacts [m], if it may be disputed
-        double overlap_before;  // the same when it began to be opened apart [m]
-        IslandEffort effort;    // in this step
-        bool is_deep;           // some of it overlaps too deeply for an exact solution
-        bool splits;            // in this step: what is swept is opened apart from velocities
-        bool opens;             // the same of a heap that moves, and something overlaps by much
-        bool solved;
-        bool bounces;   // in this substep
-        bool parts;     // in this substep, and must gain nothing by it
-        bool was_open;  // at the start of this substep
-        bool was_torn;  // the same, so far that it is torn
-        double open;    // the worst tie [m], [rad]
-        bool given_up;  // in this step: its ties could not be closed
-        IslandAccount account;
-        bool moves;     // a heap (step/island_account.h), at the start of the step
-        bool moved_on;  // and sweeps did not bring it to rest
-    };
-    bool take(const World& world, const ContactIsland& island, const ContactIslands& found,
-              const std::vector<BodyPair>& pairs);
-    bool find_system(const World& world, Member& member, const ContactIsland& island,
-                     const ContactIslands& found, const std::vector<BodyPair>& pairs);
-    void set_aside(const World& world, const ContactIsland& island, const ContactIslands& found,
+    std::span<ExactIsland> taken() { return std::span(islands_).first(count_); }
+    std::span<const ExactIsland> taken() const { return std::span(islands_).first(count_); }
+
+    bool take(const World& world, const ContactIsland& from, const std::vector<BodyPair>& pairs);
+    bool find_system(const World& world, ExactIsland& island, const ContactIsland& from,
+                     const std::vector<BodyPair>& pairs);
+    void find_nature(const World& world, ExactIsland& island, const ContactIsland& from,
+                     const std::vector<BodyPair>& pairs) const;
+    void fill_columns(const World& world, ExactIsland& island, const ContactIsland& from,
+                      const std::vector<BodyPair>& pairs);
+    IslandAccount account_of(const World& world, const ExactIsland& island) const;
+    void set_aside(const World& world, const ContactIsland& from,
                    const std::vector<BodyPair>& pairs);
-    bool is_shallow(const World& world, const Member& member) const;
-    void choose_effort(const World& world, Member& member, bool swept);
-    static void begin_dispute(Member& member);
-    void add_point(const World& world, std::uint32_t contact, std::uint32_t a, std::uint32_t b);
-    void take_memory(const World& world);
-    void take_geometry(const World& world);
-    void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;
-    void solve(const World& world, IslandSolver& solver, Member& member);
-    IslandAccount account_of(const World& world, const Member& member) const;
-    static void give_up_if_in_vain(Member& member);
-    bool solve_system(IslandSolver& solver, Member& member, IslandEffort effort);
-    void note_open(StepReport& report, const Member& member) const;
-    bool is_pulled_apart(const World& world, const Member& member);
-    void give_way(IslandSolver& solver, Member& member);
-    bool is_flung(const Member& member);
-    void hold_torn(IslandSolver& solver, Member& member);
-    void draw_together(IslandSolver& solver, Member& member);
-    void close_gently(IslandSolver& solver, Member& member);
-    void bound_energy(IslandSolver& solver, Member& member);
-    void bound_speed(const World& world, const Member& member);
-    double speed_of(const World& world, const Member& member, double h, const PushOut& push_out);
-    double strongest(const World& world, const Member& member, double h);
-    double thrust_of(const World& world, const Member& member, double h) const;
-    bool ask(const World& world, const Member& member, std::size_t point, double h,
+    bool is_shallow(const World& world, const ExactIsland& island) const;
+    void recall(const World& world, ExactIsland& island) const;
+    void choose_effort(const World& world, ExactIsland& island, bool swept) const;
+    double speed_of(const World& world, const ExactIsland& island, double h,
+                    const PushOut& push_out);
+    double strongest(const World& world, const ExactIsland& island, double h);
+    double thrust_of(const World& world, const ExactIsland& island, double h) const;
+    bool ask(const World& world, const ExactIsland& island, std::size_t point, double h,
              const PushOut& push_out);
-    double torn_from(const World& world, const Member& member, double h) const;
-    double open_at_start(const Member& member);
-    void forget_impulses();
-    void forget_what_whirls(const Member& member);
-    void apply_impulses();
-    Island island_of(const Member& member);
-    std::span<const Vector6d> starts_of(const Member& member) const;
-    std::span<const Vector6d> velocities_of(const Member& member) const;
+    double torn_from(const World& world, const ExactIsland& island, double h) const;
+    double open_at_start(const ExactIsland& island);
+    void solve(const World& world, IslandSolver& solver, ExactIsland& island);
+    static void give_up_if_in_vain(ExactIsland& island);
+    bool solve_system(IslandSolver& solver, ExactIsland& island, IslandEffort effort);
+    bool is_pulled_apart(const World& world, const ExactIsland& island);
+    void give_way(IslandSolver& solver, ExactIsland& island);
+    bool is_flung(const ExactIsland& island);
+    void hold_torn(IslandSolver& solver, ExactIsland& island);
+    void draw_together(IslandSolver& solver, ExactIsland& island);
+    void close_gently(IslandSolver& solver, ExactIsland& island);
+    void bound_energy(IslandSolver& solver, ExactIsland& island);
+    void bound_speed(const World& world, const ExactIsland& island);
+    void note_open(StepReport& report, const ExactIsland& island) const;
 
     Workers& workers_;
     SolvedTies& solved_;
-    bool has_friction_, resists_rolling_;
     IslandChoice choice_;
-    std::vector<std::uint8_t> taken_;  // [pair]
-    std::vector<BodyPair> set_aside_;  // whose islands would take too much
-    std::uint32_t costly_ = 0;         // of those islands
-    BlockCholesky::Pattern pattern_;
+    std::vector<std::uint8_t> is_taken_;  // [pair]
+    std::vector<BodyPair> set_aside_;     // whose islands would take too much
+    std::uint32_t costly_ = 0;            // of those islands
+    BlockCholesky::Pattern pattern_;      // memory of find_system, as the next
+    std::vector<std::uint32_t> tied_;     // bodies of one tie
 
-    std::vector<Member> members_;  // the first count_ are in use
+    std::vector<ExactIsland> islands_;  // the first count_ are in use
     std::size_t count_ = 0;
+    IslandColumns columns_;
     bool some_rest_ = true;  // of the ties, as far as is known
     bool is_fresh_ = false;  // whether arms and inertia are those of the substep that begins
-    std::vector<IslandBody> bodies_;
-    std::vector<Vector6d> start_, velocity_, force_;  // [body]
-    std::vector<Vector6d> shift_;  // [body] see open_apart, as a velocity over the substep
-    double h_ = 0;                 // the substep [s]
-    std::vector<IslandPoint> points_;
-    std::vector<std::uint8_t> locked_;  // [point] whether it is pushed out no more
-    std::vector<double> opening_;       // [point] speed at which it is opened apart [m/s]
-    std::vector<double> parting_;       // [point] of the speed asked for, what may be too much
-    IslandTies ties_;
-    std::vector<std::uint32_t> tied_;      // bodies of one tie
-    std::vector<std::uint32_t> contacts_;  // [point] in the contact table
-    std::vector<IslandSolver> solvers_;    // [worker]
+    std::vector<IslandSolver> solvers_;  // [worker]
 };
 
 }  // namespace plumb

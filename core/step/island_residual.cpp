@@ -33,23 +33,21 @@ ResidualSum residual_of(const Island& island, const IslandRow& row) {
 }  // namespace
 
 void IslandGroup::add_rows(const World& world, std::vector<BodyPair>& pairs) const {
-    for (std::size_t i = 0; i < count_; ++i) {
-        const std::int32_t first = world.bodies.row[bodies_[members_[i].first_body].body];
-        for (std::uint32_t k = members_[i].first_body; k < members_[i].last_body; ++k)
-            pairs.push_back({first, world.bodies.row[bodies_[k].body], 0, 1});
-    }
+    const auto row_of = [&](std::uint32_t i) { return world.bodies.row[columns_.bodies[i].body]; };
+    for (const ExactIsland& island : taken())
+        for (std::uint32_t k = island.first_body; k < island.last_body; ++k)
+            pairs.push_back({row_of(island.first_body), row_of(k), 0, 1});
 }
 
 void IslandGroup::add_residuals(const World& world, IslandResiduals& islands) {
-    for (std::size_t i = 0; i < count_; ++i) {
-        const Member& member = members_[i];
-        const Island island = island_of(member);
+    for (const ExactIsland& member : taken()) {
+        const Island island = columns_.all_of(member);
         ResidualSum sum;
         for (const IslandPoint& point : island.points) sum.add(residual_of(island, point));
         for (const IslandRow& row : island.rows) sum.add(residual_of(island, row));
         sum.swept = member.effort == IslandEffort::swept || !member.solved ||
                     member.open > world.settings.joint_tolerance;
-        const std::int32_t row = world.bodies.row[bodies_[member.first_body].body];
+        const std::int32_t row = world.bodies.row[island.bodies[0].body];
         islands.add(row, row, sum);
     }
 }
