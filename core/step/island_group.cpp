@@ -2,27 +2,16 @@
 #include "step/island_group.h"
 
 #include "contacts/contact_measures.h"
+#include "step/island_demands.h"
 #include "step/island_rows.h"
 #include "step/large_islands.h"
 #include "step/tie_work.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace plumb {
 namespace {
-
-/// A contact bears at most this many times the weight of its island (wedges and flat arches thrust
-/// by more than they weigh), and this many times its momentum.
-constexpr double kThrust = 100, kBlow = 10;
-
-/// An overlap that sticks is left as it is from when the contact bears more than this share of the
-/// most it may: each substep's push would only wind up the stress that locks them.
-constexpr double kLocked = 0.1;
-
-/// A joint may bear so many times more: levers and toggles multiply what they bear.
-constexpr double kLever = 100;
 
 /// How often an island is solved until its ties are closed; and at most, as long as each time
 /// leaves no more than this share of what was open: near to where a linkage is stretched out it is
@@ -37,33 +26,11 @@ constexpr double kOtherRoot = 0.25;
 /// More energy than so many times what there is did not come from what drives an island.
 constexpr double kFlung = 4;
 
-/// Bodies that fly about and overlap part at least at this share of their radius [1/s].
-constexpr double kDrift = 0.3;
-
 /// An island whose joints stay open by kAjar tolerances is given up for twice this long [s], and
 /// twice as long with each time that it fails again; a tree for twice this less, so that it is
 /// tried once more at once.
 constexpr double kRest = 0.1;
 constexpr std::uint32_t kMostMisses = 8;
-
-Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
-    return b.velocity[i] + b.angular_velocity[i].cross(arm);
-}
-
-/// Velocity along the normal that makes the gap what it shall be at the end of the substep [m/s].
-double closing_velocity(double gap, double h, const PushOut& push_out) {
-    const double left = overlap_left(gap, push_out.most);
-    return -gap_below(gap - left, std::min(gap, 0.0) - left, push_out.share) / h;
-}
-
-/// Of a driven axis, as far as its bounds or the substep before tell.
-double greatest_impulse(const IslandRow& row) {
-    double most = std::abs(row.impulse);
-    for (int i = 0; i < row.drive->n; ++i)
-        for (const double bound : {row.drive->rows[i].lowest, row.drive->rows[i].highest})
-            if (std::isfinite(bound)) most = std::max(most, std::abs(bound));
-    return most;
-}
 
 }  // namespace
 
@@ -270,147 +237,10 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
     }
     if (!world.settings.warm_start) columns_.forget_impulses();
     for (const ExactIsland& island : taken()) columns_.apply_impulses(island);
+    IslandDemands demands(world, choice_, push_out, columns_);
     std::uint32_t clamped = 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-        ExactIsland& member = islands_[i];
-        member.was_open = open_at_start(member) > kAjar * world.settings.joint_tolerance;
-        member.was_torn = columns_.ties.open_at_start(member.ties) > torn_from(world, member, h);
-        columns_.ties.ask(member.ties, bodies_in(columns_.velocity, member));
-        member.speed = speed_of(world, member, h, push_out);
-        const double most = strongest(world, member, h);
-        const double thrust = thrust_of(world, member, h);
-        for (IslandRow& row : columns_.ties.rows(member.ties)) {
-            row.most = kLever * most * row.length;
-            row.is_rigid = row.softness == 0;
-            if (row.is_rigid && thrust > 0)
-                row.softness =
-                    world.settings.joint_tolerance / (h * thrust * row.length * row.length);
-        }
-        member.parts = member.bounces = false;
-        for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
-            columns_.points[k].cone.most = most;
-            clamped += ask(world, member, k, h, push_out);
-            member.parts |= member.gains_nothing && columns_.parting[k] > 0;
-            member.bounces |= restitution_velocity_of(world.contacts, columns_.contacts[k]) > 0;
-        }
-    }
+    for (ExactIsland& island : taken()) clamped += demands.ask(island);
     return clamped;
-}
-
-/// How fast contacts approach or part, and joints open, if nothing pushes, or how fast an overlap
-/// shall go [m/s].
-double IslandGroup::speed_of(const World& world, const ExactIsland& member, double h,
-                             const PushOut& push_out) {
-    const ContactTable& c = world.contacts;
-    double speed = 0;
-    for (std::uint32_t k = member.first_point; k < member.last_point; ++k) {
-        const Contact& contact = c.found[columns_.contacts[k]];
-        const double overlap = std::min(c.gap[columns_.contacts[k]], 0.0);
-        const double normal =
-            to_eigen(contact.normal).dot(relative_velocity(world, columns_.contacts[k]));
-        speed = std::max({speed, std::abs(normal), closing_velocity(overlap, h, push_out)});
-    }
-    const std::span<const Vector6d> start = bodies_in(columns_.start, member);
-    for (const IslandRow& row : columns_.ties.rows(member.ties)) {
-        IslandRow bare = row;
-        bare.impulse = 0, bare.most = std::numeric_limits<double>::infinity();
-        const double asked = answer_of(bare, rate_of(row, start), row.mass).impulse;
-        speed = std::max(speed, row.length * std::abs(asked) / row.mass);
-    }
-    return speed;
-}
-
-/// The most that its bodies' weight and speed give an island in a substep [N s].
-double IslandGroup::thrust_of(const World& world, const ExactIsland& member, double h) const {
-    double thrust = 0;
-    for (std::uint32_t i = member.first_body; i < member.last_body; ++i)
-        thrust += columns_.bodies[i].mass *
-                  std::max(h * pull_on(world, columns_.bodies[i].body), member.speed);
-    return thrust;
-}
-
-/// More than any contact bears that can be satisfied [N s]; motors push as hard as they can.
-double IslandGroup::strongest(const World& world, const ExactIsland& member, double h) {
-    double mass = 0, weight = 0, driven = 0;
-    for (std::uint32_t i = member.first_body; i < member.last_body; ++i) {
-        mass += columns_.bodies[i].mass;
-        weight += columns_.bodies[i].mass * pull_on(world, columns_.bodies[i].body);
-    }
-    for (const IslandRow& row : columns_.ties.rows(member.ties))
-        if (row.drive) driven += greatest_impulse(row) / row.length;
-    return kThrust * weight * h + kBlow * mass * member.speed + kBlow * driven;
-}
-
-/// What the substep asks of a point, and whether that leaves some of its overlap; velocities of
-/// creep are asked for as 0.
-bool IslandGroup::ask(const World& world, const ExactIsland& member, std::size_t k, double h,
-                      const PushOut& push_out) {
-    const ContactTable& c = world.contacts;
-    const Settings& s = world.settings;
-    const std::uint32_t contact = columns_.contacts[k];
-    IslandPoint& p = columns_.points[k];
-    const double least = kCreep * member.speed;
-    const bool stays = member.splits || member.effort == IslandEffort::light;
-
-    const double bounce = restitution_velocity_of(c, contact);
-    const double gap = gap_to_solve_for(world, contact, push_out.most);
-    double normal = closing_velocity(gap, h, push_out);
-    const ContactMemory& before = c.memory[contact];
-    columns_.locked[k] = choice_.is_stuck(before, -c.found[contact].gap) &&
-                         (before.jammed || p.impulse[0] > kLocked * p.cone.most);
-    if (std::abs(normal) < least || (columns_.locked[k] && normal > 0)) normal = 0;
-    columns_.opening[k] = member.splits && bounce == 0 ? std::max(0.0, normal) : 0;
-    if (stays && normal > 0) normal = 0;
-    if (bounce > 0) normal = bounce;
-
-    Vector3d across = Vector3d::Zero();
-    if (!c.anchor_slip.empty() && !stays) {
-        across = p.frame.transpose() * (-s.anchor_stiffness / h * c.anchor_slip[contact]);
-        across[0] = 0;
-        if (across.cwiseAbs().maxCoeff() < least) across.setZero();
-    }
-
-    // what is immovable may move by itself, and a rim runs on
-    Vector3d moving = Vector3d::Zero(), turning = Vector3d::Zero();
-    if (!c.bend.empty()) moving = c.bend[contact];
-    const auto add = [&](std::uint32_t body, const Vector3d& arm, double sign) {
-        moving += sign * velocity_at(world.bodies, body, arm);
-        turning += sign * world.bodies.angular_velocity[body];
-    };
-    if (p.a == kImmovable) add(c.found[contact].a, p.arm_a, 1);
-    if (p.b == kImmovable) add(c.found[contact].b, p.arm_b, -1);
-
-    columns_.parting[k] = bounce > ContactTable::kParting ? bounce : 0;
-    if (member.flies && bounce == 0)
-        columns_.parting[k] =
-            std::max(0.0, normal - kDrift * smaller_radius(world.bodies, c.found[contact]));
-
-    p.wanted.setZero();
-    p.wanted.head<3>() = across - p.frame.transpose() * moving;
-    p.wanted[0] += normal;
-    if (p.cone.turns()) p.wanted.tail<3>() = -p.length * (p.frame.transpose() * turning);
-    return is_clamped(c.gap[contact], gap, push_out.most);
-}
-
-/// From how far open on a joint is torn: farther than it may close in a substep. A driven island
-/// that was iterated, as large ones are while they move fast, may be open by up to its smallest
-/// body's radius [m].
-double IslandGroup::torn_from(const World& world, const ExactIsland& m, double h) const {
-    if (!m.is_driven || m.last_body - m.first_body <= kVerySmall)
-        return h * world.settings.recovery_speed;
-    double least = std::numeric_limits<double>::infinity();
-    for (std::uint32_t i = m.first_body; i < m.last_body; ++i)
-        least = std::min(least, world.bodies.bounding_radius[columns_.bodies[i].body]);
-    return least;
-}
-
-/// By how much the worst tie is open that is to be closed [m], [rad].
-double IslandGroup::open_at_start(const ExactIsland& member) {
-    if (!member.is_meshed) return 0;
-    const std::span<Vector6d> rest(columns_.sum.data() + member.first_body,
-                                   bodies_in(columns_.start, member).size());
-    std::fill(rest.begin(), rest.end(), Vector6d::Zero());
-    return columns_.ties.ask_to_close(member.ties, rest);
 }
 
 void IslandGroup::solve(const World& world, StepReport& report) {

@@ -79,14 +79,6 @@ private:
     bool is_shallow(const World& world, const ExactIsland& island) const;
     void recall(const World& world, ExactIsland& island) const;
     void choose_effort(const World& world, ExactIsland& island, bool swept) const;
-    double speed_of(const World& world, const ExactIsland& island, double h,
-                    const PushOut& push_out);
-    double strongest(const World& world, const ExactIsland& island, double h);
-    double thrust_of(const World& world, const ExactIsland& island, double h) const;
-    bool ask(const World& world, const ExactIsland& island, std::size_t point, double h,
-             const PushOut& push_out);
-    double torn_from(const World& world, const ExactIsland& island, double h) const;
-    double open_at_start(const ExactIsland& island);
     void solve(const World& world, IslandSolver& solver, ExactIsland& island);
     static void give_up_if_in_vain(ExactIsland& island);
     bool solve_system(IslandSolver& solver, ExactIsland& island, IslandEffort effort);
