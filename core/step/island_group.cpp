@@ -4,6 +4,7 @@
 #include "contacts/contact_measures.h"
 #include "step/island_demands.h"
 #include "step/island_rows.h"
+#include "step/island_substep.h"
 #include "step/large_islands.h"
 #include "step/tie_work.h"
 
@@ -12,19 +13,6 @@
 
 namespace plumb {
 namespace {
-
-/// How often an island is solved until its ties are closed; and at most, as long as each time
-/// leaves no more than this share of what was open: near to where a linkage is stretched out it is
-/// slow.
-constexpr int kCloses = 8, kMostCloses = 40;
-constexpr double kClosing = 0.8;
-
-/// Ties may be closed at other velocities, too, than those that a substep leads to: such that turn
-/// bodies about. They are known by the energy that they add, as a share of what there is.
-constexpr double kOtherRoot = 0.25;
-
-/// More energy than so many times what there is did not come from what drives an island.
-constexpr double kFlung = 4;
 
 /// An island whose joints stay open by kAjar tolerances is given up for twice this long [s], and
 /// twice as long with each time that it fails again; a tree for twice this less, so that it is
@@ -245,12 +233,8 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
 
 void IslandGroup::solve(const World& world, StepReport& report) {
     workers_.run([&](std::uint32_t worker) {
-        for (std::size_t i = worker; i < count_; i += workers_.count()) {
-            ExactIsland& m = islands_[i];
-            solve(world, solvers_[worker], m);
-            const bool fails = m.given_up || m.effort == IslandEffort::swept;
-            if (m.is_meshed && m.was_torn && fails) draw_together(solvers_[worker], m);
-        }
+        for (std::size_t i = worker; i < count_; i += workers_.count())
+            IslandSubstep(world.settings, columns_, solvers_[worker], islands_[i]).solve();
     });
     report.costly_islands = costly_;
     for (const ExactIsland& island : taken()) {
@@ -262,153 +246,6 @@ void IslandGroup::solve(const World& world, StepReport& report) {
 void IslandGroup::note_open(StepReport& report, const ExactIsland& island) const {
     const Tie& tie = columns_.ties.first_of(island.ties);
     if (tie.kind == TieKind::joint) report.open_trees.push_back({tie.index, island.open});
-}
-
-/// Whether kinematic bodies pull its ties apart: what these give is what their softness makes of an
-/// impulse without bounds. As the start of the next substep it would throw the bodies about.
-bool IslandGroup::is_pulled_apart(const World& world, const ExactIsland& m) {
-    if (!m.is_driven) return false;
-    const double ajar = kAjar * world.settings.joint_tolerance;
-    if (!std::isfinite(m.open)) return true;
-    const std::span<const IslandRow> rows = columns_.ties.rows(m.ties);
-    return std::any_of(rows.begin(), rows.end(), [&](const IslandRow& row) {
-        return row.is_rigid && columns_.h * row.softness * std::abs(row.impulse) > ajar;
-    });
-}
-
-/// Sweeps that begin with nothing pull no harder than what moves asks for.
-void IslandGroup::give_way(IslandSolver& solver, ExactIsland& m) {
-    const Island island = columns_.all_of(m);
-    const std::span<const Vector6d> start = bodies_in(columns_.start, m);
-    std::copy(start.begin(), start.end(), island.velocity.begin());
-    const auto ask = [&] { m.open = columns_.ties.ask(m.ties, island.velocity); };
-    solver.sweep_anew(island, ask);
-    ask();
-}
-
-/// Whether sweeps gave what kinematic bodies drive much more energy than it had, or has at their
-/// speed.
-bool IslandGroup::is_flung(const ExactIsland& m) {
-    if (!m.is_driven || m.ties.empty()) return false;
-    const Island island = columns_.all_of(m);
-    double mass = 0;
-    for (const IslandBody& b : island.bodies) mass += b.mass;
-    const double speed = columns_.ties.scripted_speed(m.ties);
-    const double most = kFlung * (kinetic_energy(island.bodies, bodies_in(columns_.start, m)) +
-                                  0.5 * mass * speed * speed);
-    return !(kinetic_energy(island.bodies, island.velocity) <= most);
-}
-
-/// What is pulled apart moves as if its ties had been made as they are, between bodies that stand
-/// still: neither old errors nor what pulls get impulses or velocities.
-void IslandGroup::hold_torn(IslandSolver& solver, ExactIsland& m) {
-    const Island island = columns_.all_of(m);
-    const std::span<const Vector6d> start = bodies_in(columns_.start, m);
-    const auto begin = [&] { std::copy(start.begin(), start.end(), island.velocity.begin()); };
-    const auto ask = [&] { columns_.ties.ask(m.ties, island.velocity, OldErrors::kept); };
-    begin();
-    solver.forget(island);  // of contacts, too, which held against what pulled
-    ask();
-    m.solved = solve_system(solver, m, m.effort);
-    if (!m.solved) {
-        begin();
-        solver.sweep_anew(island, ask);
-    }
-    draw_together(solver, m);
-}
-
-/// Shifts the bodies so that what is open shares itself out and closes, unless that makes it worse:
-/// rows that contradict each other in turning can lead anywhere.
-void IslandGroup::draw_together(IslandSolver& solver, ExactIsland& m) {
-    const Island island = columns_.all_of(m);
-    const std::span<Vector6d> shift(columns_.shift.data() + m.first_body, island.bodies.size());
-    const double most =
-        columns_.ties.open_at_start(m.ties) + columns_.h * columns_.ties.scripted_speed(m.ties);
-    solver.close_apart(island, shift, [&] { columns_.ties.ask(m.ties, shift); });
-    m.open = columns_.ties.open_at_end(m.ties, shift);
-    const bool is_worse = !(m.open <= most);
-    for (std::size_t i = 0; i < shift.size(); ++i)
-        shift[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift[i] - island.velocity[i]);
-}
-
-/// Returns whether it is solved.
-bool IslandGroup::solve_system(IslandSolver& solver, ExactIsland& m, IslandEffort effort) {
-    const IslandReport report = solver.solve(columns_.all_of(m), m.system, m.speed, effort,
-                                             m.settling > 0 || m.stirred, m.account.left());
-    m.stirred |= report.stirred;
-    m.account.take(report.factorisations * m.system.block_products());
-    return report.solved;
-}
-
-/// What has taken too much in vain is swept from now on.
-void IslandGroup::give_up_if_in_vain(ExactIsland& m) {
-    if (m.opens || !m.account.end_substep(m.solved)) return;
-    m.splits = false;
-    m.effort = IslandEffort::swept;
-}
-
-/// Ties are not linear: what a solution leaves open of them is asked for again.
-void IslandGroup::solve(const World& world, IslandSolver& solver, ExactIsland& m) {
-    m.account.begin_substep();
-    const double tolerance = world.settings.joint_tolerance;
-    const Island island = columns_.all_of(m);
-    const auto gains = [&](double share = 0) {
-        return !(kinetic_energy(island.bodies, island.velocity) <=
-                 (1 + share) * kinetic_energy(island.bodies, bodies_in(columns_.start, m)));
-    };
-    const auto ask = [&] { m.open = columns_.ties.ask(m.ties, island.velocity); };
-    if (m.splits) {
-        m.solved = true;
-        if (m.is_deep)
-            solver.sweep(island);
-        else
-            m.solved = solve_system(solver, m, IslandEffort::light);
-        give_up_if_in_vain(m);
-        const std::size_t bodies = m.last_body - m.first_body;
-        solver.open_apart(island, {columns_.opening.data() + m.first_point, island.points.size()},
-                          {columns_.shift.data() + m.first_body, bodies});
-        bound_speed(world, m);
-        return;
-    }
-    if (m.was_torn && m.is_driven) return hold_torn(solver, m);
-    if (m.effort == IslandEffort::swept) {
-        solver.sweep(island);
-        ask();
-        m.solved = true;
-        if (is_flung(m)) return hold_torn(solver, m);
-        if (m.is_meshed && gains()) close_gently(solver, m);
-        if (m.may_be_disputed) bound_speed(world, m);
-        return;
-    }
-    const int most = m.is_meshed ? kMostCloses : kCloses;
-    bool was_solved = false;  // before the last closing, which changes little
-    for (int i = 0; i < most; ++i) {
-        const double before = m.open;
-        was_solved |= m.solved && i > 0;
-        m.solved = solve_system(solver, m, m.effort);
-        ask();
-        const bool closes = !m.is_meshed && m.open <= 0.5 * before;
-        if (!(m.open > tolerance) || (!m.solved && i > 0 && !closes)) break;
-        if (i >= kCloses && !(m.open <= kClosing * before)) break;
-    }
-    if (!m.solved && m.may_be_disputed && m.effort == IslandEffort::full) {
-        m.begin_dispute();
-        m.effort = IslandEffort::swept;
-        m.splits = !m.flies;
-    }
-    give_up_if_in_vain(m);
-    if (m.parts) bound_energy(solver, m), ask();
-    if (m.ties.empty()) return;
-    if (is_pulled_apart(world, m)) return hold_torn(solver, m);
-    if (m.is_meshed && gains(m.was_open ? 0 : kOtherRoot)) return close_gently(solver, m);
-    if ((m.solved || (was_solved && !m.is_meshed)) && !(m.open > tolerance)) return;
-    const bool ajar = m.open <= kAjar * tolerance;
-    m.given_up |= !ajar && m.may_give_up;
-    // motors of a tree may give some
-    const double given = m.is_meshed || !ajar ? 0 : kOtherRoot;
-    if ((m.is_meshed && m.solved && ajar) || !gains(given)) return;
-    m.given_up = true;
-    m.is_meshed ? close_gently(solver, m) : give_way(solver, m);
 }
 
 void IslandGroup::take_changes(Bodies& bodies) const { columns_.give_changes(bodies); }

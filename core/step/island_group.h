@@ -79,17 +79,6 @@ private:
     bool is_shallow(const World& world, const ExactIsland& island) const;
     void recall(const World& world, ExactIsland& island) const;
     void choose_effort(const World& world, ExactIsland& island, bool swept) const;
-    void solve(const World& world, IslandSolver& solver, ExactIsland& island);
-    static void give_up_if_in_vain(ExactIsland& island);
-    bool solve_system(IslandSolver& solver, ExactIsland& island, IslandEffort effort);
-    bool is_pulled_apart(const World& world, const ExactIsland& island);
-    void give_way(IslandSolver& solver, ExactIsland& island);
-    bool is_flung(const ExactIsland& island);
-    void hold_torn(IslandSolver& solver, ExactIsland& island);
-    void draw_together(IslandSolver& solver, ExactIsland& island);
-    void close_gently(IslandSolver& solver, ExactIsland& island);
-    void bound_energy(IslandSolver& solver, ExactIsland& island);
-    void bound_speed(const World& world, const ExactIsland& island);
     void note_open(StepReport& report, const ExactIsland& island) const;
 
     Workers& workers_;
