@@ -23,6 +23,13 @@ inline Vector3d relative_velocity(const Bodies& b, const std::vector<Vector3d>& 
     return velocity_at(c.a) - velocity_at(c.b);
 }
 
+/// The same at the start of a substep, forces included.
+inline Vector3d relative_velocity(const World& world, std::size_t contact) {
+    const Bodies& b = world.bodies;
+    return relative_velocity(b, b.velocity, b.angular_velocity, world.contacts.found[contact],
+                             world.contacts.point[contact]);
+}
+
 /// The same along the normal, without the forces of the substep; negative: they approach.
 inline double separating_velocity(const Bodies& b, const Contact& c, const Vector3d& point) {
     return to_eigen(c.normal).dot(

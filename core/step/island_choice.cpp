@@ -2,10 +2,8 @@
 #include "step/island_choice.h"
 
 #include "constraints/contact.h"
-#include "constraints/joint_lever.h"
 #include "contacts/contact_measures.h"
 #include "schedule/joint_trees.h"
-#include "solve/linked_point.h"
 #include "step/island_account.h"
 #include "step/island_effort.h"
 #include "step/joint_state.h"
@@ -15,8 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <tuple>
 
 namespace plumb {
 namespace {
@@ -39,19 +35,6 @@ constexpr double kJam = 0.0025, kStuck = 0.25;
 /// What rests has been pulled on for a substep already; what is hardly faster counts as resting.
 constexpr double kPulledOn = 1.05;
 
-/// How far joints may turn within a substep [rad], also where others are worse at it, and the
-/// square of h ω of what they pull.
-constexpr double kFarTurn = 0.2, kFarthestTurn = 1, kHardPull = 2;
-
-/// What hangs under a hard pull is at rest where its joints turn by no more than this [rad].
-constexpr double kRestingTurn = 0.005;
-
-/// A motor is boundless that lifts so many times the weight of the bodies that it drives.
-constexpr double kBoundless = 3e4;
-
-/// An arm that is none [m].
-constexpr double kNoArm = 1e-15;
-
 /// kCalm of a body, with what a pull [m/s²] makes of rest in a substep or two [m/s].
 double calm_speed(const World& world, double radius, double pull) {
     return kCalm * std::sqrt(pull * radius) + 2 * pull * substep_of(world.settings);
@@ -63,238 +46,21 @@ double stuck_share(const Settings& s) {
     return 1 - kStuck * (1 - std::pow(left, s.substeps));
 }
 
-/// Whether nothing that weighs as much as a motor's own bodies can stop it.
-bool is_boundless(const World& world, const JointDrive& drive) {
-    const JointMotor& motor = drive.spec.motor;
-    if (drive.kind != DriveKind::motor || motor.mode != MotorMode::velocity) return false;
-    if (!std::isfinite(motor.greatest)) return true;
-    const Bodies& b = world.bodies;
-    const Joint& joint = world.joints.joints[drive.joint];
-    double weight = 0, lever = drive.axis < kTurnX ? 1 : 0;
-    for (const std::uint32_t body : {joint.a, joint.b}) {
-        if (body == kNoIndex || b.motion[body] != Motion::dynamic) continue;
-        weight += b.mass[body] * pull_on(world, body);
-        if (drive.axis >= kTurnX) lever = std::max(lever, b.bounding_radius[body]);
-    }
-    return weight * lever > 0 && motor.greatest > kBoundless * weight * lever;
-}
-
-/// What a joint bore along its axes in the substep before, on its a [N s].
-Vector3d impulse_on_a(const World& world, const Joint& joint) {
-    const Vector3d along(joint.rows[kAlongX], joint.rows[kAlongY], joint.rows[kAlongZ]);
-    if (joint.is_plain_ball()) return along;
-    const JointPose pose = joint_pose(world.bodies, joint);
-    if (joint.length > 0) return along[0] * (pose.point_a - pose.point_b).normalized();
-    return pose.axes_b * along;
-}
-
-/// The square of h ω of a body that a joint pulls at its lever; what pushes it there swings
-/// nothing, nor what a joint does not let turn. `impulse`: on the body; `frame`: of the joint on
-/// the body.
-double pull_load(const World& world, const Joint& joint, std::uint32_t body, const Placement& frame,
-                 Vector3d impulse, double h) {
-    const Bodies& b = world.bodies;
-    const int free = free_turns(joint);
-    if (free == 0) return 0;
-    Vector3d arm = b.orientation[body] * frame.position;
-    Symmetric3<double> inverse_inertia = b.world_inverse_inertia[body];
-    if (free == 1) {
-        int axis = 0;
-        while (joint.locked[kTurnX + axis]) ++axis;
-        const Vector3d about = b.orientation[body] * (frame.rotation * Vector3d::Unit(axis));
-        const double turns = about.dot(Vector3d(inverse_inertia * about));
-        arm -= about.dot(arm) * about, impulse -= about.dot(impulse) * about;
-        return h * turns * std::max(0.0, impulse.dot(arm));
-    }
-    const double pull = std::max(0.0, impulse.dot(arm) / std::max(arm.norm(), kNoArm));
-    return lever_load<double>(pull, 0, arm, inverse_inertia, h);
-}
-
-/// How far a tie may turn within a substep [rad], and the square of h ω of what it pulls: whether
-/// levers of the start of a substep will do until its end.
-struct TieLoad {
-    double turn = 0, pull = 0;
-};
-
-TieLoad load_of(const World& world, const Joint& joint, double h) {
-    const Bodies& b = world.bodies;
-    const Vector3d impulse = impulse_on_a(world, joint);
-    TieLoad load;
-    const auto see = [&](std::uint32_t body, const Placement& frame, double sign) {
-        if (body == kNoIndex || b.motion[body] != Motion::dynamic) return;
-        load.turn = std::max(load.turn, h * angular_rate(b, joint, body, frame));
-        load.pull = std::max(load.pull, pull_load(world, joint, body, frame, sign * impulse, h));
-    };
-    see(joint.a, joint.frame_a, 1), see(joint.b, joint.frame_b, -1);
-    return load;
-}
-
-TieLoad load_of(const World& world, const Link& link, double h) {
-    const Bodies& b = world.bodies;
-    const LinkedPoint at_a = linked_point(world, link.a), at_b = linked_point(world, link.b);
-    TieLoad load{0, link_load(link, at_a, at_b, h)};
-    const auto see = [&](std::uint32_t body, const LinkedPoint& at) {
-        if (body == kNoIndex || b.motion[body] != Motion::dynamic) return;
-        const double arm = std::max(at.arm.norm(), kNoArm);
-        load.turn = std::max(load.turn, h * b.angular_velocity[body].cross(at.arm).norm() / arm);
-        load.pull = std::max(load.pull, lever_load<double>(link.impulse.norm(), 0, at.arm,
-                                                           b.world_inverse_inertia[body], h));
-    };
-    see(link.a.body, at_a), see(link.b.body, at_b);
-    return load;
-}
-
 }  // namespace
-
-double pull_on(const World& world, std::uint32_t body) {
-    const Bodies& b = world.bodies;
-    return (world.settings.gravity + b.force[body] * b.inverse_mass[body]).norm();
-}
-
-Vector3d relative_velocity(const World& world, std::uint32_t contact) {
-    const Bodies& b = world.bodies;
-    return relative_velocity(b, b.velocity, b.angular_velocity, world.contacts.found[contact],
-                             world.contacts.point[contact]);
-}
 
 const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs) {
     stuck_share_ = stuck_share(world.settings);
     jammed_.clear();
-    if (!pairs.empty() || has_seeds_) find_ties(world);
+    if (!pairs.empty() || has_seeds_) ties_.find(world);
     // ties only break
-    has_seeds_ = first_seed_ < ties_.size();
+    has_seeds_ = ties_.has_seeds();
     const bool is_empty = pairs.empty() && !has_seeds_;
-    found_.find(pairs, tied_rows_, first_seed_, is_empty ? 0 : world.dynamic_count);
-    find_driven(world, pairs);
+    found_.find(pairs, ties_.rows(), ties_.first_seed(), is_empty ? 0 : world.dynamic_count);
+    driven_.find(world, pairs, ties_.all(), found_);
     if (is_empty) return found_;
-    rule_out(world);
+    obstacles_.find(world, ties_.all());
     bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     return found_;
-}
-
-void IslandChoice::find_driven(const World& world, const std::vector<BodyPair>& pairs) {
-    driven_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
-    boundless_.clear();
-    for (const JointDrive& drive : world.joints.drives)
-        if (is_boundless(world, drive)) boundless_.push_back(drive.joint);
-    if (world.kinematic_count == 0 && boundless_.empty()) return;
-    const Bodies& b = world.bodies;
-    const auto moves = [&](std::uint32_t body) { return moves_by_itself(b, body); };
-    const auto touches = [&](std::uint32_t pair) {
-        const Contact& c = world.contacts.found[pairs[pair].first];
-        return moves(c.a) || moves(c.b);
-    };
-    const auto pulls = [&](std::uint32_t i) {
-        bool any = ties_[i].kind == TieKind::joint &&
-                   std::binary_search(boundless_.begin(), boundless_.end(), ties_[i].index);
-        each_body(world, ties_[i], [&](std::uint32_t body) { any |= moves(body); });
-        return any;
-    };
-    for (const ContactIsland& island : found_.islands()) {
-        const auto pair = found_.pairs().begin();
-        const auto tie = found_.ties().begin();
-        if (std::none_of(pair + island.first_pair, pair + island.last_pair, touches) &&
-            std::none_of(tie + island.first_tie, tie + island.last_tie, pulls))
-            continue;
-        for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
-            driven_[static_cast<std::size_t>(found_.bodies()[i])] = 1;
-    }
-}
-
-void IslandChoice::find_ties(const World& world) {
-    ties_.clear(), tied_rows_.clear();
-    const auto add = [&](TieKind kind, std::uint32_t i, std::uint32_t a, std::uint32_t b) {
-        if (!holds(world, {kind, i})) return;
-        ties_.push_back({kind, i});
-        tied_rows_.push_back({world.row_of(a), world.row_of(b), i, 1});
-    };
-    const std::vector<Joint>& joints = world.joints.joints;
-    for (std::uint32_t i = 0; i < joints.size(); ++i)
-        add(TieKind::joint, i, joints[i].a, joints[i].b);
-    first_seed_ = move_loops_back(world);
-    for (std::uint32_t i = 0; i < world.links.size(); ++i) {
-        const Link& link = world.links[i];
-        if (link.is_between_bodies()) add(TieKind::link, i, link.a.body, link.b.body);
-    }
-    // two trees of joints become one
-    const auto mover = [&](const Joint& joint) {
-        const bool moves = joint.b == kNoIndex || world.bodies.motion[joint.a] == Motion::dynamic;
-        return moves ? joint.a : joint.b;
-    };
-    for (std::uint32_t i = 0; i < world.joints.couplings.size(); ++i) {
-        const JointCoupling& c = world.joints.couplings[i];
-        add(TieKind::coupling, i, mover(joints[c.joint_a]), mover(joints[c.joint_b]));
-    }
-}
-
-/// Moves the joints behind the others that close loops, or that hold nothing but by what drives
-/// them, as ropes do, which are no part of trees; returns where they begin.
-std::size_t IslandChoice::move_loops_back(const World& world) {
-    tied_.resize(static_cast<std::size_t>(world.dynamic_count) + 1);
-    std::iota(tied_.begin(), tied_.end(), std::size_t{0});
-    loops_.clear();
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < ties_.size(); ++i) {
-        const Joint& joint = world.joints.joints[ties_[i].index];
-        if (joint.locked == decltype(joint.locked){} || closes_loop(tied_rows_[i])) {
-            loops_.emplace_back(ties_[i], tied_rows_[i]);
-            continue;
-        }
-        ties_[kept] = ties_[i], tied_rows_[kept++] = tied_rows_[i];
-    }
-    for (std::size_t i = 0; i < loops_.size(); ++i)
-        std::tie(ties_[kept + i], tied_rows_[kept + i]) = loops_[i];
-    return kept;
-}
-
-/// Called for one joint after another: whether those before tie its bodies together already. What
-/// is immovable is one body.
-bool IslandChoice::closes_loop(const BodyPair& joint) {
-    const auto root = [this](std::int32_t row) {
-        auto at = static_cast<std::size_t>(row);
-        at = std::min(at, tied_.size() - 1);
-        while (tied_[at] != at) at = tied_[at] = tied_[tied_[at]];
-        return at;
-    };
-    const std::size_t a = root(joint.row_a), b = root(joint.row_b);
-    tied_[a] = b;
-    return a == b;
-}
-
-/// Marks the bodies of what exact islands are not made for.
-void IslandChoice::rule_out(const World& world) {
-    obstacles_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
-    const auto mark = [&](const Tie& tie, std::uint8_t obstacle) {
-        each_body(world, tie, [&](std::uint32_t body) { put(world, body, obstacle); });
-    };
-    world.each_body_among_particles([&](std::uint32_t body) { put(world, body, kBeyond); });
-    const double h = substep_of(world.settings);
-    const bool iterated = world.settings.joints == JointMethod::iterate;
-    for (const Tie& tie : ties_) {
-        if (tie.kind == TieKind::coupling) continue;
-        const bool is_joint = tie.kind == TieKind::joint;
-        const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)
-                                      : load_of(world, world.links[tie.index], h);
-        if (is_joint && iterated) mark(tie, kBeyond);
-        const bool rests = is_joint && load.turn <= kRestingTurn;
-        if (load.pull > kHardPull) mark(tie, rests ? kPulled : kHard);
-        if (load.turn > kFarthestTurn) mark(tie, kHard);
-        if (load.turn > kFarTurn) mark(tie, kFast);
-        if (rest_of(world, tie).steps > 0) mark(tie, kRests);
-    }
-}
-
-void IslandChoice::put(const World& world, std::uint32_t body, std::uint8_t obstacle) {
-    if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
-        obstacles_[world.bodies.row[body]] |= obstacle;
-}
-
-/// What its bodies are marked with.
-std::uint8_t IslandChoice::obstacles_of(const ContactIsland& island) const {
-    std::uint8_t all = 0;
-    for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
-        all |= obstacles_[found_.bodies()[i]];
-    return all;
 }
 
 bool IslandChoice::can_do_work(const World& world, const ContactIsland& island) const {
@@ -306,7 +72,7 @@ bool IslandChoice::can_do_work(const World& world, const ContactIsland& island) 
 bool IslandChoice::is_meshed(const ContactIsland& island) const {
     const auto ties = found_.ties().begin();
     const auto first = ties + island.first_tie, last = ties + island.last_tie;
-    const auto mesh = std::lower_bound(first, last, first_seed_);
+    const auto mesh = std::lower_bound(first, last, ties_.first_seed());
     if (mesh == last) return false;
     const bool touches = island.first_pair < island.last_pair;
     const bool loops = std::any_of(
@@ -349,11 +115,12 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         !is_slow(world, world.contacts.found[pairs[found_.pairs()[island.first_pair]].first]))
         return IslandWay::left;
     const bool meshed = is_meshed(island);
-    std::uint8_t obstacles = obstacles_of(island);
+    std::uint8_t obstacles = obstacles_.of(found_, island);
     // what hangs at rest has known loads, with which its levers turn
-    if (!meshed && !is_driven(island)) obstacles &= ~kPulled;
+    if (!meshed && !is_driven(island)) obstacles &= ~IslandObstacles::kPulled;
     upset_.clear();
-    if ((obstacles & kBeyond) || (meshed ? can_do_work(world, island) : obstacles != 0)) {
+    if ((obstacles & IslandObstacles::kBeyond) ||
+        (meshed ? can_do_work(world, island) : obstacles != 0)) {
         if (is_tied && !meshed) leave(world, island, pairs);
         return IslandWay::left;
     }
@@ -363,7 +130,8 @@ IslandWay IslandChoice::way_of(const World& world, const ContactIsland& island,
         leave(world, island, pairs);
         return IslandWay::left;
     }
-    if ((obstacles & (kHard | kPulled)) || ((obstacles & kRests) && !is_driven(island)) ||
+    if ((obstacles & (IslandObstacles::kHard | IslandObstacles::kPulled)) ||
+        ((obstacles & IslandObstacles::kRests) && !is_driven(island)) ||
         (meshed && is_driven(island) && is_torn(world, island)))
         return IslandWay::swept;
     if (n <= kVerySmall && flies(world, island, pairs)) return IslandWay::exact;
@@ -390,7 +158,7 @@ bool IslandChoice::flies(const World& world, const ContactIsland& island,
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
         if (!is_free(pairs[found_.pairs()[i]])) return false;
     for (std::uint32_t i = island.first_tie; i < island.last_tie; ++i)
-        if (!is_free(tied_rows_[found_.ties()[i]])) return false;
+        if (!is_free(ties_.rows()[found_.ties()[i]])) return false;
     return true;
 }
 

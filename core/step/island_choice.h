@@ -20,17 +20,13 @@
 #pragma once
 
 #include "schedule/contact_islands.h"
-#include "world/tie.h"
+#include "step/driven_islands.h"
+#include "step/island_obstacles.h"
+#include "step/tie_list.h"
 
 #include <vector>
 
 namespace plumb {
-
-/// How fast gravity and the constant force would make a body in a second [m/s²].
-double pull_on(const World& world, std::uint32_t body);
-
-/// Of a contact's point on a against that on b, forces included [m/s].
-Vector3d relative_velocity(const World& world, std::uint32_t contact);
 
 /// What becomes of an island: solved or swept here, or left to others.
 enum class IslandWay : std::uint8_t { exact, swept, left };
@@ -102,9 +98,8 @@ public:
     /// Whether an exact solution left an overlap [m] about as deep as it was.
     bool is_stuck(const ContactMemory& before, double overlap) const;
 
-    /// Whether what is moved by others (a press, a conveyor) touches the island of a body. `row`:
-    /// of the body, dynamic.
-    bool is_driven(std::int32_t row) const { return driven_[static_cast<std::size_t>(row)] != 0; }
+    /// Whether the island of a body is moved by others. `row`: of the body, dynamic.
+    bool is_driven(std::int32_t row) const { return driven_.is_driven(row); }
     bool is_driven(const ContactIsland& island) const {
         return is_driven(found_.bodies()[island.first_body]);
     }
@@ -113,17 +108,6 @@ public:
     const std::vector<std::uint32_t>& jammed() const { return jammed_; }
 
 private:
-    void find_ties(const World& world);
-    void find_driven(const World& world, const std::vector<BodyPair>& pairs);
-    std::size_t move_loops_back(const World& world);
-    bool closes_loop(const BodyPair& joint);
-    // What keeps an island from being solved exactly: what is beyond its solver, what turns far
-    // within a substep, and what could not be solved a while ago.
-    static constexpr std::uint8_t kBeyond = 1, kFast = 2, kHard = 4, kRests = 8, kPulled = 16;
-    void rule_out(const World& world);
-    void put(const World& world, std::uint32_t body, std::uint8_t obstacle);
-    std::uint8_t obstacles_of(const ContactIsland& island) const;
-
     bool is_loose(const ContactIsland& island) const;  // nothing ties or drives it
     bool is_slow(const World& world, const Contact& contact) const;
 
@@ -152,19 +136,14 @@ private:
                      const std::vector<BodyPair>& pairs);
 
     ContactIslands found_;
-    double stuck_share_ = 1;                ///< of an overlap, from which it counts as left
-    std::vector<Tie> ties_;                 // joints, those that close loops, links, couplings
-    std::vector<BodyPair> tied_rows_;       // [tie]
-    std::vector<std::uint32_t> boundless_;  // joints whose motors nothing can stop
-    std::size_t first_seed_ = 0;            // of ties_: those from it on need nothing that touches
-    bool has_seeds_ = true;                 // as far as is known
-    std::vector<std::pair<Tie, BodyPair>> loops_;
-    std::vector<std::size_t> tied_;        // [dynamic row, then the ground] see closes_loop
-    std::vector<std::uint8_t> obstacles_;  // [dynamic row] bits, see rule_out
-    std::vector<std::uint8_t> driven_;     // [dynamic row], see is_driven
-    std::vector<double> bears_;            // [dynamic row], see goes_on [N s]
-    std::vector<std::uint8_t> weighed_;    // [body of an island]
-    std::vector<BodyPair> upset_;          // of an island: what is jammed or too deep
+    TieList ties_;
+    bool has_seeds_ = true;  // as far as is known
+    DrivenIslands driven_;
+    IslandObstacles obstacles_;
+    double stuck_share_ = 1;             // of an overlap, from which it counts as left
+    std::vector<double> bears_;          // [dynamic row], see goes_on [N s]
+    std::vector<std::uint8_t> weighed_;  // [body of an island]
+    std::vector<BodyPair> upset_;        // of an island: what is jammed or too deep
     std::vector<std::uint32_t> jammed_;
 };
 

@@ -2,6 +2,7 @@
 #include "step/island_demands.h"
 
 #include "contacts/contact_measures.h"
+#include "step/substep_time.h"
 
 #include <algorithm>
 #include <cmath>
