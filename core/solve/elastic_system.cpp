@@ -57,6 +57,24 @@ constexpr double kTooMuch = 2;
 constexpr double kFlat = 0.2;
 constexpr int kCuts = 6;
 
+/// A piece of a line, at the lower end of which the energy falls and at the upper rises: how fast.
+struct Bracket {
+    double low, high, at_low, at_high;
+
+    /// Where it is least, about, and no nearer to the ends than this share.
+    double guess(double inset) const {
+        const double width = high - low;
+        return std::clamp(low - at_low * width / (at_high - at_low), low + inset * width,
+                          high - inset * width);
+    }
+    void narrow(double at, double slope) {
+        if (slope > 0)
+            high = at, at_high = slope;
+        else
+            low = at, at_low = slope;
+    }
+};
+
 }  // namespace
 
 ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
@@ -346,43 +364,33 @@ double ElasticSystem::share_of_way() {
     const auto rise = [&](double share) {
         return of_contacts - fall + share * bend - contacts_.push_along(share);
     };
-    double low = 0, high = 1, at_low = -fall, at_high = rise(1);
-    if (!(fall > 0) || at_high <= kFlat * fall) return 1;
+    Bracket line{0, 1, -fall, rise(1)};
+    if (!(fall > 0) || line.at_high <= kFlat * fall) return 1;
     for (int i = 0; i < kCuts; ++i) {
-        const double guess = low - at_low * (high - low) / (at_high - at_low);
-        const double inset = 0.1 * (high - low);
-        const double share = std::clamp(guess, low + inset, high - inset);
-        const double here = rise(share);
+        const double share = line.guess(0.1), here = rise(share);
         if (std::abs(here) <= kFlat * fall) return share;
-        if (here > 0)
-            high = share, at_high = here;
-        else
-            low = share, at_low = here;
+        line.narrow(share, here);
     }
-    return low > 0 ? low : high;
+    return line.low > 0 ? line.low : line.high;
 }
 
 /// From the end of a whole step to where the energy along it is least, about, which makes `way_`
 /// that much shorter.
 void ElasticSystem::search_line() {
-    double low = 0, high = 1, at_high = slope();
+    const double at_end = slope();
     advance(-1);
     find_forces();
-    double at_low = slope(), at = 0;
-    const double enough = kFlat * std::abs(at_low);
+    Bracket line{0, 1, slope(), at_end};
+    const double enough = kFlat * std::abs(line.at_low);
+    double at = 0;
     for (int i = 0; i < kCuts; ++i) {
-        const double guess = low - at_low * (high - low) / (at_high - at_low);
-        const double inset = 0.05 * (high - low);
-        const double step = std::clamp(guess, low + inset, high - inset);
+        const double step = line.guess(0.05);
         advance(step - at);
         at = step;
         find_forces();
         const double here = slope();
         if (std::abs(here) <= enough) break;
-        if (here > 0)
-            high = step, at_high = here;
-        else
-            low = step, at_low = here;
+        line.narrow(step, here);
     }
     for (Vector3d& way : way_) way *= at;
 }
