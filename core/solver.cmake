@@ -10,7 +10,7 @@ set(PLUMB_CORE_SOURCES
   contacts/bend.cpp contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_room.cpp contacts/detect.cpp
   contacts/detect_particles.cpp contacts/follow_contacts.cpp contacts/impacts.cpp contacts/match_contacts.cpp contacts/renew_contacts.cpp contacts/reuse_contacts.cpp
   contacts/contact_reach.cpp contacts/ghost_contacts.cpp contacts/ground_touch.cpp contacts/rims.cpp contacts/still_ground.cpp contacts/surface_detector.cpp
-  solve/contact_stiffness.cpp solve/elastic_contacts.cpp solve/elastic_contacts_load.cpp solve/elastic_system.cpp solve/island_residuals.cpp
+  solve/balloons.cpp solve/contact_stiffness.cpp solve/elastic_contacts.cpp solve/elastic_contacts_load.cpp solve/elastic_factors.cpp solve/elastic_parts.cpp solve/elastic_system.cpp solve/island_residuals.cpp
   solve/patch_tree.cpp
   step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/driven_islands.cpp step/fast_joints.cpp step/gaping_joints.cpp step/integrate.cpp step/island_choice.cpp step/island_group.cpp step/island_closing.cpp step/island_columns.cpp step/island_couplings.cpp step/island_demands.cpp step/island_energy.cpp step/island_joints.cpp step/island_links.cpp step/island_obstacles.cpp step/island_residual.cpp
   step/island_newton.cpp step/island_solver.cpp step/island_substep.cpp step/island_ties.cpp step/joint_residual.cpp step/joint_state.cpp step/large_islands.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp

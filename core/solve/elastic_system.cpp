@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "solve/elastic_system.h"
 
-#include "kernels/front_kernels.h"
 #include "solve/contact_stiffness.h"
 
 #include <algorithm>
@@ -10,9 +9,6 @@
 
 namespace plumb {
 namespace {
-
-/// A kept volume resists as if this were the bulk modulus of what fills it [Pa].
-constexpr double kFilling = 1e8;
 
 /// The end is reached where a step changes velocities by no more than this share of what gravity
 /// does in a substep, or of the greatest velocity, or of the size of the whole in a substep: less
@@ -39,9 +35,6 @@ constexpr double kShareOfContacts = 0.1, kFirstRound = 10;
 /// A call that has gained more than this share of the energy before is not taken; nor one in which
 /// points that others move at v gave all that hangs on them more than this times m v².
 constexpr double kGain = 0.1, kPulled = 2;
-
-/// Of attached rows that have blocks with each other; for more of them memory grows as it must.
-constexpr std::size_t kManyRows = 128;
 
 /// Steps to a minimum: a substep makes as many calls as position iterations.
 constexpr int kSteps = 20;
@@ -78,118 +71,33 @@ struct Bracket {
 }  // namespace
 
 ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
-    : elements_(make_elements(world, world.settings.dt / world.settings.substeps, Formulas())),
-      contacts_(plan),
-      has_contacts_(has_elastic_contacts(plan)),
-      system_(front_kernels()) {
+    : parts_(elastic_parts(world, plan)), factors_(parts_) {
     const std::uint32_t calls = std::max(1u, world.settings.position_iterations);
     rounds_ = std::max(kLeastRounds, kRounds / calls);
-    const Particles& p = world.particles;
-    for (std::size_t i = 0; i < p.size(); ++i)
-        mass_.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);
     h_ = world.settings.dt / world.settings.substeps;
     for (auto* column : {&start_, &x_, &before_step_, &own_, &elastic_})
-        column->assign(p.size(), Vector3d::Zero());
-    std::vector<SparseLdlt::Pair> pairs;
-    for (const auto& elements : elements_) elements->add_pairs(pairs);
-    system_.order(particles(), pairs);
-    for (const auto& elements : elements_) elements->find_slots(system_);
-    make_balloons(world);
-    number_balloons();
-}
-
-void ElasticSystem::make_balloons(const World& world) {
-    for (const Deformable& d : world.deformables) {
-        if (d.spec.kind != DeformableKind::balloon) continue;
-        const double volume = kept_volume(d.spec);
-        balloons_.push_back({&d.spec.triangles, d.first, d.count, volume,
-                             d.spec.pressure.value_or(0), d.spec.pressure ? 0 : kFilling / volume,
-                             std::vector<Vector3d>(d.count)});
-    }
-}
-
-/// The pressure that keeps a balloon's volume is an unknown of its own, for it acts on all its
-/// particles.
-void ElasticSystem::number_balloons() {
-    for (const Balloon& balloon : balloons_) {
-        if (!balloon.keeps_volume()) continue;
-        for (std::uint32_t i = 0; i < balloon.count; ++i)
-            pairs_.emplace_back(balloon.first + i, particles() + balloon_rows_);
-        ++balloon_rows_;
-    }
-    balloon_pairs_ = pairs_.size();
-    system_.attach(balloon_rows_, pairs_);
-}
-
-/// Memory for as many attached rows and pairs as there may be.
-void ElasticSystem::size_rows() {
-    const std::size_t most_attached = balloon_rows_ + 2 * contacts_.bodies().capacity();
-    const std::size_t most = particles() + most_attached;
-    system_.reserve_attached(std::min(most_attached, kManyRows));
-    for (auto* rows : {&v_, &target_, &best_, &begin_, &force_, &direction_, &way_, &before_}) {
-        rows->reserve(most);
-        rows->assign(particles() + balloon_rows_ + contacts_.rows(), Vector3d::Zero());
-    }
-    earlier_.reserve(most);
-    const std::size_t most_contacts = contacts_.contacts().capacity();
-    made_of_.bodies.reserve(contacts_.bodies().capacity());
-    made_of_.contacts.reserve(most_contacts);
-    for (auto* pairs : {&pairs_, &contact_pairs_, &pairs_now_})
-        pairs->reserve(balloon_pairs_ + 6 * most_contacts);
-}
-
-/// Only what pushes has blocks: most of what is near does not touch.
-void ElasticSystem::attach_contacts() {
-    pairs_now_.clear();
-    list_pairs(made_of_, first_body_row(), pairs_now_);
-    const std::uint32_t rows =
-        balloon_rows_ + 2 * static_cast<std::uint32_t>(made_of_.bodies.size());
-    if (rows == system_.more() && pairs_now_ == contact_pairs_) return;
-    std::swap(pairs_now_, contact_pairs_);
-    pairs_.resize(balloon_pairs_);
-    pairs_.insert(pairs_.end(), contact_pairs_.begin(), contact_pairs_.end());
-    system_.attach(rows, pairs_);
+        column->assign(parts_.particles(), Vector3d::Zero());
 }
 
 void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
-    const Particles& p = world.particles;
-    if (has_contacts_) contacts_.load(world, first_body_row(), pairs);
+    if (parts_.may_touch) parts_.contacts.load(world, parts_.first_body_row(), pairs);
     size_rows();
-    new_factors_ = 0;
-    if (world.kept_factors != made_of_) {
-        has_factors_ = false;
-        made_of_ = world.kept_factors;
-    }
-    if (made_of_.places.size() != p.size() || made_of_.before.size() != p.size() ||
-        !contacts_.has_bodies_of(made_of_))
-        drop_factors();
-    if (has_factors_) return;
-    const bool is_made = !made_of_.places.empty();
-    if (!is_made && contacts_.empty()) return;
-    x_ = made_of_.places, before_step_ = made_of_.before;
-    if (!is_made) {
-        x_.resize(p.size());
-        for (std::size_t i = 0; i < p.size(); ++i) x_[i] = p.position[i] - p.position[0];
-        before_step_ = x_;
-    }
-    for (const auto& elements : elements_) elements->begin(x_, h_);
-    if (is_made) {
-        factor_as_made();
-    } else {
-        assemble_elements();
-        contacts_.weigh(system_);
-    }
+    factors_.begin_step(world, parts_, h_);
 }
 
-/// Where one set of factors did not do for a step, the last does not for the next one.
 void ElasticSystem::store(World& world) {
-    if (new_factors_ > 1) drop_factors();
-    if (world.kept_factors != made_of_) {
-        world.kept_factors.contacts.reserve(made_of_.contacts.capacity());
-        world.kept_factors.bodies.reserve(made_of_.bodies.capacity());
-        world.kept_factors = made_of_;
+    factors_.store(world);
+    parts_.contacts.store(world);
+}
+
+/// Memory for as many attached rows as there may be.
+void ElasticSystem::size_rows() {
+    const std::size_t most = parts_.most_rows();
+    for (auto* rows : {&v_, &target_, &best_, &begin_, &force_, &direction_, &way_, &before_}) {
+        rows->reserve(most);
+        rows->assign(parts_.rows(), Vector3d::Zero());
     }
-    contacts_.store(world);
+    earlier_.reserve(most);
 }
 
 void ElasticSystem::begin(const World& world, double h, double stiffness, double recovery) {
@@ -199,22 +107,22 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     Vector3d momentum = Vector3d::Zero();
     double mass = 0;
     for (std::size_t i = 0; i < p.size(); ++i)
-        momentum += mass_[i] * p.velocity[i], mass += mass_[i];
+        momentum += parts_.mass[i] * p.velocity[i], mass += parts_.mass[i];
     const Vector3d mean = mass > 0 ? Vector3d(momentum / mass) : momentum;
     for (std::size_t i = 0; i < p.size(); ++i) {
         start_[i] = p.position[i] - p.position[0];
         own_[i].setZero();
         const double square = (p.velocity[i] - mean).squaredNorm();
-        fastest = std::max(fastest, square), motion += mass_[i] * square;
+        fastest = std::max(fastest, square), motion += parts_.mass[i] * square;
         furthest = std::max(furthest, start_[i].squaredNorm());
     }
     enough_ = kEnoughOfGravity * world.settings.gravity.norm() * h +
               kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
     enough_size_ = kEnoughOfMotion * std::sqrt(motion);
-    near_ = contacts_.empty() ? 1 : kFirstRound;
-    for (const auto& elements : elements_) elements->begin(start_, h);
-    contacts_.begin(world, h, stiffness, recovery);
-    if (!contacts_.empty()) {
+    near_ = parts_.contacts.empty() ? 1 : kFirstRound;
+    for (const auto& elements : parts_.elements) elements->begin(start_, h);
+    parts_.contacts.begin(world, h, stiffness, recovery);
+    if (!parts_.contacts.empty()) {
         x_ = start_;
         find_elastic_forces();
         elastic_start_ = elastic_energy_;
@@ -223,28 +131,13 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     is_first_ = true, is_settled_ = false;
 }
 
-/// Volume of a balloon at the places now, and its gradient.
-double ElasticSystem::measure(Balloon& balloon) const {
-    std::fill(balloon.gradient.begin(), balloon.gradient.end(), Vector3d::Zero());
-    const Vector3d& origin = x_[balloon.first];
-    return volume_of(
-        *balloon.triangles,
-        [&](std::uint32_t i) -> Vector3d { return x_[balloon.first + i] - origin; },
-        &balloon.gradient);
-}
-
 /// At the places now.
 void ElasticSystem::find_elastic_forces() {
     std::fill(elastic_.begin(), elastic_.end(), Vector3d::Zero());
     elastic_energy_ = 0;
-    for (const auto& elements : elements_) elastic_energy_ += elements->add_forces(x_, elastic_);
-    for (Balloon& balloon : balloons_) {
-        const double missing = balloon.volume - measure(balloon);
-        const double push = balloon.pressure + balloon.stiffness * missing;
-        elastic_energy_ += 0.5 * (balloon.pressure + push) * missing;
-        for (std::uint32_t i = 0; i < balloon.count; ++i)
-            elastic_[balloon.first + i] += push * balloon.gradient[i];
-    }
+    for (const auto& elements : parts_.elements)
+        elastic_energy_ += elements->add_forces(x_, elastic_);
+    parts_.balloons.add_forces(x_, elastic_, elastic_energy_);
 }
 
 /// What pulls at each row at the velocities now, which is 0 at the minimum; and the energy.
@@ -258,75 +151,24 @@ void ElasticSystem::find_forces() {
 void ElasticSystem::sum_forces() {
     energy_ = elastic_energy_;
     for (std::size_t i = 0; i < x_.size(); ++i) {
-        if (mass_[i] == 0) continue;
+        if (parts_.mass[i] == 0) continue;
         const Vector3d missing = target_[i] - v_[i];
-        force_[i] = mass_[i] * missing + h_ * elastic_[i];
-        energy_ += 0.5 * mass_[i] * missing.squaredNorm();
+        force_[i] = parts_.mass[i] * missing + h_ * elastic_[i];
+        energy_ += 0.5 * parts_.mass[i] * missing.squaredNorm();
     }
-    energy_ += contacts_.add_forces(target_, v_, force_);
+    energy_ += parts_.contacts.add_forces(target_, v_, force_);
     for (std::size_t i = 0; i < x_.size(); ++i)
-        if (mass_[i] == 0) force_[i].setZero();
-}
-
-/// Second derivatives at the velocities now, without what would make them indefinite.
-void ElasticSystem::assemble_elements() {
-    system_.clear();
-    for (std::uint32_t i = 0; i < particles(); ++i)
-        system_.add(i, (mass_[i] > 0 ? mass_[i] : 1) * Matrix3d::Identity());
-    for (const auto& elements : elements_)
-        elements->add_stiffness(x_, before_step_, h_ * h_, system_);
-}
-
-void ElasticSystem::assemble_balloons() {
-    std::size_t pair = 0;
-    std::uint32_t row = particles();
-    for (Balloon& balloon : balloons_) {
-        if (!balloon.keeps_volume()) continue;
-        measure(balloon);
-        Matrix3d block = Matrix3d::Identity();  // two of three numbers mean nothing
-        block(0, 0) = -1 / balloon.stiffness;
-        system_.add(row++, block);
-        for (std::uint32_t i = 0; i < balloon.count; ++i, ++pair) {
-            if (mass_[balloon.first + i] == 0) continue;
-            block.setZero();
-            block.col(0) = h_ * balloon.gradient[i];
-            system_.add_pair(pair, block);
-        }
-    }
-}
-
-bool ElasticSystem::factor() {
-    made_of_.places = x_, made_of_.before = before_step_;
-    contacts_.list_stiffness(made_of_);
-    ++new_factors_;
-    return factor_as_made();
-}
-
-bool ElasticSystem::factor_as_made() {
-    attach_contacts();
-    assemble_elements();
-    if (has_contacts_) contacts_.weigh(system_);
-    assemble_balloons();
-    add_contact_stiffness(made_of_, mass_, first_body_row(), contact_pairs_, balloon_pairs_,
-                          system_);
-    has_factors_ = system_.factor();
-    if (!has_factors_) drop_factors();
-    return has_factors_;
-}
-
-void ElasticSystem::drop_factors() {
-    has_factors_ = false;
-    made_of_.clear();
+        if (parts_.mass[i] == 0) force_[i].setZero();
 }
 
 /// Where the factors lead from here.
 ElasticSystem::Move ElasticSystem::find_direction() {
     direction_ = force_;
-    system_.solve(direction_);
+    factors_.solve(direction_);
     double greatest = 0;
     for (std::size_t i = 0; i < x_.size(); ++i)
         greatest = std::max(greatest, direction_[i].squaredNorm());
-    for (const ElasticContacts::Body& body : contacts_.bodies())
+    for (const ElasticContacts::Body& body : parts_.contacts.bodies())
         greatest = std::max(greatest, direction_[body.row].squaredNorm());
     return {std::sqrt(greatest), std::sqrt(product(direction_, direction_))};
 }
@@ -335,8 +177,8 @@ ElasticSystem::Move ElasticSystem::find_direction() {
 double ElasticSystem::product(const std::vector<Vector3d>& x,
                               const std::vector<Vector3d>& y) const {
     double sum = 0;
-    for (std::size_t i = 0; i < mass_.size(); ++i) sum += mass_[i] * x[i].dot(y[i]);
-    for (const ElasticContacts::Body& body : contacts_.bodies())
+    for (std::size_t i = 0; i < parts_.mass.size(); ++i) sum += parts_.mass[i] * x[i].dot(y[i]);
+    for (const ElasticContacts::Body& body : parts_.contacts.bodies())
         sum += body.mass * x[body.row].dot(y[body.row]) +
                x[body.row + 1].dot(body.inertia * y[body.row + 1]);
     return sum;
@@ -357,12 +199,13 @@ double ElasticSystem::slope() const {
 /// Share of `way_` where the energy is least, about: of the contacts as it is, of all else as the
 /// factors have it. For the one has kinks, and across a fold the other is no guide.
 double ElasticSystem::share_of_way() {
-    if (contacts_.empty()) return 1;
-    contacts_.begin_line(way_);
-    const double fall = -slope(), of_contacts = contacts_.push_along(0);
-    const double bend = std::max(0.0, fall - stiffness_along(made_of_, first_body_row(), way_));
+    if (parts_.contacts.empty()) return 1;
+    parts_.contacts.begin_line(way_);
+    const double fall = -slope(), of_contacts = parts_.contacts.push_along(0);
+    const double bend =
+        std::max(0.0, fall - stiffness_along(factors_.made_of(), parts_.first_body_row(), way_));
     const auto rise = [&](double share) {
-        return of_contacts - fall + share * bend - contacts_.push_along(share);
+        return of_contacts - fall + share * bend - parts_.contacts.push_along(share);
     };
     Bracket line{0, 1, -fall, rise(1)};
     if (!(fall > 0) || line.at_high <= kFlat * fall) return 1;
@@ -412,15 +255,15 @@ bool ElasticSystem::descend() {
     // how far was left to go, with these factors and with new ones
     double at_look = 0, at_new = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kSteps; ++i) {
-        const bool are_new = !has_factors_;
+        const bool are_new = !factors_.exist();
         if (are_new) {
-            if (!factor()) break;
+            if (!factors_.make(parts_, x_, before_step_, h_)) break;
             steps = 0;
             earlier_.clear(v_.size());
         }
         if (are_new || !known) move = find_direction();
         if (!std::isfinite(move.size)) {
-            drop_factors();
+            factors_.drop();
             break;
         }
         if (steps == 0) at_look = move.size;
@@ -445,17 +288,17 @@ bool ElasticSystem::descend() {
             advance(-1);
             find_forces();
             before_step_ = x_;
-            drop_factors();
+            factors_.drop();
             continue;
         }
         if (energy_ < least_) keep_best();
         if (!is_foreseen && !(next.size < move.size)) {
-            drop_factors();
+            factors_.drop();
             continue;
         }
         earlier_.add(way_, before_, direction_, dot);
         if (++steps % kLook == 0) {
-            if (!(next.size < kQuick * at_look)) drop_factors();
+            if (!(next.size < kQuick * at_look)) factors_.drop();
             at_look = next.size;
         }
         known = true;
@@ -474,14 +317,14 @@ void ElasticSystem::go_rounds() {
     for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
         if (round > 0) sum_forces();
         const bool is_there = descend();
-        if (contacts_.empty()) {
+        if (parts_.contacts.empty()) {
             is_settled_ = is_there;
             return;
         }
         find_forces();
         // short of the minimum, forces of contacts are not near those that hold anything up
         if (!is_there) continue;
-        const double changed = contacts_.take_forces();
+        const double changed = parts_.contacts.take_forces();
         is_settled_ = near_ <= 1 && changed <= kEnoughOfContacts * enough_;
         near_ = enough_ > 0 ? std::max(1.0, kShareOfContacts * changed / enough_) : 1;
     }
@@ -492,7 +335,7 @@ bool ElasticSystem::has_moved(const std::vector<Vector3d>& velocity) const {
     double most = 0;
     for (std::size_t i = 0; i < velocity.size(); ++i)
         most = std::max(most, (velocity[i] - v_[i]).squaredNorm());
-    for (const ElasticContacts::Body& body : contacts_.bodies())
+    for (const ElasticContacts::Body& body : parts_.contacts.bodies())
         most = std::max({most, (body.v.v - v_[body.row]).squaredNorm(),
                          (body.size * (body.v.w - v_[body.row + 1])).squaredNorm()});
     return most > enough_ * enough_;
@@ -502,41 +345,41 @@ bool ElasticSystem::has_moved(const std::vector<Vector3d>& velocity) const {
 /// points that are moved by others pull along.
 bool ElasticSystem::gains_energy() const {
     double mass = 0, pull = 0;
-    for (std::size_t i = 0; i < mass_.size(); ++i) {
-        mass += mass_[i];
-        if (mass_[i] == 0) pull = std::max(pull, target_[i].squaredNorm());
+    for (std::size_t i = 0; i < parts_.mass.size(); ++i) {
+        mass += parts_.mass[i];
+        if (parts_.mass[i] == 0) pull = std::max(pull, target_[i].squaredNorm());
     }
-    for (const ElasticContacts::Body& body : contacts_.bodies()) mass += body.mass;
+    for (const ElasticContacts::Body& body : parts_.contacts.bodies()) mass += body.mass;
     const double before = 0.5 * product(target_, target_) + elastic_start_;
     const double now = 0.5 * product(v_, v_) + elastic_energy_;
-    return now > (1 + kGain) * before + contacts_.driven_energy() + kPulled * mass * pull;
+    return now > (1 + kGain) * before + parts_.contacts.driven_energy() + kPulled * mass * pull;
 }
 
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
     if (is_settled_ && !has_moved(velocity)) return;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
-        if (mass_[i] > 0) target_[i] -= own_[i] / mass_[i];
+        if (parts_.mass[i] > 0) target_[i] -= own_[i] / parts_.mass[i];
     }
-    std::fill(v_.begin() + particles(), v_.end(), Vector3d::Zero());
-    contacts_.find_targets(v_, target_);
+    std::fill(v_.begin() + parts_.particles(), v_.end(), Vector3d::Zero());
+    parts_.contacts.find_targets(v_, target_);
     if (is_first_) guess_rest();
     begin_ = v_;
     go_rounds();
-    if (!contacts_.empty() && gains_energy()) {
+    if (!parts_.contacts.empty() && gains_energy()) {
         // thrown by what held something up before, or by what Newton's method left
-        contacts_.forget();
+        parts_.contacts.forget();
         v_ = begin_;
         go_rounds();
         if (gains_energy()) {
-            contacts_.let_go();
+            parts_.contacts.let_go();
             v_ = begin_;
             go_rounds();
         }
     }
-    contacts_.match(v_, target_);
+    parts_.contacts.match(v_, target_);
     for (std::size_t i = 0; i < x_.size(); ++i) {
-        own_[i] = mass_[i] * (v_[i] - target_[i]);
+        own_[i] = parts_.mass[i] * (v_[i] - target_[i]);
         velocity[i] = v_[i];
     }
 }
@@ -544,10 +387,10 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
 /// Most of what touches is held up by something: it moves on as it did, and does not fall.
 void ElasticSystem::guess_rest() {
     is_first_ = false;
-    if (contacts_.empty()) return;
+    if (parts_.contacts.empty()) return;
     for (std::size_t i = 0; i < x_.size(); ++i)
-        if (mass_[i] > 0) v_[i] -= fall_;
-    for (const ElasticContacts::Body& body : contacts_.bodies()) v_[body.row] -= fall_;
+        if (parts_.mass[i] > 0) v_[i] -= fall_;
+    for (const ElasticContacts::Body& body : parts_.contacts.bodies()) v_[body.row] -= fall_;
 }
 
 }  // namespace plumb
