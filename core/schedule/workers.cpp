@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "schedule/workers.h"
 
+#include <chrono>
+
 namespace plumb {
 namespace {
 
@@ -11,10 +13,20 @@ constexpr int kSpins = 2000;
 /// So often a worker looks for the next step's first task before it sleeps.
 constexpr int kIdleSpins = 20000;
 
-template <class Condition>
-void wait_until(Condition reached) {
-    for (int spins = 0; !reached(); ++spins)
-        if (spins > kSpins) std::this_thread::yield();
+/// Who lets others run comes back at once unless these want the processor for themselves. Then
+/// looking on would take it from the very worker that is waited for.
+constexpr std::chrono::microseconds kAtOnce{50};
+bool others_want_to_run() {
+    const auto before = std::chrono::steady_clock::now();
+    std::this_thread::yield();
+    return std::chrono::steady_clock::now() - before > kAtOnce;
+}
+
+/// Until a number is no longer what was seen. Who changes it for good notifies.
+template <class Number>
+void wait_for_change(const std::atomic<Number>& number, Number seen) {
+    for (int spins = 0; number == seen; ++spins)
+        if (spins > kSpins && others_want_to_run()) number.wait(seen);
 }
 
 }  // namespace
@@ -39,7 +51,7 @@ void Workers::run_all(Call call, void* context) {
     ++round_;
     round_.notify_all();
     call(context, 0);
-    wait_until([this] { return running_ == 0; });
+    while (const std::uint32_t running = running_) wait_for_change(running_, running);
 }
 
 void Workers::barrier() {
@@ -48,24 +60,26 @@ void Workers::barrier() {
     if (++arrived_ == count_) {
         arrived_ = 0;
         ++barriers_;
+        barriers_.notify_all();
     } else {
-        wait_until([&] { return barriers_ != passed; });
+        wait_for_change(barriers_, passed);
     }
 }
 
 void Workers::wait_for_tasks(std::uint32_t worker) {
     for (std::uint64_t seen = 0;;) {
         for (int spins = 0, idle = 0; round_ == seen;) {
-            if (awake_)
+            if (awake_) {
                 idle = 0;
-            else if (++idle > kIdleSpins)
+                if (++spins > kSpins && others_want_to_run()) round_.wait(seen);
+            } else if (++idle > kIdleSpins) {
                 round_.wait(seen);
-            if (awake_ && ++spins > kSpins) std::this_thread::yield();
+            }
         }
         ++seen;
         if (stop_) return;
         call_(context_, worker);
-        --running_;
+        if (--running_ == 0) running_.notify_one();
     }
 }
 
