@@ -130,9 +130,10 @@ const Table<LatticeKeys>& lattice_table() {
             "size", Vector3{kLength}.schema(),
             [](L& l, const Node& n) { l.half_extents = Vector3{kLength}.read(n) / 2; },
             "length of each edge [m], in place of half_extents"),
-        field<L>("cells", WholeList<3>{kCells}, &L::cells,
-                 "of the box along x, y and z; [8, 8, 8] is the default; points run along x first, "
-                 "then z, then y"),
+        field<L>(
+            "cells", WholeList<3>{kCells}, &L::cells,
+            "of the box along x, y and z; [8, 8, 8] is the default; corners of cells run along "
+            "x first, then z, then y; centres follow where they are points"),
         field<L>("mesh", Text{}, &L::mesh,
                  "in place of a box: a closed mesh, an OBJ file relative to the scene's folder; "
                  "the solid is made of the cells whose centres lie inside"),
@@ -143,8 +144,7 @@ const Table<LatticeKeys>& lattice_table() {
             Choice<CellCut>{{{"five", CellCut::five}, {"body_centered", CellCut::body_centered}}},
             &L::tetrahedra,
             "of a cell: five, the default, or a body-centred lattice around the centres of "
-            "cells, with twice as many points, which bends with a third of the error; a box "
-            "numbers the corners of its cells first"),
+            "cells, with twice as many points and about half the error of bending"),
     };
     return table;
 }

@@ -18,7 +18,16 @@ constexpr double kMostCells = 1e7;
 constexpr const char* kTooManyCells =
     "the box around the mesh would have more than 10000000 cells; make \"cell\" larger";
 
+/// Cells inside of a mesh: each has a corner of its own, and a scene has no room for more points.
+constexpr std::ptrdiff_t kMostInside = 1000000;
+constexpr const char* kTooManyInside =
+    "the mesh would have more than 1000000 cells inside; make \"cell\" larger";
+
 using Cell = std::array<std::uint32_t, 3>;
+
+std::size_t number_of(const Cell& cell, const Cell& cells) {
+    return cell[0] + std::size_t{cells[0]} * (cell[2] + std::size_t{cells[2]} * cell[1]);
+}
 
 /// Five tetrahedra of a cell whose corners are numbered x + 2 y + 4 z, of those cells whose
 /// coordinates have an even sum; the middle one comes last. Others are mirrored in x.
@@ -76,36 +85,50 @@ private:
         }
     }
 
-    /// Across each face four tetrahedra around the line from the cell's centre to that of the
-    /// neighbour, or of the face where there is none. What two cells share is added by the first.
+    /// Across each face that two cells share, four tetrahedra around the line from centre to
+    /// centre, which the first of the two adds; across an outer one two, whose diagonal joins even
+    /// corners.
     template <class IsIn>
     void add_around_centre(const Cell& cell, IsIn is_in) {
         const Place centre{2 * cell[0] + 1, 2 * cell[1] + 1, 2 * cell[2] + 1};
+        const std::uint32_t own = point(centre);
         for (std::size_t axis = 0; axis < 3; ++axis)
             for (const bool forwards : {false, true}) {
+                const bool has_next = forwards ? cell[axis] + 1 < cells_[axis] : cell[axis] > 0;
                 Cell next = cell;
-                next[axis] += forwards ? 1u : ~0u;  // wraps around below 0, to beyond the bounds
-                const bool shared = next[axis] < cells_[axis] && is_in(next);
+                if (has_next) next[axis] = forwards ? cell[axis] + 1 : cell[axis] - 1;
+                const bool shared = has_next && is_in(next);
                 if (shared && !forwards) continue;
-                Place tip = centre;
-                forwards ? tip[axis] += shared ? 2 : 1 : tip[axis] -= 1;
-                add_around(axis, forwards, centre, tip);
+                const std::array<Place, 4> at = corners_of_face(centre, axis, forwards);
+                std::array<std::uint32_t, 4> ring;
+                for (std::size_t k = 0; k < 4; ++k) ring[k] = point(at[k]);
+                if (shared) {
+                    Place beyond = centre;
+                    beyond[axis] += 2;
+                    const std::uint32_t other = point(beyond);
+                    for (std::size_t k = 0; k < 4; ++k)
+                        made_.tetrahedra.push_back({own, ring[k], ring[(k + 1) % 4], other});
+                    continue;
+                }
+                const std::size_t k = (at[0][0] + at[0][1] + at[0][2]) / 2 % 2;  // 0: it is even
+                made_.tetrahedra.push_back({own, ring[k], ring[k + 1], ring[k + 2]});
+                made_.tetrahedra.push_back({own, ring[k], ring[k + 2], ring[(k + 3) % 4]});
             }
     }
-    void add_around(std::size_t axis, bool forwards, const Place& centre, const Place& tip) {
-        constexpr std::array<std::array<bool, 2>, 4> kRound{
-            {{false, false}, {true, false}, {true, true}, {false, true}}};  // seen from +axis
-        std::array<std::uint32_t, 4> ring;
+
+    /// Counter-clockwise, seen from outside of the cell.
+    static std::array<Place, 4> corners_of_face(const Place& centre, std::size_t axis,
+                                                bool forwards) {
+        const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
+        std::array<Place, 4> ring;
         for (std::size_t k = 0; k < 4; ++k) {
-            Place corner = centre;
-            const std::array<bool, 3> far{forwards, kRound[k][0], kRound[k][1]};
-            for (std::size_t i = 0; i < 3; ++i) corner[(axis + i) % 3] += far[i] ? 1u : ~0u;
-            ring[k] = point(corner);
+            const bool far_u = k == 1 || k == 2, far_v = k >= 2;
+            ring[k][axis] = forwards ? centre[axis] + 1 : centre[axis] - 1;
+            ring[k][u] = far_u ? centre[u] + 1 : centre[u] - 1;
+            ring[k][v] = far_v ? centre[v] + 1 : centre[v] - 1;
         }
         if (!forwards) std::swap(ring[1], ring[3]);
-        const std::uint32_t from = point(centre), to = point(tip);
-        for (std::size_t k = 0; k < 4; ++k)
-            made_.tetrahedra.push_back({from, ring[k], ring[(k + 1) % 4], to});
+        return ring;
     }
 
     Eigen::Vector3d corner_, half_;
@@ -193,6 +216,16 @@ private:
     std::vector<std::vector<Crossing>> columns_;
 };
 
+/// Those whose middles the surface winds around, by their number.
+std::vector<bool> cells_inside(const Crossings& crossings, const Cell& cells) {
+    std::vector<bool> inside(std::size_t{cells[0]} * cells[1] * cells[2]);
+    for (std::uint32_t y = 0; y < cells[1]; ++y)
+        for (std::uint32_t z = 0; z < cells[2]; ++z)
+            for (std::uint32_t x = 0; x < cells[0]; ++x)
+                inside[number_of({x, y, z}, cells)] = crossings.winding({x, y, z}) != 0;
+    return inside;
+}
+
 /// Cells that cover a size [m].
 std::uint32_t cells_over(double size, double cell) {
     const double count = std::ceil(size / cell - 1e-9);
@@ -214,14 +247,13 @@ Elements mesh_lattice(const TriangleMesh& mesh, double cell, CellCut cut) {
         throw BadShape(kTooManyCells);
     const Eigen::Vector3d corner =
         (low + high) / 2 - cell / 2 * Eigen::Vector3d(cells[0], cells[1], cells[2]);
-    const Crossings crossings(mesh, corner, cell, cells);
-    Elements made =
-        Lattice(corner, Eigen::Vector3d::Constant(cell), cells).cut(cut, [&](const Cell& at) {
-            return crossings.winding(at) != 0;
-        });
-    if (made.points.empty())
-        throw BadShape("no cell has its centre inside the mesh; make \"cell\" smaller");
-    return made;
+    const std::vector<bool> inside = cells_inside(Crossings(mesh, corner, cell, cells), cells);
+    const auto count = std::count(inside.begin(), inside.end(), true);
+    if (count == 0) throw BadShape("no cell has its centre inside the mesh; make \"cell\" smaller");
+    if (count > kMostInside) throw BadShape(kTooManyInside);
+    return Lattice(corner, Eigen::Vector3d::Constant(cell), cells).cut(cut, [&](const Cell& at) {
+        return inside[number_of(at, cells)];
+    });
 }
 
 Elements box_lattice(const Eigen::Vector3d& half_extents, std::array<std::uint32_t, 3> cells,
@@ -237,7 +269,7 @@ Elements box_lattice(const Eigen::Vector3d& half_extents, std::array<std::uint32
 std::uint64_t box_lattice_points(std::array<std::uint64_t, 3> cells, CellCut cut) {
     const auto [x, y, z] = cells;
     const std::uint64_t corners = (x + 1) * (y + 1) * (z + 1);
-    return cut == CellCut::five ? corners : corners + x * y * z + 2 * (x * y + y * z + z * x);
+    return cut == CellCut::five ? corners : corners + x * y * z;
 }
 
 std::vector<std::array<std::uint32_t, 3>> surface_of(

@@ -215,5 +215,36 @@ TEST_P(SoftExtremes, WhatTearsMayTearUntilNothingIsLeft) {
     EXPECT_GE(all, 4u) << "so often nothing is left";
 }
 
+/// Cubes that fall on each other at default settings, however their cells are cut: each is pressed
+/// by a tenth at most, and comes out as long as it was.
+TEST_P(SoftExtremes, CubesOnEachOtherStayWhole) {
+    for (const reader::CellCut cut : {reader::CellCut::five, reader::CellCut::body_centered})
+        for (unsigned seed = 1; seed <= 3; ++seed) {
+            Random random(seed);
+            Scene s;
+            s.settings.precision = GetParam();
+            s.materials[0].friction = 0.8;
+            add_ground(s);
+            for (int i = 0; i < 3; ++i) {
+                const Vector at(random.number(-0.02, 0.02), 0.23 + 0.44 * i,
+                                random.number(-0.02, 0.02));
+                DeformableSpec& cube = add_soft(s, block({0.2, 0.2, 0.2}, {5, 5, 5}, at, cut));
+                cube.elasticity.youngs_modulus = 1e5, cube.elasticity.poissons_ratio = 0.4;
+                cube.elasticity.damping = 0.005;
+            }
+            Simulation simulation(s, colliders(), "reference");
+            run_for(simulation, 4);
+            const World& world = simulation.world();
+            for (const Deformable& d : world.deformables) {
+                double low = 1e9, high = -1e9;
+                for (std::uint32_t i = d.first; i < d.first + d.count; ++i) {
+                    low = std::min(low, world.particles.position[i].y());
+                    high = std::max(high, world.particles.position[i].y());
+                }
+                EXPECT_NEAR(high - low, 0.4, 0.04) << "seed " << seed;
+            }
+        }
+}
+
 }  // namespace
 }  // namespace plumb::test
