@@ -23,7 +23,7 @@ inline Vector3d relative_velocity(const Bodies& b, const std::vector<Vector3d>& 
     return velocity_at(c.a) - velocity_at(c.b);
 }
 
-/// The same at the start of a substep, forces included.
+/// The same by the velocities of now, which have the forces in them.
 inline Vector3d relative_velocity(const World& world, std::size_t contact) {
     const Bodies& b = world.bodies;
     return relative_velocity(b, b.velocity, b.angular_velocity, world.contacts.found[contact],

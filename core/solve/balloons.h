@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// The volumes of balloons in the elastic system: kept as by what fills them, or pushed at by a
-/// pressure that is given.
+/// The volumes of balloons in the elastic system: kept by a stiff filling, or blown up by a given
+/// pressure.
 ///
 /// The pressure that keeps a volume is an unknown of its own, for it acts on all particles of its
 /// balloon: a row of the system.

@@ -14,8 +14,8 @@ class ElasticFactors {
 public:
     explicit ElasticFactors(const ElasticParts& parts);
 
-    /// Once a step: those that the step before left, of the same bodies, and after it those that it
-    /// leaves. Substeps are of length h [s].
+    /// Once a step, of substeps of length h [s]: `begin_step` takes over what the step before left,
+    /// if bodies are the same, and `store` leaves it for the next.
     void begin_step(const World& world, ElasticParts& parts, double h);
     void store(World& world);
 

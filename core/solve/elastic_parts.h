@@ -2,7 +2,7 @@
 /// What the elastic system holds together: particles, the elements, balloons and contacts among
 /// them, and the bodies of these contacts.
 ///
-/// Rows of the system are those of the particles, then of the balloons, then of the bodies.
+/// Rows of the system are those of the particles, then of kept volumes, then of the bodies.
 #pragma once
 
 #include "solve/balloons.h"

@@ -19,6 +19,9 @@
 
 namespace plumb {
 
+/// As many as an island takes.
+inline constexpr std::uint64_t kAnyProducts = std::numeric_limits<std::uint64_t>::max();
+
 /// What the factorisations of a large island in a substep may take, in products of two 6 × 6
 /// blocks: up to ten seconds. One that could not have kFewest of them is left to sweeps; a wall of
 /// 3600 bricks can.
@@ -61,10 +64,10 @@ public:
 
     /// Of a smaller heap; `products`: of one of its factorisations.
     static IslandAccount of_heap(std::uint64_t products) {
-        return {kHeapUnit * products, 0, kMostOfHeap, kHeapInVain, kAny};
+        return {kHeapUnit * products, 0, kMostOfHeap, kHeapInVain, kAnyProducts};
     }
 
-    /// Whether one is kept.
+    /// Whether what is taken in vain is counted at all.
     bool is_kept() const { return unit_ > 0; }
 
     /// What one of its contacts remembers of the step before.
@@ -99,20 +102,18 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t kAny = std::numeric_limits<std::uint64_t>::max();
-
     IslandAccount(std::uint64_t unit, std::uint64_t free, std::uint8_t most_in_vain,
                   std::uint8_t waits_as, std::uint64_t most)
         : unit_(unit), free_(free), most_in_vain_(most_in_vain), waits_as_(waits_as), most_(most) {}
 
-    std::uint64_t unit_ = 0;          // [products]; 0: it is never given up
-    std::uint64_t free_ = 0;          // of a step [units]
-    std::uint64_t most_in_vain_ = 0;  // [units]
-    std::uint8_t waits_as_ = 0;       // ContactMemory::missed once it is given up
-    std::uint64_t most_ = kAny;       // that a substep may take [products],
-    std::uint64_t left_ = kAny;       // and what is left of it
-    std::uint64_t in_vain_ = 0;       // since it was solved [products]
-    bool given_up_ = false;           // in this step
+    std::uint64_t unit_ = 0;             // [products]; 0: it is never given up
+    std::uint64_t free_ = 0;             // of a step [units]
+    std::uint64_t most_in_vain_ = 0;     // [units]
+    std::uint8_t waits_as_ = 0;          // ContactMemory::missed once it is given up
+    std::uint64_t most_ = kAnyProducts;  // that a substep may take [products],
+    std::uint64_t left_ = kAnyProducts;  // and what is left of it
+    std::uint64_t in_vain_ = 0;          // since it was solved [products]
+    bool given_up_ = false;              // in this step
 };
 
 }  // namespace plumb

@@ -38,7 +38,7 @@ struct IslandColumns {
     /// The impulses that the contacts of an island remember of the step before.
     void take_memory(const World& world, const ExactIsland& island);
 
-    // once a substep
+    // once a substep, and the first of these at the start of a step, too
 
     /// Inertia and arms at the poses now, and what follows from them.
     void take_geometry(const World& world);

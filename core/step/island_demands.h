@@ -17,8 +17,8 @@ public:
                   IslandColumns& columns)
         : world_(world), choice_(choice), push_out_(push_out), columns_(columns), h_(columns.h) {}
 
-    /// Asks all of an island. Returns how many of its contacts overlap deeper than what is pushed
-    /// out.
+    /// Sets what is wanted of the contacts and ties of an island, the most that they bear, and what
+    /// it is in this substep. Returns how many contacts overlap deeper than what is pushed out.
     std::uint32_t ask(ExactIsland& island);
 
 private:

@@ -6,7 +6,7 @@
 #include "step/island_rows.h"
 #include "step/island_substep.h"
 #include "step/large_islands.h"
-#include "step/tie_work.h"
+#include "step/substep_time.h"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +95,7 @@ bool IslandGroup::find_system(const World& world, ExactIsland& island, const Con
         n, pattern_, is_large(world.settings, n) ? kMostProducts / kFewest : kAnyProducts);
 }
 
+/// What it is, which decides how it is treated.
 void IslandGroup::find_nature(const World& world, ExactIsland& island, const ContactIsland& from,
                               const std::vector<BodyPair>& pairs) const {
     const std::uint32_t n = from.last_body - from.first_body;
@@ -110,7 +111,7 @@ void IslandGroup::find_nature(const World& world, ExactIsland& island, const Con
     island.moved_on = island.moves && choice_.moved_on(world, from, pairs);
 }
 
-/// Its bodies, contacts and ties.
+/// Its bodies, contacts and ties go into the columns, and nobody else solves them in this step.
 void IslandGroup::fill_columns(const World& world, ExactIsland& island, const ContactIsland& from,
                                const std::vector<BodyPair>& pairs) {
     const ContactIslands& found = choice_.islands();

@@ -6,6 +6,7 @@
 #include "schedule/contact_islands.h"
 #include "world/tie.h"
 
+#include <cstdint>
 #include <vector>
 
 namespace plumb {

@@ -20,16 +20,14 @@
 
 #include "math/block_cholesky.h"
 #include "step/island.h"
+#include "step/island_account.h"
 #include "step/island_effort.h"
 #include "step/island_newton.h"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace plumb {
-
-inline constexpr std::uint64_t kAnyProducts = std::numeric_limits<std::uint64_t>::max();
 
 struct IslandReport {
     std::uint32_t factorisations = 0;

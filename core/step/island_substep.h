@@ -39,8 +39,9 @@ private:
     bool solve_system(IslandEffort effort);
     void give_up_if_in_vain();
 
-    // the velocities of the start, impulses or not; and what its ties ask for at those of now
+    /// Back to the velocities of the start; impulses stay.
     void begin_anew() { std::copy(start_.begin(), start_.end(), all_.velocity.begin()); }
+    /// What its ties want at the present velocities, and how far they are open.
     void ask() { island_.open = ties_.ask(island_.ties, all_.velocity); }
 
     // ties that stay open

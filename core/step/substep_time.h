@@ -10,12 +10,6 @@ namespace plumb {
 /// Length of a substep [s].
 inline double substep_of(const Settings& settings) { return settings.dt / settings.substeps; }
 
-/// How fast gravity and the constant force would make a body in a second [m/s²].
-inline double pull_on(const World& world, std::uint32_t body) {
-    const Bodies& b = world.bodies;
-    return (world.settings.gravity + b.force[body] * b.inverse_mass[body]).norm();
-}
-
 /// Of a substep of length h [s].
 inline SubstepTime substep_time(const World& world, double h) {
     return {h, world.settings.leapfrog_start && world.time == 0 ? 0.5 : 1, world.time};

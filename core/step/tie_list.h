@@ -6,6 +6,7 @@
 #include "schedule/colouring.h"
 #include "world/tie.h"
 
+#include <utility>
 #include <vector>
 
 namespace plumb {

@@ -95,6 +95,12 @@ struct World {
     }
 };
 
+/// Acceleration by gravity and the constant force [m/s²].
+inline double pull_on(const World& world, std::uint32_t body) {
+    const Bodies& b = world.bodies;
+    return (world.settings.gravity + b.force[body] * b.inverse_mass[body]).norm();
+}
+
 /// Makes the world of a scene. Throws SceneError, with a JSON pointer, for what cannot be
 /// simulated: a dynamic body without mass, an impossible inertia, an index out of range, a number
 /// that is not finite.

@@ -36,7 +36,7 @@ TEST(IslandAccount, IsNotKeptOfWhatTakesWhatItNeeds) {
     EXPECT_EQ(account.missed(), 0);
 }
 
-TEST(IslandAccount, OfALargeIslandIsClosedAfterSixtyUnitsInVain) {
+TEST(IslandAccount, GivesUpALargeIslandAfterSixtyUnitsInVain) {
     IslandAccount account = IslandAccount::of_large();
     for (int i = 0; i < kMostInVain; ++i)
         EXPECT_FALSE(is_given_up_after(account, kLargeUnit, false)) << "substep " << i;
@@ -45,7 +45,7 @@ TEST(IslandAccount, OfALargeIslandIsClosedAfterSixtyUnitsInVain) {
     EXPECT_EQ(account.missed(), kInVain);
 }
 
-TEST(IslandAccount, OfAHeapIsClosedAfter160FactorisationsInVain) {
+TEST(IslandAccount, GivesUpAHeapAfter160FactorisationsInVain) {
     IslandAccount account = IslandAccount::of_heap(kProducts);
     for (int i = 0; i < 160; ++i)
         EXPECT_FALSE(is_given_up_after(account, kProducts, false)) << "substep " << i;
@@ -98,7 +98,7 @@ TEST(IslandAccount, RecallsTheWorstOfItsContactsButNotWhatWaits) {
     EXPECT_EQ(account.missed(), kMissed + 20 - kFreeUnits);
 }
 
-TEST(IslandAccount, ThatIsClosedWaitsForItsTime) {
+TEST(IslandAccount, WaitsOnceItsIslandIsGivenUp) {
     EXPECT_EQ(steps_that_wait(0), 0);
     EXPECT_EQ(steps_that_wait(kMissed + kMostInVain), 0);
     EXPECT_NEAR(steps_that_wait(kTriesAgain), 128, 8);
