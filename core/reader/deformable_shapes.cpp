@@ -144,7 +144,7 @@ const Table<LatticeKeys>& lattice_table() {
             Choice<CellCut>{{{"five", CellCut::five}, {"body_centered", CellCut::body_centered}}},
             &L::tetrahedra,
             "of a cell: five, the default, or a body-centred lattice around the centres of "
-            "cells, with twice as many points and about half the error of bending"),
+            "cells, with twice as many points and 0.6 of the error of bending"),
     };
     return table;
 }

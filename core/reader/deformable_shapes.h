@@ -42,8 +42,8 @@ Elements tube_surface(double radius, double length, std::array<std::uint32_t, 2>
 
 /// How cells become tetrahedra: each by itself into five, with those of its neighbours mirrored, or
 /// around its centre, in a body-centred lattice. That has about twice as many points and up to two
-/// and a half times as many tetrahedra, and about half the error of bending where it is more than
-/// one cell thick.
+/// and a half times as many tetrahedra, and 0.6 of the error of bending, where it is more than one
+/// cell thick.
 enum class CellCut : std::uint8_t { five, body_centered };
 
 /// A box of cells. Their corners come first and run along x first, then z, then y; centres of cells
