@@ -14,12 +14,22 @@ constexpr int kSpins = 2000;
 constexpr int kIdleSpins = 20000;
 
 /// Who lets others run comes back at once unless these want the processor for themselves. Then
-/// looking on would take it from the very worker that is waited for.
+/// looking on would take it from the very worker that is waited for: one sleeps until it is
+/// notified, and so do all teams for so many waits, by which those that have work to do get a
+/// processor each.
 constexpr std::chrono::microseconds kAtOnce{50};
+constexpr int kCrowdedWaits = 16;
+std::atomic<int> crowded_waits{0};
 bool others_want_to_run() {
+    if (const int left = crowded_waits.load(std::memory_order_relaxed); left > 0) {
+        crowded_waits.store(left - 1, std::memory_order_relaxed);
+        return true;
+    }
     const auto before = std::chrono::steady_clock::now();
     std::this_thread::yield();
-    return std::chrono::steady_clock::now() - before > kAtOnce;
+    if (std::chrono::steady_clock::now() - before <= kAtOnce) return false;
+    crowded_waits.store(kCrowdedWaits, std::memory_order_relaxed);
+    return true;
 }
 
 /// Until a number is no longer what was seen. Who changes it for good notifies.
