@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "solve/elastic_system.h"
 
+#include "math/bracket.h"
 #include "solve/contact_stiffness.h"
 
 #include <algorithm>
@@ -49,24 +50,6 @@ constexpr double kTooMuch = 2;
 /// A line is searched until the slope is this share of that at its start.
 constexpr double kFlat = 0.2;
 constexpr int kCuts = 6;
-
-/// A piece of a line, at the lower end of which the energy falls and at the upper rises: how fast.
-struct Bracket {
-    double low, high, at_low, at_high;
-
-    /// Where it is least, about, and no nearer to the ends than this share.
-    double guess(double inset) const {
-        const double width = high - low;
-        return std::clamp(low - at_low * width / (at_high - at_low), low + inset * width,
-                          high - inset * width);
-    }
-    void narrow(double at, double slope) {
-        if (slope > 0)
-            high = at, at_high = slope;
-        else
-            low = at, at_low = slope;
-    }
-};
 
 }  // namespace
 

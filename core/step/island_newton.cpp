@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_newton.h"
 
+#include "math/bracket.h"
 #include "math/matrices.h"
 
 #include <algorithm>
@@ -240,19 +241,14 @@ double IslandNewton<N>::slope(double step) const {
 template <int N>
 double IslandNewton<N>::step_length(double decrease) const {
     const double enough = kFlat * decrease;
-    double low = 0, high = 1, at_low = -decrease, at_high = slope(1);
-    if (at_high <= enough) return 1;
+    Bracket line{0, 1, -decrease, slope(1)};
+    if (line.at_high <= enough) return 1;
     double step = 1;
     for (int i = 0; i < kLineSteps; ++i) {
-        const double guess = low - at_low * (high - low) / (at_high - at_low);
-        const double inset = 0.05 * (high - low);
-        step = std::clamp(guess, low + inset, high - inset);
-        const double s = slope(step);
-        if (std::abs(s) <= enough) break;
-        if (s > 0)
-            high = step, at_high = s;
-        else
-            low = step, at_low = s;
+        step = line.guess(0.05);
+        const double here = slope(step);
+        if (std::abs(here) <= enough) break;
+        line.narrow(step, here);
     }
     return step;
 }
