@@ -3,10 +3,12 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <unordered_map>
 
 #include "geometry/bad_shape.h"
 #include "reader/deformable_shapes.h"
+#include "reader/reader.h"
 #include "scene/surface_faults.h"
 
 namespace plumb::reader {
@@ -18,15 +20,11 @@ constexpr double kMostCells = 1e7;
 constexpr const char* kTooManyCells =
     "the box around the mesh would have more than 10000000 cells; make \"cell\" larger";
 
-/// Cells inside of a mesh: each has a corner of its own, and a scene has no room for more points.
-constexpr std::ptrdiff_t kMostInside = 1000000;
-constexpr const char* kTooManyInside =
-    "the mesh would have more than 1000000 cells inside; make \"cell\" larger";
-
 using Cell = std::array<std::uint32_t, 3>;
 
-std::size_t number_of(const Cell& cell, const Cell& cells) {
-    return cell[0] + std::size_t{cells[0]} * (cell[2] + std::size_t{cells[2]} * cell[1]);
+/// Of a cell or a point among so many: along x first, then z, then y.
+std::size_t number_of(const Cell& at, const Cell& count) {
+    return at[0] + std::size_t{count[0]} * (at[2] + std::size_t{count[2]} * at[1]);
 }
 
 /// Five tetrahedra of a cell whose corners are numbered x + 2 y + 4 z, of those cells whose
@@ -60,8 +58,8 @@ public:
     }
 
     std::uint32_t point(const Place& at) {
-        const auto key = at[0] + (2 * std::uint64_t{cells_[0]} + 1) *
-                                     (at[2] + (2 * std::uint64_t{cells_[2]} + 1) * at[1]);
+        const std::size_t key =
+            number_of(at, {2 * cells_[0] + 1, 2 * cells_[1] + 1, 2 * cells_[2] + 1});
         const auto next = static_cast<std::uint32_t>(made_.points.size());
         const auto [place, is_new] = numbers_.emplace(key, next);
         if (is_new)
@@ -250,7 +248,10 @@ Elements mesh_lattice(const TriangleMesh& mesh, double cell, CellCut cut) {
     const std::vector<bool> inside = cells_inside(Crossings(mesh, corner, cell, cells), cells);
     const auto count = std::count(inside.begin(), inside.end(), true);
     if (count == 0) throw BadShape("no cell has its centre inside the mesh; make \"cell\" smaller");
-    if (count > kMostInside) throw BadShape(kTooManyInside);
+    // each has a corner of its own, and a scene has no room for more points
+    if (static_cast<std::size_t>(count) > kMaxParticles)
+        throw BadShape("the mesh would have more than " + std::to_string(kMaxParticles) +
+                       " cells inside; make \"cell\" larger");
     return Lattice(corner, Eigen::Vector3d::Constant(cell), cells).cut(cut, [&](const Cell& at) {
         return inside[number_of(at, cells)];
     });
