@@ -2,8 +2,8 @@
 /// An engine on Plumb's cases of known accuracy: error against CPU time, as CSV.
 #include "accuracy/peer.h"
 #include "measure/within_reach.h"
-#include "step/joint_state.h"
 #include "study/cases.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <chrono>

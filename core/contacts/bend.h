@@ -9,6 +9,7 @@
 
 #include "contacts/ground_touch.h"
 #include "effects/plan.h"
+#include "schedule/workers.h"
 
 namespace plumb {
 

@@ -19,7 +19,7 @@
 #include "host/collider_library.h"
 #include "measure/frame.h"
 #include "scene/scene.h"
-#include "step/joint_state.h"
+#include "ties/joint_state.h"
 #include "world/world.h"
 
 #include <limits>

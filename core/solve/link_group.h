@@ -8,8 +8,8 @@
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
 #include "solve/joined_bodies.h"
-#include "solve/linked_point.h"
 #include "solve/particle_rows.h"
+#include "ties/linked_point.h"
 
 #include <cmath>
 #include <vector>

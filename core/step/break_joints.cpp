@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "step/joint_state.h"
 #include "step/stages.h"
+#include "ties/joint_state.h"
 #include "world/edit_world.h"
 
 #include <algorithm>

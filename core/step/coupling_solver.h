@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-/// Couplings (step/coupling_row.h) by iterations. A row has up to four bodies, so they are solved
+/// Couplings (ties/coupling_row.h) by iterations. A row has up to four bodies, so they are solved
 /// one after another.
 #pragma once
 
 #include "schedule/contact_rows.h"
-#include "step/coupling_row.h"
+#include "ties/coupling_row.h"
 #include "world/tie.h"
 
 #include <algorithm>

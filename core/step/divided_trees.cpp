@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "step/divided_trees.h"
 
+#include "constraints/substep_time.h"
 #include "math/free_rotation.h"
 #include "schedule/joint_trees.h"
-#include "step/joint_state.h"
-#include "step/lever_of.h"
 #include "step/stages.h"
-#include "step/substep_time.h"
+#include "ties/joint_state.h"
+#include "ties/lever_of.h"
 #include "world/body_momentum.h"
 
 #include <algorithm>

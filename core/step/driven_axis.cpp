@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/driven_axis.h"
 
-#include "step/drive_state.h"
+#include "ties/drive_state.h"
 
 #include <cmath>
 #include <limits>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/driven_islands.h"
 
-#include "step/substep_time.h"
-#include "step/tie_work.h"
+#include "constraints/substep_time.h"
+#include "ties/tie_work.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "math/block_cholesky.h"
 #include "step/island_account.h"
 #include "step/island_effort.h"
-#include "step/island_ties.h"
+#include "ties/tie_rows.h"
 
 #include <cstdint>
 
@@ -18,7 +18,7 @@ inline constexpr double kAjar = 100;
 struct ExactIsland {
     // where it stands in IslandColumns
     std::uint32_t first_body, last_body, first_point, last_point;
-    IslandTieRange ties;
+    TieRange ties;
 
     BlockCholesky::Pattern pattern;
     BlockCholesky system;

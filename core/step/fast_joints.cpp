@@ -3,7 +3,7 @@
 
 #include "math/free_rotation.h"
 #include "schedule/joint_trees.h"
-#include "step/joint_state.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "effects/report.h"
-#include "step/joint_state.h"
+#include "ties/joint_state.h"
 #include "world/world.h"
 
 #include <algorithm>

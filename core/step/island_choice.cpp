@@ -2,14 +2,14 @@
 #include "step/island_choice.h"
 
 #include "constraints/contact.h"
+#include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
 #include "schedule/joint_trees.h"
 #include "step/island_account.h"
 #include "step/island_effort.h"
-#include "step/joint_state.h"
 #include "step/large_islands.h"
-#include "step/substep_time.h"
-#include "step/tie_work.h"
+#include "ties/joint_state.h"
+#include "ties/tie_work.h"
 
 #include <algorithm>
 #include <cmath>

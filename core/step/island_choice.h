@@ -22,7 +22,7 @@
 #include "schedule/contact_islands.h"
 #include "step/driven_islands.h"
 #include "step/island_obstacles.h"
-#include "step/tie_list.h"
+#include "ties/tie_list.h"
 
 #include <vector>
 
@@ -71,7 +71,7 @@ public:
     bool is_meshed(const ContactIsland& island) const;
     bool is_torn(const World& world, const ContactIsland& island) const;
 
-    /// Whether a tie of it may give it energy (step/tie_work.h).
+    /// Whether a tie of it may give it energy (ties/tie_work.h).
     bool can_do_work(const World& world, const ContactIsland& island) const;
 
     /// Whether it lies still, as far as sweeps tell, and overlaps by little (step/large_islands.h).

@@ -17,7 +17,7 @@ constexpr double kOtherRoot = 0.25;
 constexpr double kFlung = 4;
 
 /// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
-bool closes(const IslandRow& row) {
+bool closes(const TieRow& row) {
     return !row.drive && !(row.highest == 0 && row.wanted > 0) &&
            !(row.lowest == 0 && row.wanted < 0);
 }
@@ -46,7 +46,7 @@ bool IslandSubstep::is_pulled_apart() const {
     if (!island_.is_driven) return false;
     if (!std::isfinite(island_.open)) return true;
     const double ajar = kAjar * settings_.joint_tolerance;
-    return std::any_of(all_.rows.begin(), all_.rows.end(), [&](const IslandRow& row) {
+    return std::any_of(all_.rows.begin(), all_.rows.end(), [&](const TieRow& row) {
         return row.is_rigid && h_ * row.softness * std::abs(row.impulse) > ajar;
     });
 }
@@ -56,7 +56,7 @@ bool IslandSubstep::is_pulled_apart() const {
 bool IslandSubstep::is_flung() const {
     if (!island_.is_driven || island_.ties.empty()) return false;
     double mass = 0;
-    for (const IslandBody& b : all_.bodies) mass += b.mass;
+    for (const SolvedBody& b : all_.bodies) mass += b.mass;
     const double speed = ties_.scripted_speed(island_.ties);
     return !(energy() <= kFlung * (energy_at_start() + 0.5 * mass * speed * speed));
 }
@@ -101,7 +101,7 @@ void IslandSubstep::close_gently() {
     const double before = energy_at_start();
     const auto ask_for = [&](double share) {
         ties_.ask(island_.ties, all_.velocity);
-        for (IslandRow& row : all_.rows)
+        for (TieRow& row : all_.rows)
             if (closes(row)) row.wanted *= share;
     };
     const auto close_by = [&](double share) {

@@ -6,7 +6,7 @@
 #include "contacts/anchors.h"
 #include "math/rotation.h"
 #include "step/island_solver.h"
-#include "step/joint_geometry.h"
+#include "ties/joint_geometry.h"
 
 #include <algorithm>
 #include <cmath>
@@ -71,7 +71,7 @@ void IslandColumns::take_memory(const World& world, const ExactIsland& island) {
 
 void IslandColumns::take_geometry(const World& world) {
     const Bodies& all = world.bodies;
-    for (IslandBody& body : bodies) {
+    for (SolvedBody& body : bodies) {
         body.mass = all.mass[body.body];
         body.inverse_inertia = all.world_inverse_inertia[body.body];
         body.inertia =
@@ -112,7 +112,7 @@ void IslandColumns::take_velocities(const World& world, double substep) {
 
 void IslandColumns::forget_impulses() {
     for (IslandPoint& p : points) p.impulse.setZero();
-    for (IslandRow& row : ties.rows()) row.impulse = 0;
+    for (TieRow& row : ties.rows()) row.impulse = 0;
 }
 
 void IslandColumns::apply_impulses(const ExactIsland& island) {
@@ -120,7 +120,7 @@ void IslandColumns::apply_impulses(const ExactIsland& island) {
     const std::span<Vector6d> sums = bodies_in(sum, island);
     std::fill(sums.begin(), sums.end(), Vector6d::Zero());
     for (const IslandPoint& point : all.points) add_impulse(point, point.impulse, sums);
-    for (const IslandRow& row : all.rows) add_impulse(row, row.impulse, sums);
+    for (const TieRow& row : all.rows) add_impulse(row, row.impulse, sums);
     for (std::size_t i = 0; i < sums.size(); ++i)
         all.velocity[i] += response(all.bodies[i], sums[i]);
     forget_what_whirls(island);

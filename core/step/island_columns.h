@@ -7,7 +7,7 @@
 #include "effects/plan.h"
 #include "step/exact_island.h"
 #include "step/island.h"
-#include "step/island_ties.h"
+#include "ties/tie_rows.h"
 #include "world/world.h"
 
 #include <span>
@@ -66,7 +66,7 @@ struct IslandColumns {
 
     bool has_friction, resists_rolling;
     double h = 0;  ///< the substep [s]
-    std::vector<IslandBody> bodies;
+    std::vector<SolvedBody> bodies;
     std::vector<Vector6d> start;          ///< [body] velocities without impulses,
     std::vector<Vector6d> velocity;       ///< and now
     std::vector<Vector6d> shift;          ///< [body] beside that, as a velocity over the substep
@@ -76,7 +76,7 @@ struct IslandColumns {
     std::vector<std::uint8_t> locked;  ///< [point] whether it is pushed out no more
     std::vector<double> opening;       ///< [point] speed at which it is opened apart [m/s]
     std::vector<double> parting;       ///< [point] of the speed asked for, what may be too much
-    IslandTies ties;
+    TieRows ties;
 
 private:
     void take_geometry(const World& world, IslandPoint& point, std::uint32_t contact) const;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_demands.h"
 
+#include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
-#include "step/substep_time.h"
 
 #include <algorithm>
 #include <cmath>
@@ -30,7 +30,7 @@ Vector3d velocity_at(const Bodies& b, std::uint32_t i, const Vector3d& arm) {
 }
 
 /// Of a driven axis, as far as its bounds or the substep before tell.
-double greatest_impulse(const IslandRow& row) {
+double greatest_impulse(const TieRow& row) {
     double most = std::abs(row.impulse);
     for (int i = 0; i < row.drive->n; ++i)
         for (const double bound : {row.drive->rows[i].lowest, row.drive->rows[i].highest})
@@ -60,7 +60,7 @@ OwnMotion own_motion(const World& world, const IslandPoint& p, std::uint32_t con
 }  // namespace
 
 std::uint32_t IslandDemands::ask(ExactIsland& island) {
-    IslandTies& ties = columns_.ties;
+    TieRows& ties = columns_.ties;
     island.was_open = open_at_start(island) > kAjar * world_.settings.joint_tolerance;
     island.was_torn = ties.open_at_start(island.ties) > torn_from(island);
     ties.ask(island.ties, bodies_in(columns_.velocity, island));
@@ -93,7 +93,7 @@ double IslandDemands::torn_from(const ExactIsland& island) const {
     if (!island.is_driven || island.body_count() <= kVerySmall)
         return h_ * world_.settings.recovery_speed;
     double least = std::numeric_limits<double>::infinity();
-    for (const IslandBody& body : bodies_in(columns_.bodies, island))
+    for (const SolvedBody& body : bodies_in(columns_.bodies, island))
         least = std::min(least, world_.bodies.bounding_radius[body.body]);
     return least;
 }
@@ -110,8 +110,8 @@ double IslandDemands::speed_of(const ExactIsland& island) const {
         speed = std::max({speed, std::abs(normal), closing_velocity(overlap)});
     }
     const std::span<const Vector6d> start = bodies_in(columns_.start, island);
-    for (const IslandRow& row : columns_.ties.rows(island.ties)) {
-        IslandRow bare = row;
+    for (const TieRow& row : columns_.ties.rows(island.ties)) {
+        TieRow bare = row;
         bare.impulse = 0, bare.most = std::numeric_limits<double>::infinity();
         const double asked = answer_of(bare, rate_of(row, start), row.mass).impulse;
         speed = std::max(speed, row.length * std::abs(asked) / row.mass);
@@ -122,7 +122,7 @@ double IslandDemands::speed_of(const ExactIsland& island) const {
 /// The most that its bodies' weight and speed give an island in a substep [N s].
 double IslandDemands::thrust_of(const ExactIsland& island) const {
     double thrust = 0;
-    for (const IslandBody& body : bodies_in(columns_.bodies, island))
+    for (const SolvedBody& body : bodies_in(columns_.bodies, island))
         thrust += body.mass * std::max(h_ * pull_on(world_, body.body), island.speed);
     return thrust;
 }
@@ -130,11 +130,11 @@ double IslandDemands::thrust_of(const ExactIsland& island) const {
 /// More than any contact bears that can be satisfied [N s]; motors push as hard as they can.
 double IslandDemands::strongest(const ExactIsland& island) const {
     double mass = 0, weight = 0, driven = 0;
-    for (const IslandBody& body : bodies_in(columns_.bodies, island)) {
+    for (const SolvedBody& body : bodies_in(columns_.bodies, island)) {
         mass += body.mass;
         weight += body.mass * pull_on(world_, body.body);
     }
-    for (const IslandRow& row : columns_.ties.rows(island.ties))
+    for (const TieRow& row : columns_.ties.rows(island.ties))
         if (row.drive) driven += greatest_impulse(row) / row.length;
     return kThrust * weight * h_ + kBlow * mass * island.speed + kBlow * driven;
 }
@@ -142,7 +142,7 @@ double IslandDemands::strongest(const ExactIsland& island) const {
 /// What the rows of ties may bear; rigid ones yield by what they may be open under its thrust.
 void IslandDemands::bound_rows(const ExactIsland& island, double most) {
     const double thrust = thrust_of(island);
-    for (IslandRow& row : columns_.ties.rows(island.ties)) {
+    for (TieRow& row : columns_.ties.rows(island.ties)) {
         row.most = kLever * most * row.length;
         row.is_rigid = row.softness == 0;
         if (row.is_rigid && thrust > 0)

@@ -11,7 +11,7 @@ namespace {
 constexpr double kAtRest = 0.25;
 
 /// Of all mass in its common centre.
-double energy_of_centre(std::span<const IslandBody> bodies, std::span<const Vector6d> velocity) {
+double energy_of_centre(std::span<const SolvedBody> bodies, std::span<const Vector6d> velocity) {
     double mass = 0;
     Vector3d sum = Vector3d::Zero();
     for (std::size_t i = 0; i < bodies.size(); ++i)

@@ -1,18 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_group.h"
 
+#include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
 #include "step/island_demands.h"
-#include "step/island_rows.h"
 #include "step/island_substep.h"
 #include "step/large_islands.h"
-#include "step/substep_time.h"
 
 #include <algorithm>
 #include <cmath>
 
 namespace plumb {
 namespace {
+
+/// Index of a body among those of its island, or kImmovable.
+std::uint32_t index_in_island(const World& world, const ContactIslands& islands,
+                              std::uint32_t body) {
+    if (body == kNoIndex || world.bodies.motion[body] != Motion::dynamic) return kImmovable;
+    return islands.index_in_island(world.bodies.row[body]);
+}
 
 /// An island whose joints stay open by kAjar tolerances is given up for twice this long [s], and
 /// twice as long with each time that it fails again; a tree for twice this less, so that it is
@@ -115,10 +121,10 @@ void IslandGroup::find_nature(const World& world, ExactIsland& island, const Con
 void IslandGroup::fill_columns(const World& world, ExactIsland& island, const ContactIsland& from,
                                const std::vector<BodyPair>& pairs) {
     const ContactIslands& found = choice_.islands();
-    std::vector<IslandBody>& bodies = columns_.bodies;
+    std::vector<SolvedBody>& bodies = columns_.bodies;
     island.first_body = static_cast<std::uint32_t>(bodies.size());
     island.first_point = static_cast<std::uint32_t>(columns_.points.size());
-    columns_.ties.begin_island(island.ties);
+    columns_.ties.begin_range(island.ties);
     bodies.resize(bodies.size() + from.last_body - from.first_body);
     const auto place = [&](std::uint32_t body) {
         const std::uint32_t here = index_in_island(world, found, body);
@@ -136,13 +142,15 @@ void IslandGroup::fill_columns(const World& world, ExactIsland& island, const Co
     }
     for (std::uint32_t i = from.first_tie; i < from.last_tie; ++i) {
         const Tie& tie = choice_.tie(found.ties()[i]);
-        each_body(world, tie, [&](std::uint32_t body) { place(body); });
-        columns_.ties.add(world, found, tie);
+        TiedBodies at{};
+        std::size_t k = 0;
+        each_body(world, tie, [&](std::uint32_t body) { at[k++] = place(body); });
+        columns_.ties.add(world, tie, at);
         solved_[tie] = 1;
     }
     island.last_body = static_cast<std::uint32_t>(bodies.size());
     island.last_point = static_cast<std::uint32_t>(columns_.points.size());
-    columns_.ties.end_island(island.ties);
+    columns_.ties.end_range(island.ties);
 }
 
 /// Of a large island, or of a heap that moves: with what it has taken in vain until now.

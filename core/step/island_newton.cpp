@@ -21,7 +21,7 @@ constexpr double kGentle = 1e-3;
 constexpr double kFlat = 0.1;
 constexpr int kLineSteps = 20;
 
-Matrix6d mass_matrix(const IslandBody& b) {
+Matrix6d mass_matrix(const SolvedBody& b) {
     Matrix6d m = Matrix6d::Zero();
     m.diagonal().head<3>().setConstant(b.mass);
     m.bottomRightCorner<3, 3>() = matrix_of(b.inertia);
@@ -129,7 +129,7 @@ void IslandNewton<N>::begin(const Island& island, double softness, double error,
         w.z = w.impulse + w.stiffness * lack;
     }
     row_work_.clear();
-    for (const IslandRow& row : island.rows) {
+    for (const TieRow& row : island.rows) {
         const double hardest = row.mass / (row.drive || row.is_one_sided() ? softness : kJoint);
         double gentle = hardest;
         if (row.drive)
@@ -190,7 +190,7 @@ double IslandNewton<N>::find_downhill() {
     }
     double off = 0;
     for (std::size_t b = 0; b < downhill_.size(); ++b) {
-        const IslandBody& body = island_.bodies[b];
+        const SolvedBody& body = island_.bodies[b];
         off = std::max(off, downhill_[b].dot(response(body, downhill_[b])) / body.mass);
     }
     return std::sqrt(off);
@@ -212,7 +212,7 @@ void IslandNewton<N>::assemble(BlockCholesky& system) const {
         if (k + 1 == work_.size() || !blocks.is_of(island_.points[k + 1])) blocks.add_to(system);
     }
     for (std::size_t k = 0; k < row_work_.size(); ++k) {
-        const IslandRow& row = island_.rows[k];
+        const TieRow& row = island_.rows[k];
         const double slope = row_work_[k].answer(row_work_[k].rate).slope;
         if (slope == 0) continue;
         for (std::uint32_t i = 0; i < row.count; ++i) {

@@ -37,7 +37,7 @@ public:
             push(p, more);
         }
         for (std::size_t k = 0; k < row_work_.size(); ++k) {
-            IslandRow& row = island_.rows[k];
+            TieRow& row = island_.rows[k];
             push(row, row_work_[k].answer(row_work_[k].rate).impulse - row.impulse);
         }
     }

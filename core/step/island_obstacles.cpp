@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_obstacles.h"
 
-#include "step/substep_time.h"
-#include "step/tie_load.h"
+#include "constraints/substep_time.h"
+#include "ties/tie_load.h"
 
 namespace plumb {
 namespace {

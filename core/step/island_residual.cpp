@@ -23,7 +23,7 @@ ResidualSum residual_of(const Island& island, const IslandPoint& p) {
             std::max(pushed / (p.mass_normal * p.mass_normal), slid / (m * m)), push, 1};
 }
 
-ResidualSum residual_of(const Island& island, const IslandRow& row) {
+ResidualSum residual_of(const Island& island, const TieRow& row) {
     const double rate = rate_of(row, island.velocity);
     const double off = answer_of(row, rate, row.mass).impulse - row.impulse;
     const double impulse = off / row.length, speed = off / row.mass * row.length;
@@ -44,7 +44,7 @@ void IslandGroup::add_residuals(const World& world, IslandResiduals& islands) {
         const Island island = columns_.all_of(member);
         ResidualSum sum;
         for (const IslandPoint& point : island.points) sum.add(residual_of(island, point));
-        for (const IslandRow& row : island.rows) sum.add(residual_of(island, row));
+        for (const TieRow& row : island.rows) sum.add(residual_of(island, row));
         sum.swept = member.effort == IslandEffort::swept || !member.solved ||
                     member.open > world.settings.joint_tolerance;
         const std::int32_t row = world.bodies.row[island.bodies[0].body];

@@ -147,7 +147,7 @@ IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, do
 
 void IslandSolver::keep_row_impulses(const Island& island) {
     kept_row_impulse_.clear();
-    for (const IslandRow& row : island.rows) kept_row_impulse_.push_back(row.impulse);
+    for (const TieRow& row : island.rows) kept_row_impulse_.push_back(row.impulse);
 }
 
 /// Velocities and impulses as they are now.
@@ -247,7 +247,7 @@ void IslandSolver::sweep_on(IslandReport& report, double speed) {
 
 void IslandSolver::take_back_impulses() {
     for (const IslandPoint& p : island_.points) push(p, Vector6d(-p.impulse));
-    for (IslandRow& row : island_.rows) push(row, -row.impulse);
+    for (TieRow& row : island_.rows) push(row, -row.impulse);
 }
 
 /// γ for an error of so much velocity [m/s], and no less than `hard` where masses are alike. What a
@@ -256,9 +256,9 @@ double IslandSolver::softness(double error, double hard) const {
     double strongest = 0, lightest = island_.bodies[0].mass, heaviest = lightest;
     for (const IslandPoint& p : island_.points)
         strongest = std::max(strongest, p.impulse[0] / p.mass);
-    for (const IslandRow& row : island_.rows)
+    for (const TieRow& row : island_.rows)
         strongest = std::max(strongest, std::abs(row.impulse) / row.mass * row.length);
-    for (const IslandBody& b : island_.bodies) {
+    for (const SolvedBody& b : island_.bodies) {
         lightest = std::min(lightest, b.mass);
         heaviest = std::max(heaviest, b.mass);
     }
@@ -297,7 +297,7 @@ double IslandSolver::residual_of_points() const {
 
 double IslandSolver::residual() const {
     double worst = turns_ ? residual_of_points<6>() : residual_of_points<3>();
-    for (const IslandRow& row : island_.rows) {
+    for (const TieRow& row : island_.rows) {
         const double rate = rate_of(row, island_.velocity);
         const double off = answer_of(row, rate, row.mass).impulse - row.impulse;
         worst = std::max(worst, std::abs(off) / row.mass * row.length);
@@ -325,7 +325,7 @@ void IslandSolver::sweep_both_ways() {
 }
 
 /// The same of a row, which remembers it.
-void IslandSolver::push(IslandRow& row, double impulse) {
+void IslandSolver::push(TieRow& row, double impulse) {
     row.impulse += impulse;
     for (const RowSide& side : row.sides())
         island_.velocity[side.body] += response(island_.bodies[side.body], impulse * side.on);
@@ -333,7 +333,7 @@ void IslandSolver::push(IslandRow& row, double impulse) {
 
 /// One projected Gauss–Seidel sweep.
 void IslandSolver::sweep(bool forwards) {
-    each_in_order(island_.rows, forwards, [&](IslandRow& row) {
+    each_in_order(island_.rows, forwards, [&](TieRow& row) {
         push(row, answer_of(row, rate_of(row, island_.velocity), row.mass).impulse - row.impulse);
     });
     each_in_order(island_.points, forwards,

@@ -59,7 +59,7 @@ public:
     /// Takes all impulses away, and leaves the velocities.
     static void forget(const Island& island) {
         for (IslandPoint& p : island.points) p.impulse.setZero();
-        for (IslandRow& row : island.rows) row.impulse = 0;
+        for (TieRow& row : island.rows) row.impulse = 0;
     }
 
     /// Where nothing was found: sweeps from impulses of 0, which can make no more of it than there
@@ -103,7 +103,7 @@ private:
     void sweep(bool forwards);
     template <int N>
     [[gnu::flatten]] void push(const IslandPoint& p, const ContactVector<N>& impulse);
-    void push(IslandRow& row, double impulse);
+    void push(TieRow& row, double impulse);
     template <int N>
     [[gnu::flatten]] void sweep(IslandPoint& p);
     void open(IslandPoint& p);

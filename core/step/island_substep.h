@@ -61,7 +61,7 @@ private:
     void bound_speed();
 
     const Settings& settings_;
-    IslandTies& ties_;
+    TieRows& ties_;
     IslandSolver& solver_;
     ExactIsland& island_;
     Island all_;  // its bodies, points and rows

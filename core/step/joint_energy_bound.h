@@ -10,9 +10,9 @@
 #include "schedule/contact_islands.h"
 #include "solve/island_residuals.h"
 #include "step/contact_solver.h"
-#include "step/joint_state.h"
 #include "step/keep_share.h"
-#include "step/tie_work.h"
+#include "ties/joint_state.h"
+#include "ties/tie_work.h"
 #include "world/body_momentum.h"
 #include "world/tie.h"
 

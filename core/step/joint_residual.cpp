@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/joint_residual.h"
 
-#include "step/joint_geometry.h"
-#include "step/joint_state.h"
+#include "ties/joint_geometry.h"
+#include "ties/joint_state.h"
 
 #include <cmath>
 

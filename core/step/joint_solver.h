@@ -7,8 +7,8 @@
 #include "solve/lane_blocks.h"
 #include "step/body_columns.h"
 #include "step/coupling_solver.h"
-#include "step/drive_state.h"
 #include "step/velocity_table.h"
+#include "ties/drive_state.h"
 #include "world/tie.h"
 
 #include <algorithm>

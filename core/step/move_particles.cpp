@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Symplectic Euler of particles (§3): forces before the passes, the move after them.
+#include "constraints/substep_time.h"
 #include "step/stages.h"
-#include "step/substep_time.h"
 
 namespace plumb {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/sleeping.h"
 
+#include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
-#include "step/substep_time.h"
 #include "world/sleep.h"
 #include "world/tie.h"
 

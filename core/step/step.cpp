@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "step/step.h"
 
+#include "constraints/substep_time.h"
 #include "contacts/bend.h"
 #include "step/gaping_joints.h"
-#include "step/substep_time.h"
 #include "world/derived.h"
 
 #include <cmath>

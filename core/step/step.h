@@ -14,10 +14,10 @@
 #include "step/air.h"
 #include "step/divided_trees.h"
 #include "step/fast_joints.h"
-#include "step/joint_state.h"
 #include "step/row_solver.h"
 #include "step/sleeping.h"
 #include "step/stages.h"
+#include "ties/joint_state.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>

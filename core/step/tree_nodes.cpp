@@ -3,8 +3,8 @@
 
 #include "constraints/tension_rows.h"
 #include "math/rotation.h"
-#include "step/driven_axes.h"
-#include "step/joint_geometry.h"
+#include "ties/driven_axes.h"
+#include "ties/joint_geometry.h"
 
 #include <algorithm>
 #include <cmath>

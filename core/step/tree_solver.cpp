@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/tree_solver.h"
 
-#include "step/lever_of.h"
+#include "ties/lever_of.h"
 
 namespace plumb {
 namespace {

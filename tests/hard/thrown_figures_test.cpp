@@ -2,9 +2,9 @@
 /// Free figures of few bodies, whose joints are of all kinds and have limits, friction and springs,
 /// fall on the ground: in the air they are iterated or solved as trees, where they touch as
 /// islands.
-#include "step/joint_state.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Chains that hang: their shape, their stretch and the force at the top. 1/60 s × substeps of one
 /// iteration, unless a test says otherwise.
-#include "step/joint_state.h"
 #include "support/scenes.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 /// Every kind of joint: what it takes stays, what it leaves moves as if it were not there, and
 /// nothing is lost between two bodies. 1/60 s × 20 substeps × 1 iteration.
-#include "step/joint_state.h"
 #include "support/scenes.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,9 +2,9 @@
 /// A robot from a URDF file: its bodies are where its masses are, its motors hold it up, and
 /// without them its joints keep together as it falls.
 #include "reader/urdf.h"
-#include "step/joint_state.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 

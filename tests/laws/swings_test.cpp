@@ -2,10 +2,10 @@
 /// What swings on joints: chains under any load, trees of all kinds, and pendulums over a minute.
 /// The step is drawn, or one of the two usual ones: 10 ms with 5 + 5 iterations, and 1/60 s with 20
 /// substeps of 1 + 1.
-#include "step/joint_state.h"
 #include "support/pendulum.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -23,7 +23,7 @@ const Vector3d kUp(0, 1, 0), kEast(1, 0, 0);
 /// Rods along z in rows, each in the hollow between two of the row below; walls hold the lowest.
 struct RodPile {
     std::vector<Vector3d> centres;
-    std::vector<IslandBody> bodies;
+    std::vector<SolvedBody> bodies;
     std::vector<IslandPoint> points;
     std::vector<Vector6d> velocity;
     BlockCholesky system;
@@ -76,7 +76,7 @@ private:
         const auto index = static_cast<std::uint32_t>(bodies.size());
         const double about = 0.5 * kMass * kRadius * kRadius,
                      across = 0.5 * about + kMass * kHalfLength * kHalfLength / 3;
-        IslandBody& body = bodies.emplace_back();
+        SolvedBody& body = bodies.emplace_back();
         body.body = index, body.mass = kMass;
         body.inertia = {across, across, about, 0, 0, 0};
         body.inverse_inertia = {1 / across, 1 / across, 1 / about, 0, 0, 0};
@@ -133,8 +133,8 @@ TEST(IslandSolver, HoldsRodsWhoseContactsShiftALittle) {
 /// Balls in a row along x, each held to the next by a rod, and what drives the last against the
 /// world.
 struct Train {
-    std::vector<IslandBody> bodies;
-    std::vector<IslandRow> rows;
+    std::vector<SolvedBody> bodies;
+    std::vector<TieRow> rows;
     std::vector<IslandPoint> points;
     std::vector<Vector6d> velocity;
     AxisDrive drive;
@@ -143,7 +143,7 @@ struct Train {
     explicit Train(std::uint32_t count) : velocity(count, Vector6d::Zero()) {
         BlockCholesky::Pattern pairs;
         for (std::uint32_t i = 0; i < count; ++i) {
-            IslandBody& body = bodies.emplace_back();
+            SolvedBody& body = bodies.emplace_back();
             body.body = i, body.mass = i + 1.0;
             body.inertia = body.inverse_inertia = {1, 1, 1, 0, 0, 0};
             if (i > 0) add_row(i, i - 1), pairs.emplace_back(i, i - 1);
@@ -157,7 +157,7 @@ struct Train {
 
 private:
     void add_row(std::uint32_t a, std::uint32_t b) {
-        IslandRow& row = rows.emplace_back();
+        TieRow& row = rows.emplace_back();
         row.most = 1e6;
         const Vector6d along = Vector6d::Unit(0);
         row.add_side(a, along), row.add_side(b, -along);
@@ -197,14 +197,14 @@ TEST(IslandSolver, DrivesHoldUpToTheirBounds) {
 TEST(IslandSolver, RopesPullAndDoNotPush) {
     for (const bool pulled : {true, false}) {
         Train train(6);
-        for (IslandRow& row : train.rows)
+        for (TieRow& row : train.rows)
             if (!row.drive) row.highest = 0;
         train.velocity[pulled ? 5 : 0][0] = 3;  // the last is at the front
         IslandSolver solver;
         EXPECT_TRUE(solver.solve(train.island(), train.system, 3).solved);
         for (std::size_t i = 0; i < 6; ++i)
             EXPECT_NEAR(train.velocity[i][0], pulled ? 18 / train.mass() : i == 0 ? 3 : 0, 1e-5);
-        for (const IslandRow& row : train.rows)
+        for (const TieRow& row : train.rows)
             if (!row.drive) {
                 EXPECT_LE(row.impulse, 0);
             }
@@ -215,7 +215,7 @@ TEST(IslandSolver, RopesPullAndDoNotPush) {
 TEST(IslandSolver, ARowHasUpToFourBodies) {
     Train train(4);
     train.rows.resize(1);
-    IslandRow& row = train.rows[0];
+    TieRow& row = train.rows[0];
     row.count = 0, row.mass = 0;
     for (std::uint32_t i = 0; i < 4; ++i) {
         row.add_side(i, (i == 0 || i == 3 ? 1 : -1) * Vector6d::Unit(0));
@@ -239,7 +239,7 @@ TEST(IslandSolver, RowsThatContradictEachOtherMeetInTheMiddle) {
     Train train(2);
     train.rows.push_back(train.rows[0]);
     train.rows[0].wanted = 1e-3, train.rows[2].wanted = -1e-3;
-    for (IslandRow& row : train.rows) row.softness = row.drive ? 0 : 1e-4;
+    for (TieRow& row : train.rows) row.softness = row.drive ? 0 : 1e-4;
     IslandSolver solver;
     solver.solve(train.island(), train.system, 1);
     EXPECT_NEAR(train.velocity[0][0], 0, 1e-6);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 /// Chains that hang.
-#include "step/joint_state.h"
 #include "study/cases/list.h"
 #include "study/cases/parts.h"
 #include "study/catenary.h"
 #include "study/judges.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 /// Two wheels, geared.
-#include "step/joint_state.h"
 #include "study/cases/list.h"
 #include "study/cases/parts.h"
 #include "study/judges.h"
+#include "ties/joint_state.h"
 
 namespace plumb::study {
 

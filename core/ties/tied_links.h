@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: MIT
-/// The links (constraints/link.h) between bodies of islands that are solved exactly. Impulses act
-/// along the line of the start of a substep, and the rows are asked to close what is still open at
-/// the preview poses, as those of joints are.
+/// The links (constraints/link.h) between bodies of systems that are solved as a whole. Impulses
+/// act along the line of the start of a substep, and the rows are asked to close what is still open
+/// at the preview poses, as those of joints are.
 #pragma once
 
 #include "constraints/link.h"
-#include "step/island_rows.h"
-#include "step/substep_time.h"
+#include "constraints/substep_time.h"
+#include "ties/tied_bodies.h"
 
 #include <span>
 #include <vector>
 
 namespace plumb {
 
-class IslandLinks {
+class TiedLinks {
 public:
     void clear() { links_.clear(); }
 
-    /// Adds a link of one of the islands.
-    void add(const World& world, const ContactIslands& islands, std::uint32_t link);
+    /// Adds a link; `at`: its bodies in the order of `each_body` (world/tie.h), among those of the
+    /// system, or kImmovable.
+    void add(std::uint32_t link, const TiedBodies& at);
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(links_.size()); }
     /// Index in the world's table.
@@ -26,20 +27,20 @@ public:
 
     /// Once a substep: adds the rows of a link at its start, with the impulse of the one before.
     void begin(const World& world, const SubstepTime& time, std::uint32_t i,
-               std::vector<IslandRow>& rows);
+               std::vector<TieRow>& rows);
 
     /// Asks its rows to close what is open at the preview of the velocities. Returns how far it is
     /// open [m].
     double ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
-               std::vector<IslandRow>& rows) const;
+               std::vector<TieRow>& rows) const;
 
     /// The impulse of the substep, into the world's table.
-    void store_impulses(std::uint32_t i, const std::vector<IslandRow>& rows,
+    void store_impulses(std::uint32_t i, const std::vector<TieRow>& rows,
                         std::vector<Link>& links) const;
 
 private:
     struct Member {
-        std::uint32_t link, a, b;  ///< in the world's table; of the island
+        std::uint32_t link, a, b;  ///< in the world's table; of the system
         LinkedPoint at_a, at_b;
         Velocity<double> scripted_a, scripted_b;  ///< of what is immovable
         Vector3d line;                            ///< out of b towards a, at the start

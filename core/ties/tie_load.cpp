@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "step/tie_load.h"
+#include "ties/tie_load.h"
 
 #include "constraints/joint_lever.h"
-#include "solve/linked_point.h"
-#include "step/joint_state.h"
+#include "ties/joint_state.h"
+#include "ties/linked_point.h"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "step/island_links.h"
+#include "ties/tied_links.h"
 
 #include "constraints/points.h"
 #include "math/rotation.h"
-#include "solve/linked_point.h"
+#include "ties/linked_point.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,15 +11,14 @@
 
 namespace plumb {
 
-void IslandLinks::add(const World& world, const ContactIslands& islands, std::uint32_t link) {
+void TiedLinks::add(std::uint32_t link, const TiedBodies& at) {
     Member& m = links_.emplace_back();
     m.link = link;
-    m.a = index_in_island(world, islands, world.links[link].a.body);
-    m.b = index_in_island(world, islands, world.links[link].b.body);
+    m.a = at[0], m.b = at[1];
 }
 
-void IslandLinks::begin(const World& world, const SubstepTime& time, std::uint32_t i,
-                        std::vector<IslandRow>& rows) {
+void TiedLinks::begin(const World& world, const SubstepTime& time, std::uint32_t i,
+                      std::vector<TieRow>& rows) {
     Member& m = links_[i];
     const Link& link = world.links[m.link];
     m.at_a = linked_point(world, link.a), m.at_b = linked_point(world, link.b);
@@ -33,7 +32,7 @@ void IslandLinks::begin(const World& world, const SubstepTime& time, std::uint32
     m.first_row = static_cast<std::uint32_t>(rows.size());
     const auto add_row = [&](double rest, double lowest, double highest) {
         m.rest[rows.size() - m.first_row] = rest;
-        IslandRow& row = rows.emplace_back();
+        TieRow& row = rows.emplace_back();
         Vector6d on;
         on << m.line, m.at_a.arm.cross(m.line);
         row.add_side(m.a, on);
@@ -54,8 +53,8 @@ void IslandLinks::begin(const World& world, const SubstepTime& time, std::uint32
     m.last_row = static_cast<std::uint32_t>(rows.size());
 }
 
-double IslandLinks::ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
-                        std::vector<IslandRow>& rows) const {
+double TiedLinks::ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
+                      std::vector<TieRow>& rows) const {
     const Member& m = links_[i];
     const auto moved = [&](const Velocity<double>& v, const LinkedPoint& p) -> Vector3d {
         return h * v.v + Turn<double>(Vector3d(h * v.w)).change(p.arm);
@@ -66,7 +65,7 @@ double IslandLinks::ask(std::uint32_t i, std::span<const Vector6d> velocity, dou
     const double length = apart.norm();
     double worst = 0;
     for (std::uint32_t k = m.first_row; k < m.last_row; ++k) {
-        IslandRow& row = rows[k];
+        TieRow& row = rows[k];
         const double rest = m.rest[k - m.first_row];
         const double open = (length - rest) - m.lag * (m.length - rest);
         row.wanted = rate_of(row, velocity) - open / h;
@@ -77,8 +76,8 @@ double IslandLinks::ask(std::uint32_t i, std::span<const Vector6d> velocity, dou
     return worst;
 }
 
-void IslandLinks::store_impulses(std::uint32_t i, const std::vector<IslandRow>& rows,
-                                 std::vector<Link>& links) const {
+void TiedLinks::store_impulses(std::uint32_t i, const std::vector<TieRow>& rows,
+                               std::vector<Link>& links) const {
     const Member& m = links_[i];
     double sum = 0;
     for (std::uint32_t k = m.first_row; k < m.last_row; ++k) sum += rows[k].impulse;

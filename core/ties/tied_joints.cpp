@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "step/island_joints.h"
+#include "ties/tied_joints.h"
 
 #include "constraints/tree_stiffness.h"
-#include "step/drive_state.h"
-#include "step/driven_axes.h"
-#include "step/joint_geometry.h"
-#include "step/lever_of.h"
+#include "ties/drive_state.h"
+#include "ties/driven_axes.h"
+#include "ties/joint_geometry.h"
+#include "ties/lever_of.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,12 +22,12 @@ JointGeometry<double> geometry_of(const World& world, const Joint& joint, const 
     return g;
 }
 
-IslandRow row_of(const World& world, const Joint& joint, std::uint32_t a, std::uint32_t b,
-                 const Vector3d& along, const Vector3d& turn_a, const Vector3d& turn_b) {
+TieRow row_of(const World& world, const Joint& joint, std::uint32_t a, std::uint32_t b,
+              const Vector3d& along, const Vector3d& turn_a, const Vector3d& turn_b) {
     const InverseMass<double> of_a = inverse_mass(world.bodies, joint.a),
                               of_b = inverse_mass(world.bodies, joint.b);
     const double mass = of_a.mass + of_b.mass;
-    IslandRow row;
+    TieRow row;
     Vector6d on;
     on << along, turn_a;
     row.add_side(a, on);
@@ -41,13 +41,12 @@ IslandRow row_of(const World& world, const Joint& joint, std::uint32_t a, std::u
 
 }  // namespace
 
-void IslandJoints::clear() { joints_.clear(), axes_.clear(); }
+void TiedJoints::clear() { joints_.clear(), axes_.clear(); }
 
-void IslandJoints::add(const World& world, const ContactIslands& islands, std::uint32_t joint) {
+void TiedJoints::add(const World& world, std::uint32_t joint, const TiedBodies& at) {
     Member& m = joints_.emplace_back();
     m.joint = joint;
-    m.a = index_in_island(world, islands, world.joints.joints[joint].a);
-    m.b = index_in_island(world, islands, world.joints.joints[joint].b);
+    m.a = at[0], m.b = at[1];
     m.first_axis = static_cast<std::uint32_t>(axes_.size());
     each_driven_axis(world.joints, joint, [&](std::uint32_t first, std::uint32_t last) {
         axes_.push_back({first, last, {}});
@@ -55,8 +54,8 @@ void IslandJoints::add(const World& world, const ContactIslands& islands, std::u
     m.last_axis = static_cast<std::uint32_t>(axes_.size());
 }
 
-void IslandJoints::begin(const World& world, const SubstepTime& time, std::uint32_t i,
-                         std::vector<IslandRow>& rows) {
+void TiedJoints::begin(const World& world, const SubstepTime& time, std::uint32_t i,
+                       std::vector<TieRow>& rows) {
     Member& m = joints_[i];
     const Joint& joint = world.joints.joints[m.joint];
     m.scripted_a = scripted_velocity(world.bodies, joint.a);
@@ -71,7 +70,7 @@ void IslandJoints::begin(const World& world, const SubstepTime& time, std::uint3
         if (!(m.geometry.lock[k] > 0)) continue;
         if (k < 3) m.load += joint.rows[k] * now.e[k];
         const Vector3d along = k < 3 ? now.e[k] : Vector3d(Vector3d::Zero());
-        IslandRow& row =
+        TieRow& row =
             rows.emplace_back(row_of(world, joint, m.a, m.b, along, now.g_a[k], now.g_b[k]));
         row.softness = m.geometry.softness[k];
         row.impulse = joint.rows[k];
@@ -81,8 +80,8 @@ void IslandJoints::begin(const World& world, const SubstepTime& time, std::uint3
         rows.push_back(axis_row(world, time, m, axes_[axis]));
 }
 
-IslandRow IslandJoints::axis_row(const World& world, const SubstepTime& time, const Member& m,
-                                 Axis& axis) const {
+TieRow TiedJoints::axis_row(const World& world, const SubstepTime& time, const Member& m,
+                            Axis& axis) const {
     const JointDrive& leader = world.joints.drives[axis.first];
     const Joint& joint = world.joints.joints[m.joint];
     const JointCoordinate q = joint_coordinate(world, m.joint, leader.axis);
@@ -90,7 +89,7 @@ IslandRow IslandJoints::axis_row(const World& world, const SubstepTime& time, co
     axis.drive = {};
     for (std::uint32_t i = axis.first; i < axis.last; ++i)
         axis.drive.add(drive_row(world, world.joints.drives[i], q, mass, time));
-    IslandRow row = row_of(world, joint, m.a, m.b, q.along, q.turn_a, q.turn_b);
+    TieRow row = row_of(world, joint, m.a, m.b, q.along, q.turn_a, q.turn_b);
     row.drive = &axis.drive;
     for (std::uint32_t i = axis.first; i < axis.last; ++i)
         row.impulse += world.joints.drives[i].impulse;
@@ -101,8 +100,8 @@ IslandRow IslandJoints::axis_row(const World& world, const SubstepTime& time, co
     return row;
 }
 
-void IslandJoints::stiffen(const World& world, double h, std::uint32_t i,
-                           std::span<IslandBody> bodies) const {
+void TiedJoints::stiffen(const World& world, double h, std::uint32_t i,
+                         std::span<SolvedBody> bodies) const {
     constexpr double kTheta = 0.5;
     const Member& m = joints_[i];
     const Joint& joint = world.joints.joints[m.joint];
@@ -119,14 +118,14 @@ void IslandJoints::stiffen(const World& world, double h, std::uint32_t i,
     stiffen(m.b, joint.b, m.geometry.r_b, -m.load);
 }
 
-double IslandJoints::open_at_start(std::uint32_t i) const {
+double TiedJoints::open_at_start(std::uint32_t i) const {
     double worst = 0;
     for (const double error : joints_[i].old) worst = std::max(worst, std::abs(error));
     return worst;
 }
 
-double IslandJoints::ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
-                         OldErrors old, std::vector<IslandRow>& rows) const {
+double TiedJoints::ask(std::uint32_t i, std::span<const Vector6d> velocity, double h, OldErrors old,
+                       std::vector<TieRow>& rows) const {
     const Member& m = joints_[i];
     const bool keeps = old == OldErrors::kept;
     const Velocity<double> rest{Vector3d::Zero(), Vector3d::Zero()};
@@ -137,7 +136,7 @@ double IslandJoints::ask(std::uint32_t i, std::span<const Vector6d> velocity, do
     joint_errors<double>(c, m.geometry, preview);
     for (std::uint32_t k = 0, at = m.first_row; at < m.first_axis_row; ++k) {
         if (!(m.geometry.lock[k] > 0)) continue;
-        IslandRow& row = rows[at++];
+        TieRow& row = rows[at++];
         const double open = c[k] - (keeps ? m.old : m.deferred)[k];
         row.wanted = rate_of(row, velocity) - open / h;
         worst = std::max(worst, std::abs(open + h * row.softness * row.impulse));
@@ -145,8 +144,8 @@ double IslandJoints::ask(std::uint32_t i, std::span<const Vector6d> velocity, do
     return worst;
 }
 
-double IslandJoints::open_at_end(std::uint32_t i, std::span<const Vector6d> velocity,
-                                 double h) const {
+double TiedJoints::open_at_end(std::uint32_t i, std::span<const Vector6d> velocity,
+                               double h) const {
     const Member& m = joints_[i];
     double c[6], worst = 0;
     joint_errors<double>(c, m.geometry,
@@ -158,7 +157,7 @@ double IslandJoints::open_at_end(std::uint32_t i, std::span<const Vector6d> velo
     return worst;
 }
 
-double IslandJoints::scripted_speed(std::uint32_t i) const {
+double TiedJoints::scripted_speed(std::uint32_t i) const {
     const Member& m = joints_[i];
     const auto speed = [](std::uint32_t body, const Velocity<double>& v, const Vector3d& arm) {
         return body == kImmovable ? (v.v + v.w.cross(arm)).norm() : 0;
@@ -167,8 +166,8 @@ double IslandJoints::scripted_speed(std::uint32_t i) const {
                     speed(m.b, m.scripted_b, m.geometry.r_b));
 }
 
-void IslandJoints::store_impulses(std::uint32_t i, std::span<const Vector6d> velocity,
-                                  const std::vector<IslandRow>& rows, JointTable& table) const {
+void TiedJoints::store_impulses(std::uint32_t i, std::span<const Vector6d> velocity,
+                                const std::vector<TieRow>& rows, JointTable& table) const {
     const Member& m = joints_[i];
     Joint& joint = table.joints[m.joint];
     joint.rows_before = joint.rows;
@@ -176,7 +175,7 @@ void IslandJoints::store_impulses(std::uint32_t i, std::span<const Vector6d> vel
     for (std::uint32_t k = 0; k < kJointAxes; ++k)
         joint.rows[k] = m.geometry.lock[k] > 0 ? rows[at++].impulse : 0;
     for (std::uint32_t axis = m.first_axis; axis < m.last_axis; ++axis, ++at) {
-        const IslandRow& row = rows[at];
+        const TieRow& row = rows[at];
         AxisAnswer met =
             answer_of(*row.drive, rate_of(row, velocity) + row.moving, row.impulse, 1 / row.mass);
         met.impulse = row.impulse;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/island_couplings.h"
+#include "ties/tied_couplings.h"
 
 #include "world/tie.h"
 
@@ -8,25 +8,23 @@
 
 namespace plumb {
 
-void IslandCouplings::add(const World& world, const ContactIslands& islands,
-                          std::uint32_t coupling) {
+void TiedCouplings::add(const World& world, std::uint32_t coupling, const TiedBodies& at) {
     Member& m = couplings_.emplace_back();
     m.coupling = coupling;
+    m.at = at;
     std::size_t i = 0;
-    each_body(world, {TieKind::coupling, coupling}, [&](std::uint32_t body) {
-        m.body[i] = body;
-        m.at[i++] = index_in_island(world, islands, body);
-    });
+    each_body(world, {TieKind::coupling, coupling},
+              [&](std::uint32_t body) { m.body[i++] = body; });
 }
 
-void IslandCouplings::begin(const World& world, const SubstepTime& time, std::uint32_t i,
-                            std::vector<IslandRow>& rows) {
+void TiedCouplings::begin(const World& world, const SubstepTime& time, std::uint32_t i,
+                          std::vector<TieRow>& rows) {
     Member& m = couplings_[i];
     const JointCoupling& coupling = world.joints.couplings[m.coupling];
     const CouplingRow formula = coupling_row(world, coupling, time.h);
     m.deferred = formula.deferred;
     m.row = static_cast<std::uint32_t>(rows.size());
-    IslandRow& row = rows.emplace_back();
+    TieRow& row = rows.emplace_back();
     row.wanted = -formula.bias;
     double mass = 0;
     for (std::uint32_t k = 0; k < formula.count; ++k) {
@@ -46,14 +44,14 @@ void IslandCouplings::begin(const World& world, const SubstepTime& time, std::ui
     row.impulse = coupling.impulse;
 }
 
-double IslandCouplings::ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
-                            std::vector<IslandRow>& rows) const {
-    const IslandRow& row = rows[couplings_[i].row];
+double TiedCouplings::ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
+                          std::vector<TieRow>& rows) const {
+    const TieRow& row = rows[couplings_[i].row];
     return h * std::abs(rate_of(row, velocity) - row.wanted + row.softness * row.impulse);
 }
 
-void IslandCouplings::store_impulses(std::uint32_t i, const std::vector<IslandRow>& rows,
-                                     std::vector<JointCoupling>& couplings) const {
+void TiedCouplings::store_impulses(std::uint32_t i, const std::vector<TieRow>& rows,
+                                   std::vector<JointCoupling>& couplings) const {
     const Member& m = couplings_[i];
     couplings[m.coupling].impulse = rows[m.row].impulse;
     couplings[m.coupling].deferred = m.deferred;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/tie_list.h"
+#include "ties/tie_list.h"
 
 #include <algorithm>
 #include <numeric>

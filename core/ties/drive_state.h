@@ -4,7 +4,7 @@
 
 #include "constraints/drive_rows.h"
 #include "constraints/effective_mass.h"
-#include "step/joint_geometry.h"
+#include "ties/joint_geometry.h"
 
 namespace plumb {
 

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "constraints/joint_rows.h"
-#include "step/joint_state.h"
-#include "step/lever_of.h"
-#include "step/substep_time.h"
+#include "constraints/substep_time.h"
+#include "ties/joint_state.h"
+#include "ties/lever_of.h"
 
 namespace plumb {
 

@@ -7,7 +7,7 @@
 /// at Settings::recovery_speed.
 #pragma once
 
-#include "step/joint_state.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "step/joint_state.h"
+#include "ties/joint_state.h"
 
 #include <algorithm>
 #include <cmath>

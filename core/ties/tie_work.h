@@ -2,9 +2,9 @@
 #pragma once
 
 #include "constraints/effective_mass.h"
-#include "step/driven_axes.h"
-#include "step/joint_geometry.h"
-#include "step/joint_state.h"
+#include "ties/driven_axes.h"
+#include "ties/joint_geometry.h"
+#include "ties/joint_state.h"
 #include "world/tie.h"
 
 #include <algorithm>
