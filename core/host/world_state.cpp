@@ -132,6 +132,13 @@ void each_number_of_factors(Io& io, Factors& kept) {
         for (auto& body : c.body) io(body);
         for (auto& arm : c.arm) vector(io, arm);
     }
+    io.count(kept.rows);
+    for (auto& row : kept.rows) {
+        io(row.count), io(row.stiffness);
+        for (auto& body : row.body) io(body);
+        for (auto& on : row.on)
+            for (int k = 0; k < 6; ++k) io(on[k]);
+    }
 }
 
 template <class Io, class W>
@@ -223,14 +230,20 @@ bool can_be(const KeptFactors& kept, const World& world) {
     const auto has_body = [&](std::uint32_t body) {
         return body == kNoIndex || body < kept.bodies.size();
     };
-    return std::all_of(
-        kept.contacts.begin(), kept.contacts.end(), [&](const KeptFactors::Contact& c) {
-            return c.points <= c.particle.size() &&
-                   std::all_of(
-                       c.particle.begin(), c.particle.begin() + c.points,
-                       [&](std::uint32_t particle) { return particle < world.particles.size(); }) &&
-                   std::all_of(c.body.begin(), c.body.end(), has_body);
-        });
+    const auto has_points = [&](const KeptFactors::Contact& c) {
+        return c.points <= c.particle.size() &&
+               std::all_of(
+                   c.particle.begin(), c.particle.begin() + c.points,
+                   [&](std::uint32_t particle) { return particle < world.particles.size(); }) &&
+               std::all_of(c.body.begin(), c.body.end(), has_body);
+    };
+    const auto has_bodies = [&](const KeptFactors::Row& row) {
+        return row.count <= row.body.size() &&
+               std::all_of(row.body.begin(), row.body.begin() + row.count,
+                           [&](std::uint32_t body) { return body < kept.bodies.size(); });
+    };
+    return std::all_of(kept.contacts.begin(), kept.contacts.end(), has_points) &&
+           std::all_of(kept.rows.begin(), kept.rows.end(), has_bodies);
 }
 
 }  // namespace

@@ -25,6 +25,23 @@ void add_bodies(const Matrix3d& d, std::uint32_t i, const Vector3d& arm_i, std::
     system.add_more(i + 1, j + 1, -of_i * d_j);
 }
 
+/// A row that holds a change of its rate by `stiffness`.
+void add_row(const KeptFactors::Row& row, std::uint32_t first_row, SparseLdlt& system) {
+    for (std::uint32_t k = 0; k < row.count; ++k) {
+        const std::uint32_t i = first_row + 2 * row.body[k];
+        const Vector3d force = row.stiffness * row.on[k].head<3>(),
+                       torque = row.stiffness * row.on[k].tail<3>();
+        for (std::uint32_t l = k; l < row.count; ++l) {
+            const std::uint32_t j = first_row + 2 * row.body[l];
+            const Vector3d along = row.on[l].head<3>(), turn = row.on[l].tail<3>();
+            system.add_more(i, j, force * along.transpose());
+            system.add_more(i, j + 1, force * turn.transpose());
+            if (k != l) system.add_more(i + 1, j, torque * along.transpose());
+            system.add_more(i + 1, j + 1, torque * turn.transpose());
+        }
+    }
+}
+
 }  // namespace
 
 void list_pairs(const KeptFactors& made_of, std::uint32_t first_row,
@@ -51,6 +68,14 @@ double stiffness_along(const KeptFactors& made_of, std::uint32_t first_row,
             u += kSign[i] * (way[row] + way[row + 1].cross(c.arm[i]));
         }
         sum += u.dot(c.stiffness * u);
+    }
+    for (const KeptFactors::Row& row : made_of.rows) {
+        double rate = 0;
+        for (std::uint32_t k = 0; k < row.count; ++k) {
+            const std::uint32_t at = first_row + 2 * row.body[k];
+            rate += row.on[k].head<3>().dot(way[at]) + row.on[k].tail<3>().dot(way[at + 1]);
+        }
+        sum += row.stiffness * rate * rate;
     }
     return sum;
 }
@@ -86,6 +111,7 @@ void add_contact_stiffness(const KeptFactors& made_of, const std::vector<double>
         if (c.body[0] != kNoIndex && c.body[1] != kNoIndex)
             add_bodies(-d, row_of(c.body[0]), c.arm[0], row_of(c.body[1]), c.arm[1], system);
     }
+    for (const KeptFactors::Row& kept : made_of.rows) add_row(kept, first_row, system);
 }
 
 }  // namespace plumb

@@ -17,11 +17,6 @@ namespace {
 /// one: more rounds are needed with less, and more digits are lost with more.
 constexpr double kFirm = 5;
 
-/// Impulses are matched by least squares in so many rounds. This share of the mean diagonal is
-/// added to the diagonal, so that what no impulse can change is left as it is.
-constexpr double kBeyondReach = 1e-7;
-constexpr int kMatches = 3;
-
 }  // namespace
 
 void ElasticContacts::weigh(const SparseLdlt& system) {
@@ -38,6 +33,7 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
         body.inverse = {b.inverse_mass[body.index], b.world_inverse_inertia[body.index]};
         body.mass = 1 / body.inverse.mass;
         body.inertia = matrix_of(inverse(body.inverse.inertia));
+        body.size = std::sqrt(body.inertia.trace() / body.mass);
     }
     for (Contact& c : contacts_) {
         Vector3d place = Vector3d::Zero();
@@ -100,7 +96,8 @@ void ElasticContacts::begin_bodies(const World& world, double h, Contact& c) con
     if (!table.bend.empty()) c.given += table.bend[c.source];
 }
 
-void ElasticContacts::find_targets(std::vector<Vector3d>& v, std::vector<Vector3d>& target) const {
+void ElasticContacts::find_targets(std::vector<Vector3d>& v, std::vector<Vector3d>& target,
+                                   const ElasticTies& ties) const {
     for (const Body& body : bodies_) {
         v[body.row] = target[body.row] = body.v.v;
         v[body.row + 1] = target[body.row + 1] = body.v.w;
@@ -114,6 +111,27 @@ void ElasticContacts::find_targets(std::vector<Vector3d>& v, std::vector<Vector3
             apply_impulse<double>(without, body.inverse, side.arm, -kSign[i] * c.applied);
             target[body.row] = without.v, target[body.row + 1] = without.w;
         }
+    for (std::size_t i = 0; i < ties.rows().size(); ++i)
+        for (const RowSide& side : ties.rows()[i].sides()) {
+            const Body& body = bodies_[side.body];
+            const Velocity<double> change = change_by(body, -ties.applied()[i] * side.on);
+            target[body.row] += change.v, target[body.row + 1] += change.w;
+        }
+}
+
+void ElasticContacts::gather(const std::vector<Vector3d>& rows,
+                             std::vector<Vector6d>& of_bodies) const {
+    of_bodies.resize(bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+        of_bodies[i] << rows[bodies_[i].row], rows[bodies_[i].row + 1];
+}
+
+void ElasticContacts::add_to_rows(const std::vector<Vector6d>& of_bodies,
+                                  std::vector<Vector3d>& rows) const {
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+        rows[bodies_[i].row] += of_bodies[i].head<3>();
+        rows[bodies_[i].row + 1] += of_bodies[i].tail<3>();
+    }
 }
 
 double ElasticContacts::add_forces(const std::vector<Vector3d>& target,
@@ -238,65 +256,6 @@ double ElasticContacts::take_forces() {
         c.p = c.q;
     }
     return most;
-}
-
-/// How the point of a side moves with its body's velocities, of which the angular one is times
-/// `size`.
-Eigen::Matrix<double, 3, 6> ElasticContacts::motion_of(const Side& side) const {
-    Eigen::Matrix<double, 3, 6> m;
-    m << Matrix3d::Identity(), -skew(side.arm) / bodies_[side.body].size;
-    return m;
-}
-
-/// Gᵀ G, where G is how the points of all contacts that push move with the bodies.
-bool ElasticContacts::factor_reach() {
-    reach_.clear();
-    double most = 0;
-    for (const Contact& c : contacts_) {
-        if (c.q.isZero(0)) continue;
-        for (const Side& side : c.sides) {
-            if (side.body == kNoIndex) continue;
-            const Eigen::Matrix<double, 3, 6> motion = motion_of(side);
-            const Matrix6d own = motion.transpose() * motion;
-            reach_.add(side.body, own);
-            most += own.trace();
-        }
-        if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex)
-            reach_.add(c.sides[0].body, c.sides[1].body,
-                       -motion_of(c.sides[0]).transpose() * motion_of(c.sides[1]));
-    }
-    const double apart = kBeyondReach * (most > 0 ? most / double(bodies_.size()) : 1);
-    for (std::uint32_t i = 0; i < bodies_.size(); ++i) reach_.add(i, apart * Matrix6d::Identity());
-    return reach_.factor();
-}
-
-/// By the least changes, in the mean of the squares: each q changes by G λ, where λ is an impulse
-/// and its moment a body, and G what the contact's points do not see of them. A single point can
-/// give a body no torque, so some of its velocity may remain without an impulse.
-void ElasticContacts::match(const std::vector<Vector3d>& v, const std::vector<Vector3d>& target) {
-    if (bodies_.empty()) return;
-    for (Body& body : bodies_) body.size = std::sqrt(body.inertia.trace() / body.mass);
-    if (!factor_reach()) return;
-    for (int round = 0; round < kMatches; ++round) {
-        for (std::size_t i = 0; i < bodies_.size(); ++i) {
-            const Body& body = bodies_[i];
-            missing_[i] << body.mass * (v[body.row] - target[body.row]),
-                body.inertia * (v[body.row + 1] - target[body.row + 1]) / body.size;
-        }
-        for (const Contact& c : contacts_)
-            for (int i = 0; i < 2; ++i)
-                if (c.sides[i].body != kNoIndex)
-                    missing_[c.sides[i].body] -= kSign[i] * motion_of(c.sides[i]).transpose() * c.q;
-        reach_.solve(missing_);
-        for (Contact& c : contacts_) {
-            if (c.q.isZero(0)) continue;
-            Vector3d more = Vector3d::Zero();
-            for (int i = 0; i < 2; ++i)
-                if (c.sides[i].body != kNoIndex)
-                    more += kSign[i] * motion_of(c.sides[i]) * missing_[c.sides[i].body];
-            c.q += more;
-        }
-    }
 }
 
 void ElasticContacts::store(World& world) const {

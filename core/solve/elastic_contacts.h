@@ -23,9 +23,9 @@
 
 #include "constraints/connector.h"
 #include "effects/plan.h"
-#include "math/block_cholesky.h"
 #include "math/sparse_ldlt.h"
 #include "schedule/colouring.h"
+#include "solve/elastic_ties.h"
 #include "world/world.h"
 
 #include <vector>
@@ -55,11 +55,15 @@ public:
         std::uint32_t row = 0;                                   ///< of v; that of ω comes next
         std::int32_t table_row = 0;                              ///< in the velocity table
         double mass = 0;                                         ///< [kg]
-        double size = 0;                                         ///< radius of gyration, about [m]
+        double size = 0;                                         ///< radius of gyration [m]
         Matrix3d inertia = Matrix3d::Zero();                     ///< world frame [kg m²]
         InverseMass<double> inverse{0, {0, 0, 0, 0, 0, 0}};      ///< world frame
         Velocity<double> v{Vector3d::Zero(), Vector3d::Zero()};  ///< when the system is asked
     };
+    /// How (force, torque) [N s], [N m s] change a body's velocity.
+    static Velocity<double> change_by(const Body& body, const Vector6d& sum) {
+        return {body.inverse.mass * sum.head<3>(), body.inverse.inertia * Vector3d(sum.tail<3>())};
+    }
     /// What the first side of a contact is: a particle, a triangle's point, or a body.
     enum class Source : std::uint8_t { particle, surface, bodies };
     /// A side that is a body.
@@ -92,9 +96,10 @@ public:
 
     explicit ElasticContacts(const Plan& plan);
 
-    /// Once a step. Removes from `pairs` (of bodies) those that are solved here. Rows of bodies are
-    /// numbered from `first_row` on.
-    void load(const World& world, std::uint32_t first_row, std::vector<BodyPair>& pairs);
+    /// Once a step. Removes from `pairs` (of bodies) those that are solved here, and adds to `ties`
+    /// what holds bodies of the system. Rows of bodies are numbered from `first_row` on.
+    void load(const World& world, std::uint32_t first_row, std::vector<BodyPair>& pairs,
+              ElasticTies& ties);
 
     bool empty() const { return contacts_.empty(); }
     std::uint32_t rows() const { return static_cast<std::uint32_t>(2 * bodies_.size()); }
@@ -112,7 +117,12 @@ public:
 
     /// Once a call of the system: velocities of bodies as they are, and without the system's
     /// impulses, [row of the system].
-    void find_targets(std::vector<Vector3d>& v, std::vector<Vector3d>& target) const;
+    void find_targets(std::vector<Vector3d>& v, std::vector<Vector3d>& target,
+                      const ElasticTies& ties) const;
+
+    /// (v, ω) of the bodies, out of [row of the system].
+    void gather(const std::vector<Vector3d>& rows, std::vector<Vector6d>& of_bodies) const;
+    void add_to_rows(const std::vector<Vector6d>& of_bodies, std::vector<Vector3d>& rows) const;
 
     /// Adds q to the forces on particles and bodies, [row of the system] times h [N s], and returns
     /// Ψ [J].
@@ -134,26 +144,22 @@ public:
     /// All p are 0 again; none push any more in this substep.
     void forget();
     void let_go();
-    /// Makes the impulses on the bodies those that take them from their targets to their
-    /// velocities, for the firmer a contact, the more a small error of velocities is one of its
-    /// impulse.
-    void match(const std::vector<Vector3d>& v, const std::vector<Vector3d>& target);
     /// Once a step: what the next one begins from.
     void store(World& world) const;
 
 private:
     void add_sheet_contacts(const World& world);
-    void find_members(const World& world, const std::vector<BodyPair>& pairs);
-    void take_bodies(const World& world, std::vector<BodyPair>& pairs);
+    void find_members(const World& world, const std::vector<BodyPair>& pairs,
+                      const std::vector<Tie>& ties);
+    bool is_member(const World& world, std::uint32_t body) const;
+    void take_bodies(const World& world, std::vector<BodyPair>& pairs, ElasticTies& ties);
+    void take_ties(const World& world, const std::vector<Tie>& found, ElasticTies& ties);
     void add(const World& world, Contact& contact, std::uint32_t a, std::uint32_t b);
     std::uint32_t body_of(const World& world, std::uint32_t body);
-    void find_reach();
     void take_kept(const World& world);
     void begin_bodies(const World& world, double h, Contact& contact) const;
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
     Vector3d velocity_of(const Contact& contact, const std::vector<Vector3d>& v) const;
-    Eigen::Matrix<double, 3, 6> motion_of(const Side& side) const;
-    bool factor_reach();
 
     bool has_friction_;
     bool takes_bodies_;  ///< contacts of bodies with each other are solved here, too
@@ -166,11 +172,8 @@ private:
     std::vector<std::uint8_t> belongs_;    ///< [pair of bodies] whether it can be solved here
     std::vector<std::uint8_t> is_member_;  ///< [world's body] whether it belongs here
     std::vector<ElasticImpulse> keys_;     ///< of contacts with sheets, sorted
-    std::vector<const ElasticImpulse*> now_, before_;    ///< those without a match so far
-    std::vector<double> resistance_;                     ///< [particle] [kg]
-    BlockCholesky::Pattern touching_, touching_before_;  ///< pairs of `bodies_`
-    BlockCholesky reach_;                                ///< of all impulses, see `match`
-    std::vector<Vector6d> missing_;  ///< [`bodies_`] impulse, and its moment over `size` [N s]
+    std::vector<const ElasticImpulse*> now_, before_;  ///< those without a match so far
+    std::vector<double> resistance_;                   ///< [particle] [kg]
 };
 
 }  // namespace plumb

@@ -98,7 +98,7 @@ ElasticContacts::ElasticContacts(const Plan& plan)
       takes_bodies_(plan.runs(Effect::exact_islands) && !plan.runs(Effect::shock_propagation)) {}
 
 void ElasticContacts::load(const World& world, std::uint32_t first_row,
-                           std::vector<BodyPair>& pairs) {
+                           std::vector<BodyPair>& pairs, ElasticTies& ties) {
     first_row_ = first_row;
     bodies_.clear(), contacts_.clear();
     contacts_.reserve(world.particle_contacts.found.capacity() + world.surface_contacts.capacity() +
@@ -106,8 +106,8 @@ void ElasticContacts::load(const World& world, std::uint32_t first_row,
     bodies_.reserve(world.bodies.size());
     body_of_.assign(world.bodies.size(), kNoIndex);
     add_sheet_contacts(world);
-    if (takes_bodies_ && !bodies_.empty()) take_bodies(world, pairs);
-    find_reach();
+    ties.clear();
+    if (takes_bodies_ && !bodies_.empty()) take_bodies(world, pairs, ties);
     take_kept(world);
 }
 
@@ -160,8 +160,9 @@ void ElasticContacts::add_sheet_contacts(const World& world) {
     }
 }
 
-/// What lies on or beside a body that touches a sheet belongs to it.
-void ElasticContacts::find_members(const World& world, const std::vector<BodyPair>& pairs) {
+/// What lies on or beside a body that touches a sheet belongs to it, and what is tied to it.
+void ElasticContacts::find_members(const World& world, const std::vector<BodyPair>& pairs,
+                                   const std::vector<Tie>& ties) {
     const std::size_t n = world.bodies.size();
     lowest_.resize(n), members_.assign(n, 0);
     std::iota(lowest_.begin(), lowest_.end(), 0u);
@@ -170,13 +171,23 @@ void ElasticContacts::find_members(const World& world, const std::vector<BodyPai
         return i;
     };
     const auto moves = [&](std::uint32_t i) { return world.bodies.inverse_mass[i] > 0; };
+    const auto unite = [&](std::uint32_t a, std::uint32_t b) {
+        a = lowest(a), b = lowest(b);
+        lowest_[std::max(a, b)] = std::min(a, b);
+    };
     belongs_.resize(pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const plumb::Contact& c = world.contacts.found[pairs[i].first];
         belongs_[i] = belongs(world, pairs[i]);
-        if (!moves(c.a) || !moves(c.b) || !belongs_[i]) continue;
-        const std::uint32_t a = lowest(c.a), b = lowest(c.b);
-        lowest_[std::max(a, b)] = std::min(a, b);
+        if (moves(c.a) && moves(c.b) && belongs_[i]) unite(c.a, c.b);
+    }
+    for (const Tie& tie : ties) {
+        std::uint32_t before = kNoIndex;
+        each_body(world, tie, [&](std::uint32_t body) {
+            if (body == kNoIndex || !moves(body)) return;
+            if (before != kNoIndex) unite(before, body);
+            before = body;
+        });
     }
     for (std::uint32_t i = 0; i < n; ++i) ++members_[lowest(i)];
     is_member_.assign(n, 0);
@@ -188,16 +199,20 @@ void ElasticContacts::find_members(const World& world, const std::vector<BodyPai
     }
 }
 
-void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pairs) {
-    find_members(world, pairs);
-    const auto is_member = [&](std::uint32_t i) {
-        return world.bodies.inverse_mass[i] > 0 && is_member_[i] != 0;
-    };
+bool ElasticContacts::is_member(const World& world, std::uint32_t body) const {
+    return body != kNoIndex && world.bodies.inverse_mass[body] > 0 && is_member_[body] != 0;
+}
+
+void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pairs,
+                                  ElasticTies& ties) {
+    const std::vector<Tie>& found = ties.find(world);
+    find_members(world, pairs, found);
+    take_ties(world, found, ties);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const BodyPair pair = pairs[i];
         const plumb::Contact& first = world.contacts.found[pair.first];
-        if ((is_member(first.a) || is_member(first.b)) && belongs_[i]) {
+        if ((is_member(world, first.a) || is_member(world, first.b)) && belongs_[i]) {
             for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
                 Contact c;
                 c.of = Source::bodies, c.source = k;
@@ -212,21 +227,21 @@ void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pai
     pairs.resize(kept);
 }
 
-/// The pattern of what `match` solves.
-void ElasticContacts::find_reach() {
-    std::swap(touching_, touching_before_);
-    touching_.clear();
-    for (auto* pairs : {&touching_, &touching_before_}) pairs->reserve(contacts_.capacity());
-    for (const Contact& c : contacts_)
-        if (c.sides[0].body != kNoIndex && c.sides[1].body != kNoIndex) {
-            const std::pair now(c.sides[0].body, c.sides[1].body);
-            if (touching_.empty() || touching_.back() != now) touching_.push_back(now);
-        }
-    missing_.reserve(bodies_.capacity());
-    missing_.resize(bodies_.size());
-    reach_.reserve(static_cast<std::uint32_t>(bodies_.capacity()));
-    if (reach_.rows() != bodies_.size() || touching_ != touching_before_)
-        reach_.analyse(static_cast<std::uint32_t>(bodies_.size()), touching_);
+void ElasticContacts::take_ties(const World& world, const std::vector<Tie>& found,
+                                ElasticTies& ties) {
+    for (const Tie& tie : found) {
+        TiedBodies at;
+        at.fill(kImmovable);
+        bool belongs = false;
+        each_body(world, tie, [&](std::uint32_t body) { belongs |= is_member(world, body); });
+        if (!belongs) continue;
+        std::size_t i = 0;
+        each_body(world, tie, [&](std::uint32_t body) {
+            if (is_member(world, body)) at[i] = body_of(world, body);
+            ++i;
+        });
+        ties.add(world, tie, at);
+    }
 }
 
 /// p of what touched in the step before. A point that has come to lie on the next triangle, or a

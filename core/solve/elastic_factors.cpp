@@ -72,6 +72,7 @@ bool ElasticFactors::make(ElasticParts& parts, const ParticlePlaces& x,
                           const ParticlePlaces& before, double h) {
     made_of_.places = x, made_of_.before = before;
     parts.contacts.list_stiffness(made_of_);
+    parts.ties.list_stiffness(made_of_);
     ++made_;
     return make_again(parts, h);
 }

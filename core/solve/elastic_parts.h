@@ -19,7 +19,8 @@ struct ElasticParts {
     Balloons balloons;
     std::vector<double> mass;  ///< [particle], 0 of what stays [kg]
     ElasticContacts contacts;
-    bool may_touch;  ///< whether there can be contacts
+    ElasticTies ties;  ///< of the bodies of these contacts
+    bool may_touch;    ///< whether there can be contacts
 
     std::uint32_t particles() const { return static_cast<std::uint32_t>(mass.size()); }
     std::uint32_t first_balloon_row() const { return particles(); }

@@ -63,7 +63,10 @@ ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
 }
 
 void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
-    if (parts_.may_touch) parts_.contacts.load(world, parts_.first_body_row(), pairs);
+    if (parts_.may_touch) {
+        parts_.contacts.load(world, parts_.first_body_row(), pairs, parts_.ties);
+        match_.load(parts_.contacts, parts_.ties);
+    }
     size_rows();
     factors_.begin_step(world, parts_, h_);
 }
@@ -71,6 +74,12 @@ void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
 void ElasticSystem::store(World& world) {
     factors_.store(world);
     parts_.contacts.store(world);
+}
+
+void ElasticSystem::store_ties(World& world) {
+    if (parts_.ties.empty()) return;
+    parts_.contacts.gather(v_, of_bodies_);
+    parts_.ties.store(of_bodies_, world);
 }
 
 /// Memory for as many attached rows as there may be.
@@ -105,6 +114,7 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     near_ = parts_.contacts.empty() ? 1 : kFirstRound;
     for (const auto& elements : parts_.elements) elements->begin(start_, h);
     parts_.contacts.begin(world, h, stiffness, recovery);
+    parts_.ties.begin(world, h);
     if (!parts_.contacts.empty()) {
         x_ = start_;
         find_elastic_forces();
@@ -140,6 +150,12 @@ void ElasticSystem::sum_forces() {
         energy_ += 0.5 * parts_.mass[i] * missing.squaredNorm();
     }
     energy_ += parts_.contacts.add_forces(target_, v_, force_);
+    if (!parts_.ties.empty()) {
+        parts_.contacts.gather(v_, of_bodies_);
+        on_bodies_.assign(of_bodies_.size(), Vector6d::Zero());
+        energy_ += parts_.ties.add_forces(of_bodies_, on_bodies_);
+        parts_.contacts.add_to_rows(on_bodies_, force_);
+    }
     for (std::size_t i = 0; i < x_.size(); ++i)
         if (parts_.mass[i] == 0) force_[i].setZero();
 }
@@ -183,12 +199,17 @@ double ElasticSystem::slope() const {
 /// factors have it. For the one has kinks, and across a fold the other is no guide.
 double ElasticSystem::share_of_way() {
     if (parts_.contacts.empty()) return 1;
+    const auto push_along = [this](double share) {
+        return parts_.contacts.push_along(share) + parts_.ties.push_along(share);
+    };
     parts_.contacts.begin_line(way_);
-    const double fall = -slope(), of_contacts = parts_.contacts.push_along(0);
+    parts_.contacts.gather(way_, of_bodies_);
+    parts_.ties.begin_line(of_bodies_);
+    const double fall = -slope(), of_contacts = push_along(0);
     const double bend =
         std::max(0.0, fall - stiffness_along(factors_.made_of(), parts_.first_body_row(), way_));
     const auto rise = [&](double share) {
-        return of_contacts - fall + share * bend - parts_.contacts.push_along(share);
+        return of_contacts - fall + share * bend - push_along(share);
     };
     Bracket line{0, 1, -fall, rise(1)};
     if (!(fall > 0) || line.at_high <= kFlat * fall) return 1;
@@ -293,9 +314,17 @@ bool ElasticSystem::descend() {
 
 void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 
+/// By how much that changes what a row of ties is asked for [m/s].
+double ElasticSystem::ask_ties() {
+    if (parts_.ties.empty()) return 0;
+    parts_.contacts.gather(v_, of_bodies_);
+    return parts_.ties.ask(of_bodies_);
+}
+
 /// Minima, each with the contacts' impulses of the one before, until they change it no more.
 void ElasticSystem::go_rounds() {
     is_settled_ = false;
+    ask_ties();
     find_forces();
     for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
         if (round > 0) sum_forces();
@@ -307,7 +336,8 @@ void ElasticSystem::go_rounds() {
         find_forces();
         // short of the minimum, forces of contacts are not near those that hold anything up
         if (!is_there) continue;
-        const double changed = parts_.contacts.take_forces();
+        const double changed =
+            std::max({parts_.contacts.take_forces(), parts_.ties.take_forces(), ask_ties()});
         is_settled_ = near_ <= 1 && changed <= kEnoughOfContacts * enough_;
         near_ = enough_ > 0 ? std::max(1.0, kShareOfContacts * changed / enough_) : 1;
     }
@@ -335,7 +365,8 @@ bool ElasticSystem::gains_energy() const {
     for (const ElasticContacts::Body& body : parts_.contacts.bodies()) mass += body.mass;
     const double before = 0.5 * product(target_, target_) + elastic_start_;
     const double now = 0.5 * product(v_, v_) + elastic_energy_;
-    return now > (1 + kGain) * before + parts_.contacts.driven_energy() + kPulled * mass * pull;
+    return now > (1 + kGain) * before + parts_.contacts.driven_energy() +
+                     parts_.ties.driven_energy() + kPulled * mass * pull;
 }
 
 void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
@@ -345,13 +376,13 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
         if (parts_.mass[i] > 0) target_[i] -= own_[i] / parts_.mass[i];
     }
     std::fill(v_.begin() + parts_.particles(), v_.end(), Vector3d::Zero());
-    parts_.contacts.find_targets(v_, target_);
+    parts_.contacts.find_targets(v_, target_, parts_.ties);
     if (is_first_) guess_rest();
     begin_ = v_;
     go_rounds();
     if (!parts_.contacts.empty() && gains_energy()) {
         // thrown by what held something up before, or by what Newton's method left
-        parts_.contacts.forget();
+        parts_.contacts.forget(), parts_.ties.forget();
         v_ = begin_;
         go_rounds();
         if (gains_energy()) {
@@ -360,7 +391,7 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
             go_rounds();
         }
     }
-    parts_.contacts.match(v_, target_);
+    match_.match(v_, target_, parts_.contacts, parts_.ties);
     for (std::size_t i = 0; i < x_.size(); ++i) {
         own_[i] = parts_.mass[i] * (v_[i] - target_[i]);
         velocity[i] = v_[i];

@@ -15,6 +15,7 @@
 #include "math/anderson.h"
 #include "solve/elastic_factors.h"
 #include "solve/elastic_parts.h"
+#include "solve/impulse_match.h"
 
 #include <vector>
 
@@ -28,6 +29,9 @@ public:
     void load(const World& world, std::vector<BodyPair>& pairs);
     void store(World& world);
 
+    /// Once a substep, after it: impulses of ties, into the world's tables.
+    void store_ties(World& world);
+
     /// Once a substep of length h [s], before any call of `solve`; overlap of contacts as of
     /// `ElasticContacts::begin`.
     void begin(const World& world, double h, double stiffness, double recovery);
@@ -38,6 +42,8 @@ public:
 
     ElasticContacts& contacts() { return parts_.contacts; }
     const ElasticContacts& contacts() const { return parts_.contacts; }
+    ElasticTies& ties() { return parts_.ties; }
+    const ElasticTies& ties() const { return parts_.ties; }
 
 private:
     /// How far a direction leads: the greatest velocity [m/s], and the root of twice the energy.
@@ -56,6 +62,7 @@ private:
     void search_line();
     void guess_rest();
     bool descend();
+    double ask_ties();
     void go_rounds();
     bool has_moved(const std::vector<Vector3d>& velocity) const;
     bool gains_energy() const;
@@ -64,6 +71,7 @@ private:
 
     ElasticParts parts_;
     ElasticFactors factors_;
+    ImpulseMatch match_;
     std::uint32_t rounds_ = 0;  ///< of a call, at the most
     double h_ = 0;
     double enough_ = 0, enough_size_ = 0;  ///< at the end, of a `Move`
@@ -78,6 +86,7 @@ private:
     /// of a call.
     std::vector<Vector3d> v_, target_, best_, begin_;
     std::vector<Vector3d> force_, direction_, way_, before_;  ///< [row of the system]
+    std::vector<Vector6d> of_bodies_, on_bodies_;             ///< [body of the system] v; forces
     Anderson earlier_;                                        ///< steps with these factors
     double least_ = 0;                                        ///< that energy [J]
     double energy_ = 0;                                       ///< at the velocities now [J],

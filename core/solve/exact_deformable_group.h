@@ -30,9 +30,10 @@ public:
     Stage stage() const override { return Stage::particles; }
     bool empty() const override { return velocity_.empty(); }
 
-    /// Once a step: removes from `pairs` (of bodies) those that it solves.
-    void take(const World& world, std::vector<BodyPair>& pairs) {
+    /// Once a step: removes from `pairs` (of bodies) those that it solves, and marks such ties.
+    void take(const World& world, std::vector<BodyPair>& pairs, SolvedTies& solved) {
         system_.load(world, pairs);
+        system_.ties().mark(solved);
         touches_.assign(velocity_.size(), 0);
         for (const ElasticContacts::Contact& c : system_.contacts().contacts())
             if (c.sides[1].body == kNoIndex)
@@ -70,6 +71,7 @@ public:
         }
     }
 
+    void end_substep(World& world) override { system_.store_ties(world); }
     void end_step(World& world) override { system_.store(world); }
 
 private:
@@ -96,6 +98,16 @@ private:
                 apply_impulse<double>(moved, body.inverse, side.arm,
                                       ElasticContacts::kSign[i] * change);
                 add_change(rows, body.table_row, moved);
+            }
+        }
+        ElasticTies& ties = system_.ties();
+        for (std::size_t i = 0; i < ties.rows().size(); ++i) {
+            const double change = ties.impulses()[i] - ties.applied()[i];
+            ties.applied()[i] = ties.impulses()[i];
+            for (const RowSide& side : ties.rows()[i].sides()) {
+                const ElasticContacts::Body& body = bodies[side.body];
+                add_change(rows, body.table_row,
+                           ElasticContacts::change_by(body, change * side.on));
             }
         }
     }

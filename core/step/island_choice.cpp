@@ -48,7 +48,8 @@ double stuck_share(const Settings& s) {
 
 }  // namespace
 
-const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs) {
+const ContactIslands& IslandChoice::find(const World& world, const std::vector<BodyPair>& pairs,
+                                         const SolvedTies& solved) {
     stuck_share_ = stuck_share(world.settings);
     jammed_.clear();
     if (!pairs.empty() || has_seeds_) ties_.find(world);
@@ -58,7 +59,7 @@ const ContactIslands& IslandChoice::find(const World& world, const std::vector<B
     found_.find(pairs, ties_.rows(), ties_.first_seed(), is_empty ? 0 : world.dynamic_count);
     driven_.find(world, pairs, ties_.all(), found_);
     if (is_empty) return found_;
-    obstacles_.find(world, ties_.all());
+    obstacles_.find(world, ties_.all(), solved);
     bears_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     return found_;
 }

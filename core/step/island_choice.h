@@ -43,8 +43,10 @@ inline constexpr double kTreeFollowed = 2, kHeapFollowed = 0.1;
 
 class IslandChoice {
 public:
-    /// Once a step, before the others: finds the islands that pairs and ties make.
-    const ContactIslands& find(const World& world, const std::vector<BodyPair>& pairs);
+    /// Once a step, before the others: finds the islands that pairs and ties make. `solved`: ties
+    /// that others solve already, whose bodies are left to them.
+    const ContactIslands& find(const World& world, const std::vector<BodyPair>& pairs,
+                               const SolvedTies& solved);
 
     /// Those that it found.
     const ContactIslands& islands() const { return found_; }

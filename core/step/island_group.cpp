@@ -35,8 +35,8 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers, SolvedTies& solved)
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0, costly_ = 0;
-    set_aside_.clear(), columns_.clear(), solved_.clear();
-    const ContactIslands& found = choice_.find(world, pairs);
+    set_aside_.clear(), columns_.clear();
+    const ContactIslands& found = choice_.find(world, pairs, solved_);
     is_taken_.assign(pairs.size(), 0);
     for (const ContactIsland& from : found.islands()) {
         const IslandWay way = choice_.way_of(world, from, pairs);
@@ -146,7 +146,7 @@ void IslandGroup::fill_columns(const World& world, ExactIsland& island, const Co
         std::size_t k = 0;
         each_body(world, tie, [&](std::uint32_t body) { at[k++] = place(body); });
         columns_.ties.add(world, tie, at);
-        solved_[tie] = 1;
+        solved_.mark(tie);
     }
     island.last_body = static_cast<std::uint32_t>(bodies.size());
     island.last_point = static_cast<std::uint32_t>(columns_.points.size());

@@ -16,7 +16,8 @@ constexpr double kRestingTurn = 0.005;
 
 }  // namespace
 
-void IslandObstacles::find(const World& world, const std::vector<Tie>& ties) {
+void IslandObstacles::find(const World& world, const std::vector<Tie>& ties,
+                           const SolvedTies& solved) {
     marks_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
     const auto mark = [&](const Tie& tie, std::uint8_t obstacle) {
         each_body(world, tie, [&](std::uint32_t body) { put(world, body, obstacle); });
@@ -25,6 +26,7 @@ void IslandObstacles::find(const World& world, const std::vector<Tie>& ties) {
     const double h = substep_of(world.settings);
     const bool iterated = world.settings.joints == JointMethod::iterate;
     for (const Tie& tie : ties) {
+        if (solved.has(tie)) mark(tie, kBeyond);
         if (tie.kind == TieKind::coupling) continue;
         const bool is_joint = tie.kind == TieKind::joint;
         const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)

@@ -20,8 +20,9 @@ public:
     static constexpr std::uint8_t kRests = 8;    ///< a tie could not be closed (IslandRest)
     static constexpr std::uint8_t kPulled = 16;  ///< a joint pulls hard, and is at rest
 
-    /// Once a step: marks the bodies of what is in the way.
-    void find(const World& world, const std::vector<Tie>& ties);
+    /// Once a step: marks the bodies of what is in the way, and those of ties that are solved
+    /// elsewhere.
+    void find(const World& world, const std::vector<Tie>& ties, const SolvedTies& solved);
 
     /// All that bodies of an island are marked with.
     std::uint8_t of(const ContactIslands& found, const ContactIsland& island) const;

@@ -60,8 +60,9 @@ public:
 
     void load(const World& world) override {
         IslandGroup* exact = islands_ ? &*islands_ : nullptr;
+        solved_ties_.clear();
         contacts_->load(world, nullptr, exact, [&](std::vector<BodyPair>& pairs) {
-            if (exact_deformables_) exact_deformables_->take(world, pairs);
+            if (exact_deformables_) exact_deformables_->take(world, pairs, solved_ties_);
         });
         if (has_impacts_) energy_.load(world, contacts_->pairs());
         for (const auto& group : groups_) group->load(world);

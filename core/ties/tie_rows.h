@@ -80,6 +80,7 @@ public:
         return std::span(rows_).subspan(range.first_row, range.last_row - range.first_row);
     }
     std::span<TieRow> rows() { return rows_; }
+    std::span<const TieRow> rows() const { return rows_; }
 
     /// Ties are not linear: asks the rows to close what is open at the preview of the velocities.
     /// Returns how far the worst is open [m], [rad].

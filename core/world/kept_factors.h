@@ -31,12 +31,23 @@ struct KeptFactors {
         bool operator==(const Contact&) const = default;
     };
 
+    /// A row of a tie that held, of up to four bodies.
+    struct Row {
+        std::uint32_t count;                ///< bodies
+        std::array<std::uint32_t, 4> body;  ///< in `bodies`
+        std::array<Vector6d, 4> on;         ///< (force, torque) of an impulse of 1
+        double stiffness;                   ///< against a change of its rate [kg], [kg m²]
+
+        bool operator==(const Row&) const = default;
+    };
+
     std::vector<Vector3d> places;  ///< [particle], or none [m]
     std::vector<Vector3d> before;  ///< those from which a step had led there
     std::vector<Body> bodies;
     std::vector<Contact> contacts;
+    std::vector<Row> rows;
 
-    void clear() { places.clear(), before.clear(), bodies.clear(), contacts.clear(); }
+    void clear() { places.clear(), before.clear(), bodies.clear(), contacts.clear(), rows.clear(); }
     bool operator==(const KeptFactors&) const = default;
 };
 

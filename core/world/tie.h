@@ -61,10 +61,14 @@ struct SolvedTies {
           links(world.links.size(), 0),
           couplings(world.joints.couplings.size(), 0) {}
 
-    std::uint8_t& operator[](const Tie& tie) {
-        if (tie.kind == TieKind::joint) return joints[tie.index];
-        return tie.kind == TieKind::link ? links[tie.index] : couplings[tie.index];
+    template <class Solved>
+    static auto& column(Solved& solved, const Tie& tie) {
+        if (tie.kind == TieKind::joint) return solved.joints;
+        return tie.kind == TieKind::link ? solved.links : solved.couplings;
     }
+
+    void mark(const Tie& tie) { column(*this, tie)[tie.index] = 1; }
+    bool has(const Tie& tie) const { return column(*this, tie)[tie.index] != 0; }
     bool any_joint() const { return std::find(joints.begin(), joints.end(), 1) != joints.end(); }
     void clear() {
         for (auto* column : {&joints, &links, &couplings})

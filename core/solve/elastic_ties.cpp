@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+#include "solve/elastic_ties.h"
+
+#include "constraints/substep_time.h"
+#include "ties/tie_load.h"
+#include "ties/tie_work.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plumb {
+namespace {
+
+/// A row is so many times as firm as its effective mass: a joint holds in any case, and is found in
+/// a round or two; what drives an axis may let go, as contacts may, and is searched for like them.
+constexpr double kTieFirm = 1000, kDriveFirm = 5;
+
+/// What turns farther within a substep [rad], or swings under a harder pull (the square of h ω), is
+/// iterated: levers of the substep's start say nothing of its end.
+constexpr double kFarTurn = 1, kHardPull = 2;
+
+}  // namespace
+
+ElasticTies::ElasticTies(const Plan& plan)
+    : takes_ties_(plan.runs(Effect::exact_islands) && !plan.runs(Effect::shock_propagation)) {}
+
+const std::vector<Tie>& ElasticTies::find(const World& world) {
+    found_.clear();
+    if (!takes_ties_) return found_;
+    list_.find(world);
+    const double h = substep_of(world.settings);
+    const bool iterated = world.settings.joints == JointMethod::iterate;
+    for (const Tie& tie : list_.all()) {
+        const bool is_joint = tie.kind == TieKind::joint;
+        if (is_joint && iterated) continue;
+        if (tie.kind != TieKind::coupling) {
+            const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)
+                                          : load_of(world, world.links[tie.index], h);
+            if (load.turn > kFarTurn || load.pull > kHardPull) continue;
+        } else if (iterated) {
+            continue;
+        }
+        found_.push_back(tie);
+    }
+    return found_;
+}
+
+void ElasticTies::clear() {
+    rows_.clear();
+    rows_.begin_range(range_), rows_.end_range(range_);
+    for (auto* column : {&impulse_, &applied_, &rate_, &way_, &slope_}) column->clear();
+    laws_.clear(), pairs_.clear();
+    driven_energy_ = 0;
+}
+
+void ElasticTies::add(const World& world, const Tie& tie, const TiedBodies& at) {
+    rows_.add(world, tie, at);
+    rows_.end_range(range_);
+    for (std::size_t i = 0; i < at.size(); ++i)
+        for (std::size_t k = 0; k < i; ++k)
+            if (at[i] != kImmovable && at[k] != kImmovable && at[i] != at[k])
+                pairs_.emplace_back(at[k], at[i]);
+}
+
+void ElasticTies::mark(SolvedTies& solved) const {
+    rows_.each(range_, [&](const Tie& tie) { solved.mark(tie); });
+}
+
+void ElasticTies::begin(const World& world, double h) {
+    h_ = h;
+    rows_.begin();
+    rows_.begin(world, substep_time(world, h), range_);
+    const std::size_t n = rows_.rows().size();
+    for (auto* column : {&impulse_, &applied_, &rate_, &way_, &slope_}) column->assign(n, 0);
+    for (TieRow& row : rows_.rows()) {
+        row.most = std::numeric_limits<double>::infinity();
+        if (!world.settings.warm_start) row.impulse = 0;
+    }
+    driven_energy_ = 0;
+    rows_.each(range_, [&](const Tie& tie) {
+        if (tie.kind == TieKind::joint) driven_energy_ += most_work(world, tie.index, h);
+    });
+}
+
+double ElasticTies::ask(std::span<const Vector6d> velocity) {
+    const std::span<TieRow> rows = rows_.rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) way_[i] = rows[i].wanted;
+    rows_.ask(range_, velocity);
+    laws_.clear();
+    double most = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const TieRow& row = rows[i];
+        laws_.emplace_back(row, (row.drive ? kDriveFirm : kTieFirm) * row.mass);
+        if (!row.drive) most = std::max(most, row.length * std::abs(row.wanted - way_[i]));
+    }
+    return most;
+}
+
+double ElasticTies::add_forces(std::span<const Vector6d> velocity, std::span<Vector6d> force) {
+    const std::span<const TieRow> rows = rows_.rows();
+    double energy = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const RowLaw& law = laws_[i];
+        rate_[i] = rate_of(rows[i], velocity);
+        const RowAnswer answer = answer_of(law, rate_[i]);
+        impulse_[i] = answer.impulse, slope_[i] = answer.slope;
+        add_impulse(rows[i], answer.impulse, force);
+        // of a spring of this stiffness whose pull is bounded
+        const double pull = law.impulse + law.stiffness * (law.wanted - rate_[i]),
+                     beyond = pull - answer.impulse;
+        energy += 0.5 * (pull * pull - beyond * beyond) / law.stiffness;
+    }
+    return energy;
+}
+
+void ElasticTies::begin_line(std::span<const Vector6d> way) {
+    const std::span<const TieRow> rows = rows_.rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) way_[i] = rate_of(rows[i], way);
+}
+
+double ElasticTies::push_along(double share) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < laws_.size(); ++i)
+        sum += answer_of(laws_[i], rate_[i] + share * way_[i]).impulse * way_[i];
+    return sum;
+}
+
+void ElasticTies::list_stiffness(KeptFactors& made_of) const {
+    made_of.rows.clear();
+    for (std::size_t i = 0; i < laws_.size(); ++i) {
+        if (slope_[i] == 0) continue;
+        const TieRow& row = rows_.rows()[i];
+        KeptFactors::Row& kept = made_of.rows.emplace_back();
+        kept.count = row.count, kept.stiffness = slope_[i];
+        kept.body.fill(kNoIndex), kept.on.fill(Vector6d::Zero());
+        for (std::uint32_t k = 0; k < row.count; ++k)
+            kept.body[k] = row.side[k].body, kept.on[k] = row.side[k].on;
+    }
+}
+
+double ElasticTies::take_forces() {
+    const std::span<TieRow> rows = rows_.rows();
+    double most = 0;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const double changed = (impulse_[i] - rows[i].impulse) / laws_[i].stiffness;
+        most = std::max(most, rows[i].length * std::abs(changed));
+        rows[i].impulse = impulse_[i];
+    }
+    return most;
+}
+
+void ElasticTies::forget() {
+    for (TieRow& row : rows_.rows()) row.impulse = 0;
+}
+
+void ElasticTies::store(std::span<const Vector6d> velocity, World& world) const {
+    rows_.store_impulses(range_, velocity, world);
+}
+
+}  // namespace plumb

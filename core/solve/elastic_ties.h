@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+/// Joints, links and couplings of bodies that touch sheets, as part of the elastic system.
+///
+/// Where a doll lies on a sheet, its limbs are held by its joints and by the sheet. Solved in turn,
+/// neither lets the other get anywhere: the doll's elbow turns past its limit while the sheet holds
+/// its arm. So rows of ties (ties/tie_row.h) are terms of what the system minimises, as those of
+/// its contacts are, with the impulses that have been found so far and what they are firm by.
+#pragma once
+
+#include "effects/plan.h"
+#include "math/block_cholesky.h"
+#include "ties/tie_list.h"
+#include "ties/tie_rows.h"
+#include "world/kept_factors.h"
+
+#include <span>
+#include <vector>
+
+namespace plumb {
+
+class ElasticTies {
+public:
+    explicit ElasticTies(const Plan& plan);
+
+    // once a step
+
+    /// Those of the world that can be solved here, each as good as any other.
+    const std::vector<Tie>& find(const World& world);
+    /// Forgets those of the step before; adds one of them, whose bodies are `at` of the system's.
+    void clear();
+    void add(const World& world, const Tie& tie, const TiedBodies& at);
+
+    bool empty() const { return range_.empty(); }
+    /// Marks those that were added.
+    void mark(SolvedTies& solved) const;
+    /// Adds the pairs of bodies of the system that they hold together.
+    void add_pairs(BlockCholesky::Pattern& pairs) const {
+        pairs.insert(pairs.end(), pairs_.begin(), pairs_.end());
+    }
+
+    // once a substep of length h [s]
+
+    /// Rows at its start, with the impulses of the one before.
+    void begin(const World& world, double h);
+
+    // velocities (v, ω) of the system's bodies, [body of the system]
+
+    /// Asks the rows to close what is open at the preview of the velocities. Returns by how much
+    /// that changes what the worst is asked for [m/s].
+    double ask(std::span<const Vector6d> velocity);
+
+    /// Finds the impulses at these velocities, adds them to (force, torque) of the bodies [N s],
+    /// [N m s], and returns what they contribute to the energy, about [J].
+    double add_forces(std::span<const Vector6d> velocity, std::span<Vector6d> force);
+
+    /// As of ElasticContacts.
+    void begin_line(std::span<const Vector6d> way);
+    double push_along(double share) const;
+    void list_stiffness(KeptFactors& made_of) const;
+    double take_forces();
+    /// What ties can give by themselves, about [J]: drives do work, and what is open closes.
+    double driven_energy() const { return driven_energy_; }
+    void forget();
+
+    /// The rows, whose impulses are λ₀, the answers at the last forces, and what velocities have
+    /// felt of them.
+    std::span<const TieRow> rows() const { return rows_.rows(); }
+    std::vector<double>& impulses() { return impulse_; }
+    const std::vector<double>& impulses() const { return impulse_; }
+    std::vector<double>& applied() { return applied_; }
+    const std::vector<double>& applied() const { return applied_; }
+
+    /// Impulses of the substep that ends at these velocities, into the world's tables.
+    void store(std::span<const Vector6d> velocity, World& world) const;
+
+private:
+    bool takes_ties_;
+    TieList list_;
+    std::vector<Tie> found_;
+    BlockCholesky::Pattern pairs_;
+    TieRows rows_;
+    TieRange range_;
+    std::vector<RowLaw> laws_;                ///< [row]
+    std::vector<double> impulse_;             ///< [row] λ at the last forces [N s], [N m s]
+    std::vector<double> applied_;             ///< [row]
+    std::vector<double> rate_, way_, slope_;  ///< [row] at the last forces; of the line
+    double h_ = 0, driven_energy_ = 0;
+};
+
+}  // namespace plumb
