@@ -11,7 +11,7 @@ set(PLUMB_CORE_SOURCES
   contacts/bend.cpp contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_room.cpp contacts/detect.cpp
   contacts/detect_particles.cpp contacts/follow_contacts.cpp contacts/impacts.cpp contacts/match_contacts.cpp contacts/renew_contacts.cpp contacts/reuse_contacts.cpp
   contacts/contact_reach.cpp contacts/ghost_contacts.cpp contacts/ground_touch.cpp contacts/rims.cpp contacts/still_ground.cpp contacts/surface_detector.cpp
-  solve/balloons.cpp solve/contact_stiffness.cpp solve/elastic_contacts.cpp solve/elastic_contacts_load.cpp solve/elastic_factors.cpp solve/elastic_parts.cpp solve/elastic_system.cpp solve/elastic_ties.cpp solve/impulse_match.cpp solve/island_residuals.cpp
+  solve/balloons.cpp solve/contact_stiffness.cpp solve/elastic_contacts.cpp solve/elastic_contacts_load.cpp solve/elastic_factors.cpp solve/elastic_parts.cpp solve/elastic_system.cpp solve/elastic_tie_choice.cpp solve/elastic_ties.cpp solve/impulse_match.cpp solve/island_residuals.cpp
   solve/patch_tree.cpp
   step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/driven_islands.cpp step/fast_joints.cpp step/gaping_joints.cpp step/integrate.cpp
   step/island_choice.cpp step/island_closing.cpp step/island_columns.cpp step/island_demands.cpp step/island_energy.cpp step/island_group.cpp step/island_newton.cpp

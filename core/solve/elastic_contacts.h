@@ -23,6 +23,7 @@
 
 #include "constraints/connector.h"
 #include "effects/plan.h"
+#include "math/disjoint_sets.h"
 #include "math/sparse_ldlt.h"
 #include "schedule/colouring.h"
 #include "solve/elastic_ties.h"
@@ -111,9 +112,9 @@ public:
     /// How the elements that are in the system resist a push on each particle [kg].
     void weigh(const SparseLdlt& system);
 
-    /// Once a substep of length h [s]: gaps and arms. Of old overlap, `stiffness` is pushed out,
-    /// and no more than `recovery` [m] of it counts.
-    void begin(const World& world, double h, double stiffness, double recovery);
+    /// Once a substep of length h [s]: gaps and arms, and rows of `ties`. Of old overlap,
+    /// `stiffness` is pushed out, and no more than `recovery` [m] of it counts.
+    void begin(const World& world, double h, double stiffness, double recovery, ElasticTies& ties);
 
     /// Once a call of the system: velocities of bodies as they are, and without the system's
     /// impulses, [row of the system].
@@ -158,6 +159,7 @@ private:
     std::uint32_t body_of(const World& world, std::uint32_t body);
     void take_kept(const World& world);
     void begin_bodies(const World& world, double h, Contact& contact) const;
+    void begin_masses(const World& world, double h, ElasticTies& ties);
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
     Vector3d velocity_of(const Contact& contact, const std::vector<Vector3d>& v) const;
 
@@ -166,8 +168,9 @@ private:
     std::uint32_t first_row_ = 0;
     std::vector<Body> bodies_;
     std::vector<Contact> contacts_;
+    std::vector<SolvedBody> tied_;         ///< [`bodies_`] with what their ties make of them
     std::vector<std::uint32_t> body_of_;   ///< [world's body] in `bodies_`
-    std::vector<std::uint32_t> lowest_;    ///< [world's body] a lower one of its group, or itself
+    DisjointSets groups_;                  ///< of the world's bodies
     std::vector<std::uint32_t> members_;   ///< [lowest of a group] how many it has
     std::vector<std::uint8_t> belongs_;    ///< [pair of bodies] whether it can be solved here
     std::vector<std::uint8_t> is_member_;  ///< [world's body] whether it belongs here

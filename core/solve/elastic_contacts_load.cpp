@@ -5,7 +5,6 @@
 #include "solve/elastic_contacts.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace plumb {
@@ -164,37 +163,28 @@ void ElasticContacts::add_sheet_contacts(const World& world) {
 void ElasticContacts::find_members(const World& world, const std::vector<BodyPair>& pairs,
                                    const std::vector<Tie>& ties) {
     const std::size_t n = world.bodies.size();
-    lowest_.resize(n), members_.assign(n, 0);
-    std::iota(lowest_.begin(), lowest_.end(), 0u);
-    const auto lowest = [&](std::uint32_t i) {
-        while (lowest_[i] != i) i = lowest_[i] = lowest_[lowest_[i]];
-        return i;
-    };
+    groups_.reset(n), members_.assign(n, 0);
     const auto moves = [&](std::uint32_t i) { return world.bodies.inverse_mass[i] > 0; };
-    const auto unite = [&](std::uint32_t a, std::uint32_t b) {
-        a = lowest(a), b = lowest(b);
-        lowest_[std::max(a, b)] = std::min(a, b);
-    };
     belongs_.resize(pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const plumb::Contact& c = world.contacts.found[pairs[i].first];
         belongs_[i] = belongs(world, pairs[i]);
-        if (moves(c.a) && moves(c.b) && belongs_[i]) unite(c.a, c.b);
+        if (moves(c.a) && moves(c.b) && belongs_[i]) groups_.unite(c.a, c.b);
     }
     for (const Tie& tie : ties) {
         std::uint32_t before = kNoIndex;
         each_body(world, tie, [&](std::uint32_t body) {
             if (body == kNoIndex || !moves(body)) return;
-            if (before != kNoIndex) unite(before, body);
+            if (before != kNoIndex) groups_.unite(before, body);
             before = body;
         });
     }
-    for (std::uint32_t i = 0; i < n; ++i) ++members_[lowest(i)];
+    for (std::uint32_t i = 0; i < n; ++i) ++members_[groups_.lowest(i)];
     is_member_.assign(n, 0);
     const std::uint32_t most = std::min(kMostBodies, world.settings.exact_islands);
-    for (const Body& body : bodies_) is_member_[lowest(body.index)] = 1;
+    for (const Body& body : bodies_) is_member_[groups_.lowest(body.index)] = 1;
     for (std::uint32_t i = 0; i < n; ++i) {
-        const std::uint32_t group = lowest(i);
+        const std::uint32_t group = groups_.lowest(i);
         is_member_[i] = is_member_[group] && members_[group] <= most;
     }
 }

@@ -11,7 +11,7 @@ ElasticParts elastic_parts(const World& world, const Plan& plan) {
         Balloons(world),
         {},
         ElasticContacts(plan),
-        ElasticTies(plan),
+        {},
         has_elastic_contacts(plan)};
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace plumb {
 namespace {
@@ -30,8 +31,12 @@ constexpr std::uint32_t kRounds = 10, kLeastRounds = 2;
 /// is enough otherwise.
 constexpr double kEnoughOfContacts = 10;
 /// Until then, as far as this share of what they changed in the round before is near enough to a
-/// minimum, and in the first round this many times as much as otherwise.
-constexpr double kShareOfContacts = 0.1, kFirstRound = 10;
+/// minimum, but no more than kRoughest times as much as otherwise, and kFirstRound times at first.
+constexpr double kShareOfContacts = 0.1, kFirstRound = 10, kRoughest = 100;
+
+/// Ties are asked to close what is open as long as each round asks for no more than this share of
+/// what the one before did.
+constexpr double kClosing = 0.8;
 
 /// A call that has gained more than this share of the energy before is not taken; nor one in which
 /// points that others move at v gave all that hangs on them more than this times m v².
@@ -46,6 +51,10 @@ constexpr double kGood = 0.9;
 
 /// What was foreseen from earlier steps is not taken where this times as much is left at its end.
 constexpr double kTooMuch = 2;
+
+/// Kept factors that lead no farther than this share of the way are of contacts and joints that
+/// were elsewhere.
+constexpr double kShort = 0.1;
 
 /// A line is searched until the slope is this share of that at its start.
 constexpr double kFlat = 0.2;
@@ -113,8 +122,7 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     enough_size_ = kEnoughOfMotion * std::sqrt(motion);
     near_ = parts_.contacts.empty() ? 1 : kFirstRound;
     for (const auto& elements : parts_.elements) elements->begin(start_, h);
-    parts_.contacts.begin(world, h, stiffness, recovery);
-    parts_.ties.begin(world, h);
+    parts_.contacts.begin(world, h, stiffness, recovery, parts_.ties);
     if (!parts_.contacts.empty()) {
         x_ = start_;
         find_elastic_forces();
@@ -278,6 +286,12 @@ bool ElasticSystem::descend() {
         std::swap(before_, direction_);
         before_step_ = x_;
         const double share = share_of_way();
+        if (share < kShort && !are_new && steps == 0) {
+            factors_.drop();
+            known = false;
+            std::swap(before_, direction_);
+            continue;
+        }
         if (share < 1)
             for (Vector3d& way : way_) way *= share;
         advance(1);
@@ -324,6 +338,8 @@ double ElasticSystem::ask_ties() {
 /// Minima, each with the contacts' impulses of the one before, until they change it no more.
 void ElasticSystem::go_rounds() {
     is_settled_ = false;
+    double asked = std::numeric_limits<double>::infinity();
+    bool closes = true;
     ask_ties();
     find_forces();
     for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
@@ -336,10 +352,14 @@ void ElasticSystem::go_rounds() {
         find_forces();
         // short of the minimum, forces of contacts are not near those that hold anything up
         if (!is_there) continue;
-        const double changed =
-            std::max({parts_.contacts.take_forces(), parts_.ties.take_forces(), ask_ties()});
+        double changed = std::max(parts_.contacts.take_forces(), parts_.ties.take_forces());
+        if (closes) {
+            const double before = std::exchange(asked, ask_ties());
+            closes = asked <= kClosing * before;
+            changed = std::max(changed, asked);
+        }
         is_settled_ = near_ <= 1 && changed <= kEnoughOfContacts * enough_;
-        near_ = enough_ > 0 ? std::max(1.0, kShareOfContacts * changed / enough_) : 1;
+        near_ = enough_ > 0 ? std::clamp(kShareOfContacts * changed / enough_, 1.0, kRoughest) : 1;
     }
 }
 
@@ -389,6 +409,11 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
             parts_.contacts.let_go();
             v_ = begin_;
             go_rounds();
+            if (gains_energy()) {
+                parts_.ties.let_go();
+                v_ = begin_;
+                go_rounds();
+            }
         }
     }
     match_.match(v_, target_, parts_.contacts, parts_.ties);

@@ -2,7 +2,6 @@
 #include "solve/elastic_ties.h"
 
 #include "constraints/substep_time.h"
-#include "ties/tie_load.h"
 #include "ties/tie_work.h"
 
 #include <algorithm>
@@ -12,39 +11,12 @@
 namespace plumb {
 namespace {
 
-/// A row is so many times as firm as its effective mass: a joint holds in any case, and is found in
-/// a round or two; what drives an axis may let go, as contacts may, and is searched for like them.
-constexpr double kTieFirm = 1000, kDriveFirm = 5;
-
-/// What turns farther within a substep [rad], or swings under a harder pull (the square of h ω), is
-/// iterated: levers of the substep's start say nothing of its end.
-constexpr double kFarTurn = 1, kHardPull = 2;
+/// How firm rows are. What takes motion away holds in any case: so many times as firm as all that
+/// is tied is heavy, it is found in a round or two, also where light links bear a heavy load. What
+/// drives an axis may let go, as contacts may: so many times its effective mass.
+constexpr double kTieFirm = 100, kDriveFirm = 5;
 
 }  // namespace
-
-ElasticTies::ElasticTies(const Plan& plan)
-    : takes_ties_(plan.runs(Effect::exact_islands) && !plan.runs(Effect::shock_propagation)) {}
-
-const std::vector<Tie>& ElasticTies::find(const World& world) {
-    found_.clear();
-    if (!takes_ties_) return found_;
-    list_.find(world);
-    const double h = substep_of(world.settings);
-    const bool iterated = world.settings.joints == JointMethod::iterate;
-    for (const Tie& tie : list_.all()) {
-        const bool is_joint = tie.kind == TieKind::joint;
-        if (is_joint && iterated) continue;
-        if (tie.kind != TieKind::coupling) {
-            const TieLoad load = is_joint ? load_of(world, world.joints.joints[tie.index], h)
-                                          : load_of(world, world.links[tie.index], h);
-            if (load.turn > kFarTurn || load.pull > kHardPull) continue;
-        } else if (iterated) {
-            continue;
-        }
-        found_.push_back(tie);
-    }
-    return found_;
-}
 
 void ElasticTies::clear() {
     rows_.clear();
@@ -68,7 +40,14 @@ void ElasticTies::mark(SolvedTies& solved) const {
 }
 
 void ElasticTies::begin(const World& world, double h) {
-    h_ = h;
+    h_ = h, holds_ = true;
+    mass_ = 0;
+    rows_.each(range_, [&](const Tie& tie) {
+        each_body(world, tie, [&](std::uint32_t body) {
+            if (body != kNoIndex && world.bodies.inverse_mass[body] > 0)
+                mass_ += world.bodies.mass[body];
+        });
+    });
     rows_.begin();
     rows_.begin(world, substep_time(world, h), range_);
     const std::size_t n = rows_.rows().size();
@@ -91,7 +70,9 @@ double ElasticTies::ask(std::span<const Vector6d> velocity) {
     double most = 0;
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const TieRow& row = rows[i];
-        laws_.emplace_back(row, (row.drive ? kDriveFirm : kTieFirm) * row.mass);
+        const double firm = std::max(row.mass, mass_ * row.length * row.length);
+        RowLaw& law = laws_.emplace_back(row, row.drive ? kDriveFirm * row.mass : kTieFirm * firm);
+        if (!holds_) law = RowLaw(TieRow(), 1);
         if (!row.drive) most = std::max(most, row.length * std::abs(row.wanted - way_[i]));
     }
     return most;

@@ -7,9 +7,8 @@
 /// its contacts are, with the impulses that have been found so far and what they are firm by.
 #pragma once
 
-#include "effects/plan.h"
 #include "math/block_cholesky.h"
-#include "ties/tie_list.h"
+#include "solve/elastic_tie_choice.h"
 #include "ties/tie_rows.h"
 #include "world/kept_factors.h"
 
@@ -20,12 +19,10 @@ namespace plumb {
 
 class ElasticTies {
 public:
-    explicit ElasticTies(const Plan& plan);
-
     // once a step
 
-    /// Those of the world that can be solved here, each as good as any other.
-    const std::vector<Tie>& find(const World& world);
+    /// Those of the world that can be solved here.
+    const std::vector<Tie>& find(const World& world) { return choice_.find(world); }
     /// Forgets those of the step before; adds one of them, whose bodies are `at` of the system's.
     void clear();
     void add(const World& world, const Tie& tie, const TiedBodies& at);
@@ -45,6 +42,11 @@ public:
 
     // velocities (v, ω) of the system's bodies, [body of the system]
 
+    /// What loads of the substep before add to the inertia of the bodies.
+    void stiffen(const World& world, double h, std::span<SolvedBody> bodies) const {
+        rows_.stiffen(world, h, range_, bodies);
+    }
+
     /// Asks the rows to close what is open at the preview of the velocities. Returns by how much
     /// that changes what the worst is asked for [m/s].
     double ask(std::span<const Vector6d> velocity);
@@ -60,7 +62,9 @@ public:
     double take_forces();
     /// What ties can give by themselves, about [J]: drives do work, and what is open closes.
     double driven_energy() const { return driven_energy_; }
+    /// All λ₀ are 0 again; none hold any more in this substep.
     void forget();
+    void let_go() { holds_ = false; }
 
     /// The rows, whose impulses are λ₀, the answers at the last forces, and what velocities have
     /// felt of them.
@@ -74,9 +78,7 @@ public:
     void store(std::span<const Vector6d> velocity, World& world) const;
 
 private:
-    bool takes_ties_;
-    TieList list_;
-    std::vector<Tie> found_;
+    ElasticTieChoice choice_;
     BlockCholesky::Pattern pairs_;
     TieRows rows_;
     TieRange range_;
@@ -84,7 +86,8 @@ private:
     std::vector<double> impulse_;             ///< [row] λ at the last forces [N s], [N m s]
     std::vector<double> applied_;             ///< [row]
     std::vector<double> rate_, way_, slope_;  ///< [row] at the last forces; of the line
-    double h_ = 0, driven_energy_ = 0;
+    bool holds_ = true;
+    double h_ = 0, mass_ = 0, driven_energy_ = 0;
 };
 
 }  // namespace plumb

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+/// Which ties can be solved in one system with sheets: all that hang together, or none of them.
+#pragma once
+
+#include "math/disjoint_sets.h"
+#include "ties/tie_list.h"
+#include "world/world.h"
+
+#include <vector>
+
+namespace plumb {
+
+class ElasticTieChoice {
+public:
+    /// Once a step; those of the world.
+    const std::vector<Tie>& find(const World& world);
+
+private:
+    void find_groups(const World& world);
+
+    TieList list_;
+    DisjointSets groups_;                 ///< of the world's bodies that move, by ties
+    std::vector<double> weight_;          ///< [lowest of a group] in a substep [N s]
+    std::vector<std::uint8_t> is_other_;  ///< [lowest of a group] whether others solve it
+    std::vector<Tie> found_;
+};
+
+}  // namespace plumb
