@@ -25,9 +25,13 @@ struct Kind {
 
 std::vector<Kind> kinds_of(const Bodies& bodies) {
     std::map<std::tuple<std::uint32_t, std::uint32_t, bool>, std::size_t> counts;
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        if (bodies.bounding_radius[i] > 0)
-            ++counts[{bodies.group[i], bodies.mask[i], is_movable(bodies.motion[i])}];
+    auto last = counts.end();  // most bodies are of the kind of the one before
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        if (!(bodies.bounding_radius[i] > 0)) continue;
+        const std::tuple key(bodies.group[i], bodies.mask[i], is_movable(bodies.motion[i]));
+        if (last == counts.end() || last->first != key) last = counts.try_emplace(key, 0).first;
+        ++last->second;
+    }
     std::vector<Kind> kinds;
     for (const auto& [key, count] : counts)
         kinds.push_back({std::get<0>(key), std::get<1>(key), std::get<2>(key), count});

@@ -19,12 +19,24 @@ struct Wish {
     std::string why;
 };
 
-template <class Test>
-std::size_t count_bodies(const World& w, Test test) {
-    std::size_t n = 0;
-    for (std::size_t i = 0; i < w.bodies.size(); ++i) n += test(i);
-    return n;
-}
+/// What effects count of the bodies, once for all of them.
+struct BodyCensus {
+    explicit BodyCensus(const World& w) : collidable(collidable_bodies(w)) {
+        const Bodies& b = w.bodies;
+        for (std::uint32_t i = 0; i < b.size(); ++i) {
+            const bool moves = is_movable(b.motion[i]);
+            movable += moves, shaped += b.geometry[i] != kNoIndex;
+            uneven += !b.isotropic[i], with_rim += has_rim(w, i);
+            standing += !moves && b.bounding_radius[i] > 0;
+        }
+    }
+
+    std::size_t movable = 0, shaped = 0, collidable;
+    std::size_t uneven = 0;  ///< of unequal moments of inertia
+    std::size_t with_rim = 0;
+    std::size_t standing = 0;  ///< with a shape, fixed or kinematic
+};
+
 template <class Test>
 std::size_t count_surface_pairs(const World& w, Test test) {
     return static_cast<std::size_t>(
@@ -34,86 +46,73 @@ Wish counted(std::size_t n, const std::string& some, const std::string& none) {
     return n > 0 ? Wish{true, std::to_string(n) + " " + some} : Wish{false, none};
 }
 
-std::size_t shaped_bodies(const World& w) {
-    return count_bodies(w, [&](std::size_t i) { return w.bodies.geometry[i] != kNoIndex; });
-}
-
-std::size_t movable_bodies(const World& w) {
-    return count_bodies(w, [&](std::size_t i) { return is_movable(w.bodies.motion[i]); });
-}
-
-Wish contacts(const World& w) {
-    if (movable_bodies(w) + w.particles.size() == 0) return {false, "nothing moves by itself"};
-    if (w.particles.size() > 0 && shaped_bodies(w) > 0)
-        return {true,
-                std::to_string(shaped_bodies(w)) + " bodies have shapes that particles may meet"};
-    return counted(collidable_bodies(w), "bodies have shapes that may meet others",
+Wish contacts(const World& w, const BodyCensus& c) {
+    if (c.movable + w.particles.size() == 0) return {false, "nothing moves by itself"};
+    if (w.particles.size() > 0 && c.shaped > 0)
+        return {true, std::to_string(c.shaped) + " bodies have shapes that particles may meet"};
+    return counted(c.collidable, "bodies have shapes that may meet others",
                    "no two bodies have shapes that may meet");
 }
-Wish contact_reuse(const World& w) {
-    if (!contacts(w).wanted) return {false, "there are no contacts"};
+Wish contact_reuse(const World& w, const BodyCensus& c) {
+    if (!contacts(w, c).wanted) return {false, "there are no contacts"};
     if (!(w.settings.reuse_distance > 0)) return {false, "reuse_distance is 0"};
     if (w.settings.contacts == ContactOrigin::raw)
         return {false, "raw contacts may tell of overlaps alone, so each step asks anew"};
     return {true, "contacts of pairs that hardly moved are kept (reuse_distance > 0)"};
 }
-Wish friction(const World& w) {
+Wish friction(const World& w, const BodyCensus& c) {
     const std::size_t n =
         count_surface_pairs(w, [](const SurfacePair& s) { return s.friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials have friction (μ > 0)",
+    return counted(contacts(w, c).wanted ? n : 0, "pairs of materials have friction (μ > 0)",
                    "no pair of materials that can touch has friction");
 }
-Wish turning_friction(const World& w) {
+Wish turning_friction(const World& w, const BodyCensus& c) {
     const std::size_t n = count_surface_pairs(
         w, [](const SurfacePair& s) { return s.rolling_friction > 0 || s.spinning_friction > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials resist rolling or spinning",
+    return counted(contacts(w, c).wanted ? n : 0, "pairs of materials resist rolling or spinning",
                    "no pair of materials resists rolling or spinning");
 }
-Wish restitution(const World& w) {
+Wish restitution(const World& w, const BodyCensus& c) {
     const std::size_t n =
         count_surface_pairs(w, [](const SurfacePair& s) { return s.restitution > 0; });
-    return counted(contacts(w).wanted ? n : 0, "pairs of materials bounce (e > 0)",
+    return counted(contacts(w, c).wanted ? n : 0, "pairs of materials bounce (e > 0)",
                    "no pair of materials bounces");
 }
-Wish impacts(const World& w) {
-    if (!contacts(w).wanted) return {false, "there are no contacts"};
+Wish impacts(const World& w, const BodyCensus& c) {
+    if (!contacts(w, c).wanted) return {false, "there are no contacts"};
     if (!w.settings.shared_push)
         return {false,
                 "collisions and contacts are solved together, as in the paper (shared_push)"};
     return {true, "collisions are solved before forces, so that no contact remembers them"};
 }
-Wish sticking_anchors(const World& w) {
-    if (!friction(w).wanted) return {false, "there is no friction"};
+Wish sticking_anchors(const World& w, const BodyCensus& c) {
+    if (!friction(w, c).wanted) return {false, "there is no friction"};
     if (!(w.settings.anchor_stiffness > 0)) return {false, "anchor_stiffness is 0"};
     return {true, "friction that sticks remembers where (anchor_stiffness > 0)"};
 }
-bool may_touch(const World& w) {
-    return contacts(w).wanted &&
+bool may_touch(const World& w, const BodyCensus& c) {
+    return contacts(w, c).wanted &&
            std::count(w.settings.forbid.begin(), w.settings.forbid.end(), "contacts") == 0;
 }
-Wish rims(const World& w) {
-    if (!may_touch(w)) return {false, "there are no contacts"};
-    return counted(
-        count_bodies(w, [&](std::size_t i) { return has_rim(w, static_cast<std::uint32_t>(i)); }),
-        "bodies have flat round ends, on whose rims they roll", "no body has a flat round end");
+Wish rims(const World& w, const BodyCensus& c) {
+    if (!may_touch(w, c)) return {false, "there are no contacts"};
+    return counted(c.with_rim, "bodies have flat round ends, on whose rims they roll",
+                   "no body has a flat round end");
 }
-Wish still_ground(const World& w) {
-    if (!may_touch(w)) return {false, "there are no contacts"};
+Wish still_ground(const World& w, const BodyCensus& c) {
+    if (!may_touch(w, c)) return {false, "there are no contacts"};
     if (!w.settings.shared_push)
         return {false, "what stands still may give energy, as in the paper (shared_push)"};
-    const auto stands = [&](std::size_t i) {
-        return !is_movable(w.bodies.motion[i]) && w.bodies.bounding_radius[i] > 0;
-    };
     return counted(
-        count_bodies(w, stands),
+        c.standing,
         "bodies that are fixed, or kinematic and at rest, give no energy to what touches them",
         "nothing with a shape is fixed or kinematic");
 }
-Wish exact_islands(const World& w) {
+Wish exact_islands(const World& w, const BodyCensus& c) {
     const bool is_tied = w.joints.size() > 1 || !w.joints.couplings.empty() ||
                          std::any_of(w.links.begin(), w.links.end(),
                                      [](const Link& link) { return link.is_between_bodies(); });
-    if (!contacts(w).wanted && !is_tied)
+    if (!contacts(w, c).wanted && !is_tied)
         return {false, "there are no contacts, couplings or links between bodies"};
     const std::uint32_t most = w.settings.exact_islands;
     if (most < 2) return {false, "exact_islands is below 2"};
@@ -128,13 +127,14 @@ Wish exact_islands(const World& w) {
                       "their joints (exact_islands)" +
                       beyond};
 }
-Wish gyroscopic(const World& w) {
-    return counted(count_bodies(w, [&](std::size_t i) { return !w.bodies.isotropic[i]; }),
-                   "dynamic bodies have unequal moments of inertia",
+Wish gyroscopic(const World&, const BodyCensus& c) {
+    return counted(c.uneven, "dynamic bodies have unequal moments of inertia",
                    "all moments of inertia are equal");
 }
-Wish joints(const World& w) { return counted(w.joints.size(), "joints", "no joints"); }
-Wish joint_trees(const World& w) {
+Wish joints(const World& w, const BodyCensus&) {
+    return counted(w.joints.size(), "joints", "no joints");
+}
+Wish joint_trees(const World& w, const BodyCensus&) {
     if (w.joints.size() == 0) return {false, "no joints"};
     if (w.settings.joints == JointMethod::iterate) return {false, "joints are iterated"};
     const JointForest forest = find_forest(w, true);
@@ -148,16 +148,16 @@ Wish joint_trees(const World& w) {
             (iterated > 0 ? ", " + std::to_string(iterated) + " are iterated: " + left_out : ""),
         w.settings.joints == JointMethod::auto_ ? left_out : "no joint takes away a row");
 }
-Wish divided_trees(const World& w) {
-    const Wish trees = joint_trees(w);
+Wish divided_trees(const World& w, const BodyCensus& c) {
+    const Wish trees = joint_trees(w, c);
     if (!trees.wanted) return {false, "no joints are solved as trees"};
     if (w.settings.tree_parts < 2) return {false, "tree_parts is below 2"};
     return {true, "trees that touch nothing and turn far divide their substeps (tree_parts)"};
 }
-Wish deformables(const World& w) {
+Wish deformables(const World& w, const BodyCensus&) {
     return counted(w.particles.size(), "particles", "no deformables");
 }
-Wish exact_deformables(const World& w) {
+Wish exact_deformables(const World& w, const BodyCensus&) {
     const std::size_t n = w.particles.size();
     if (n == 0) return {false, "no deformables"};
     if (w.settings.exact_deformables == 0) return {false, "exact_deformables is 0"};
@@ -171,7 +171,7 @@ Wish exact_deformables(const World& w) {
     return {true, std::to_string(n) + " particles, at most " + most +
                       ", are solved as one system (exact_deformables)"};
 }
-Wish air_drag(const World& w) {
+Wish air_drag(const World& w, const BodyCensus&) {
     if (!w.settings.wind) return {false, "there is no wind"};
     if (!(w.settings.air_density > 0)) return {false, "the air weighs nothing"};
     const auto feels =
@@ -181,22 +181,22 @@ Wish air_drag(const World& w) {
     return counted(static_cast<std::size_t>(feels), "surfaces feel the air",
                    "nothing that deforms has a surface that feels the air");
 }
-Wish tearing(const World& w) {
+Wish tearing(const World& w, const BodyCensus&) {
     const auto able = std::count_if(w.deformables.begin(), w.deformables.end(),
                                     [](const Deformable& d) { return d.can_tear(); });
     return counted(static_cast<std::size_t>(able), "deformables tear (tearing_strain)",
                    "nothing tears");
 }
-Wish links(const World& w) {
+Wish links(const World& w, const BodyCensus&) {
     return counted(w.links.size(), "links and attachments", "no links or attachments");
 }
-Wish particle_contacts(const World& w) {
+Wish particle_contacts(const World& w, const BodyCensus& c) {
     if (w.particles.size() == 0) return {false, "no deformables"};
-    if (!may_touch(w)) return {false, "there are no contacts"};
-    return counted(shaped_bodies(w), "bodies have shapes that particles may meet",
+    if (!may_touch(w, c)) return {false, "there are no contacts"};
+    return counted(c.shaped, "bodies have shapes that particles may meet",
                    "no body has a shape that particles may meet");
 }
-Wish surface_contacts(const World& w) {
+Wish surface_contacts(const World& w, const BodyCensus&) {
     if (std::count(w.settings.forbid.begin(), w.settings.forbid.end(), "contacts") > 0)
         return {false, "contacts are forbidden"};
     const auto surfaces =
@@ -206,22 +206,22 @@ Wish surface_contacts(const World& w) {
                    "surfaces that particles and corners of bodies may meet",
                    "nothing that deforms has a surface");
 }
-Wish kinematics(const World& w) {
+Wish kinematics(const World& w, const BodyCensus&) {
     return counted(static_cast<std::size_t>(w.kinematic_count),
                    "bodies are moved by a script or a given velocity", "no kinematic bodies");
 }
-Wish sleeping(const World& w) {
+Wish sleeping(const World& w, const BodyCensus& c) {
     if (!(w.settings.sleep_speed > 0)) return {false, "sleep_speed is 0"};
-    if (movable_bodies(w) == 0) return {false, "no body moves by itself"};
+    if (c.movable == 0) return {false, "no body moves by itself"};
     return {true, "what rests sleeps until it is disturbed (sleep_speed > 0)"};
 }
-Wish shock_propagation(const World&) {
+Wish shock_propagation(const World&, const BodyCensus&) {
     return {false, "breaks the balance of momentum, so it runs only when required"};
 }
 
 struct Registered {
     std::string_view name;
-    Wish (*wish)(const World&);
+    Wish (*wish)(const World&, const BodyCensus&);
 };
 
 /// In the order of `Effect`. A new effect is a line here, a name there and its stage in contacts/
@@ -267,9 +267,10 @@ std::size_t effect_named(const std::vector<std::string>& names, std::size_t i, c
 }  // namespace
 
 Plan make_plan(const World& world) {
+    const BodyCensus census(world);
     Plan plan;
     for (std::size_t i = 0; i < kEffectCount; ++i) {
-        const Wish wish = kEffects[i].wish(world);
+        const Wish wish = kEffects[i].wish(world, census);
         plan.decisions[i] = {kEffects[i].name, wish.wanted, wish.why};
     }
     const Settings& settings = world.settings;
@@ -296,16 +297,16 @@ Plan make_plan(const World& world) {
         plan.warnings.push_back(said);
         d.why = wish.why, d.runs = false;
     };
-    drop(Effect::exact_islands, exact_islands(world));
+    drop(Effect::exact_islands, exact_islands(world, census));
     drop(Effect::divided_trees, plan.runs(Effect::joints) && plan.runs(Effect::joint_trees)
-                                    ? divided_trees(world)
+                                    ? divided_trees(world, census)
                                     : Wish{false, "no joints are solved as trees"});
     drop(Effect::exact_deformables, plan.runs(Effect::deformables)
-                                        ? exact_deformables(world)
+                                        ? exact_deformables(world, census)
                                         : Wish{false, "deformables do not run"});
-    drop(Effect::air_drag, air_drag(world));
+    drop(Effect::air_drag, air_drag(world, census));
     drop(Effect::particle_contacts, plan.runs(Effect::contacts)
-                                        ? particle_contacts(world)
+                                        ? particle_contacts(world, census)
                                         : Wish{false, "contacts do not run"});
     return plan;
 }

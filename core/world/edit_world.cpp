@@ -11,31 +11,51 @@ void count(World& world, Motion motion, std::int32_t change) {
     if (motion == Motion::kinematic) world.kinematic_count += change;
 }
 
-/// `kept`: pairs and poses.
-template <class Kept, class Is>
-void forget_pairs(Kept& kept, Is is_of_body) {
-    std::size_t stays = 0;
-    for (std::size_t i = 0; i < kept.pairs.size(); ++i) {
-        if (is_of_body(kept.pairs[i])) continue;
-        kept.pairs[stays] = kept.pairs[i];
-        kept.poses[stays++] = kept.poses[i];
+/// Rows of a table that stand side by side, from the first to before the last.
+struct Rows {
+    std::size_t first, last;
+};
+
+/// Those that are of a body.
+template <class Row, class Is>
+std::vector<Rows> rows_of(const std::vector<Row>& table, Is is_of_body) {
+    std::vector<Rows> rows;
+    for (std::size_t i = 0; i < table.size(); ++i) {
+        if (!is_of_body(table[i])) continue;
+        if (rows.empty() || rows.back().last < i) rows.push_back({i, i});
+        ++rows.back().last;
     }
-    kept.pairs.resize(stays), kept.poses.resize(stays);
+    return rows;
 }
 
-template <class Is>
-void forget_contacts(RememberedContacts& c, std::vector<ContactRide>& rides, Is is_of_body) {
-    const bool has_rides = !rides.empty();
-    std::size_t stays = 0;
-    for (std::size_t i = 0; i < c.found.size(); ++i) {
-        if (is_of_body(c.found[i])) continue;
-        c.found[stays] = c.found[i];
-        c.memory[stays] = c.memory[i];
-        if (has_rides) rides[stays] = rides[i];
-        ++stays;
+/// Takes rows out of a column, unless it is empty altogether.
+template <class Row>
+void take_out(const std::vector<Rows>& rows, std::vector<Row>& column) {
+    if (rows.empty() || column.empty()) return;
+    const auto at = [&](std::size_t i) { return column.begin() + static_cast<std::ptrdiff_t>(i); };
+    auto to = at(rows[0].first);
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        to = std::move(at(rows[k].last), k + 1 < rows.size() ? at(rows[k + 1].first) : column.end(),
+                       to);
+    column.erase(to, column.end());
+}
+template <class... Columns>
+void take_out(const std::vector<Rows>& rows, Columns&... columns) {
+    (take_out(rows, columns), ...);
+}
+
+/// Takes pairs out of their list, with their contacts.
+void take_out_pairs(const std::vector<Rows>& rows, ContactTable& c) {
+    if (rows.empty()) return;
+    std::vector<Rows> contacts;
+    for (const Rows& r : rows) {
+        const ContactPair &first = c.pairs[r.first], &last = c.pairs[r.last - 1];
+        contacts.push_back({first.first, last.first + last.count});
     }
-    c.found.resize(stays), c.memory.resize(stays);
-    if (has_rides) rides.resize(stays);
+    take_out(contacts, c.found, c.memory, c.kept.rides);
+    take_out(rows, c.pairs);
+    for (std::size_t p = rows[0].first; p < c.pairs.size(); ++p)
+        c.pairs[p].first = p > 0 ? c.pairs[p - 1].first + c.pairs[p - 1].count : 0;
 }
 
 }  // namespace
@@ -65,11 +85,11 @@ void erase_body(World& world, std::uint32_t slot) {
 void forget_contacts(World& world, std::uint32_t slot) {
     ContactTable& c = world.contacts;
     const auto is_of_body = [slot](const auto& x) { return x.a == slot || x.b == slot; };
-    forget_contacts(c, c.kept.rides, is_of_body);
-    forget_contacts(world.asleep, world.asleep.rides, is_of_body);
-    c.list_pairs();
-    forget_pairs(c.kept, is_of_body);
-    forget_pairs(world.asleep, is_of_body);
+    SleepingContacts& asleep = world.asleep;
+    take_out_pairs(rows_of(c.pairs, is_of_body), c);
+    take_out(rows_of(c.kept.pairs, is_of_body), c.kept.pairs, c.kept.poses);
+    take_out(rows_of(asleep.found, is_of_body), asleep.found, asleep.memory, asleep.rides);
+    take_out(rows_of(asleep.pairs, is_of_body), asleep.pairs, asleep.poses);
     world.particle_contacts = {};
     std::erase_if(world.surface_contacts,
                   [slot](const SurfaceContact& x) { return x.point.body == slot; });

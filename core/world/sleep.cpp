@@ -133,8 +133,11 @@ bool wake_near(World& world, std::uint32_t body) {
         wake(b, i);
         b.rest_time[i] = 0;
     };
+    const auto may_rest = [&](std::uint32_t i) {
+        return b.motion[i] == Motion::asleep || (is_movable(b.motion[i]) && b.rest_time[i] > 0);
+    };
     for (std::uint32_t i = 0; i < b.size(); ++i)
-        if (is_movable(b.motion[i]) && are_near(world, i, body)) stir(i);
+        if (may_rest(i) && are_near(world, i, body)) stir(i);
     for (const Joint& joint : world.joints.joints)
         if (joint.a == body || joint.b == body) stir(joint.a), stir(joint.b);
     if (any) sort_contacts(world);

@@ -51,7 +51,7 @@ struct Tree::Contents {
     void update(const BodyTable& table);
 
     fcl::DynamicAABBTreeCollisionManagerd manager;
-    std::vector<std::unique_ptr<Leaf>> leaves;  ///< [part]
+    std::vector<std::unique_ptr<Leaf>> leaves;  ///< [part], none where one is vacant
     std::vector<fcl::CollisionObjectd*> moved, fresh;
     std::vector<std::uint32_t> unbounded;  ///< parts that are present
     std::uint64_t version = ~std::uint64_t{0};
@@ -61,7 +61,8 @@ void Tree::Contents::refill(const BodyTable& table) {
     manager.clear();
     leaves.clear();
     for (std::uint32_t i = 0; i < table.parts().size(); ++i) {
-        leaves.push_back(std::make_unique<Leaf>(table.parts()[i], i));
+        const Part& part = table.parts()[i];
+        leaves.push_back(part.vacant ? nullptr : std::make_unique<Leaf>(part, i));
     }
     version = table.version();
 }
@@ -73,6 +74,7 @@ void Tree::Contents::update(const BodyTable& table) {
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
         const Part& part = table.parts()[i];
         Leaf* leaf = leaves[i].get();
+        if (!leaf) continue;
         const bool bounded = finite(part.fat.low) && finite(part.fat.high);
         if (part.present && !bounded) unbounded.push_back(i);
         if (part.present && bounded) {
@@ -98,7 +100,7 @@ void Tree::find_pairs(std::vector<PartPair>& pairs, const BodyTable& table) {
     c.manager.collide(&meeting, take_pair);
     for (std::uint32_t i : c.unbounded)
         for (const auto& leaf : c.leaves)
-            if (leaf->in_tree) meeting.meet(i, leaf->part_index);
+            if (leaf && leaf->in_tree) meeting.meet(i, leaf->part_index);
 }
 
 }  // namespace plumb::by_fcl

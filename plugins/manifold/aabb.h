@@ -9,6 +9,12 @@ namespace plumb {
 struct Aabb {
     Vec3 low, high;  ///< [m]
 };
+
+/// Holds nothing, and overlaps nothing.
+inline constexpr Aabb kNothing{{kInfinity, kInfinity, kInfinity},
+                               {-kInfinity, -kInfinity, -kInfinity}};
+inline bool is_nothing(const Aabb& box) { return box.low.x > box.high.x; }
+
 /// Without a branch: what is asked of many boxes can be told of none beforehand.
 inline bool overlap(const Aabb& a, const Aabb& b) {
     const bool x = (a.low.x <= b.high.x) & (b.low.x <= a.high.x),

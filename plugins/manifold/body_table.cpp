@@ -3,12 +3,8 @@
 
 #include "manifold/check_shape.h"
 
-#include <limits>
-
 namespace plumb {
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 std::uint64_t pair_key(std::uint32_t a, std::uint32_t b) {
     return (static_cast<std::uint64_t>(std::min(a, b)) << 32) | std::max(a, b);
@@ -134,6 +130,13 @@ Aabb bounds_at(const Part& part, const Frame& f) {
 }
 
 BodyTable::Range BodyTable::parts_of(std::uint32_t body) const {
+    const Range places = places_of(body);
+    const bool is_here = places.first < places.last && !parts_[places.first].vacant;
+    return {places.first, is_here ? places.last : places.first};
+}
+
+/// With those that are vacant.
+BodyTable::Range BodyTable::places_of(std::uint32_t body) const {
     const auto first =
         std::lower_bound(parts_.begin(), parts_.end(), body,
                          [](const Part& p, std::uint32_t id) { return p.body < id; });
@@ -182,46 +185,72 @@ void BodyTable::insert(std::uint32_t body, const ShapePlacement& placement) {
         part.group = placement.group;
         part.mask = placement.mask;
         part.dynamic = placement.mobility == Mobility::dynamic;
+        part.has_exclusions = exclusions_.contains(body);
     }
-    const auto where =
-        std::lower_bound(parts_.begin(), parts_.end(), body,
-                         [](const Part& p, std::uint32_t id) { return p.body < id; });
-    parts_.insert(where, std::make_move_iterator(fresh.begin()),
-                  std::make_move_iterator(fresh.end()));
-    has_compounds_ = has_compounds_ || fresh.size() > 1;
-    refresh_exclusion_marks();
+    const Range places = places_of(body);
+    const auto first = parts_.begin() + places.first, last = parts_.begin() + places.last;
+    const std::size_t left = places.last - places.first;
+    if (left == fresh.size()) {
+        std::move(fresh.begin(), fresh.end(), first);
+    } else {
+        if (places.last < parts_.size()) ++order_;
+        parts_.insert(parts_.erase(first, last), std::make_move_iterator(fresh.begin()),
+                      std::make_move_iterator(fresh.end()));
+    }
+    vacant_ -= left;
     ++version_;
 }
 
 Status BodyTable::remove(std::uint32_t body) {
     if (!knows(body)) return {Status::bad_argument, 0, "there is no body of this id"};
-    std::erase_if(parts_, [body](const Part& p) { return p.body == body; });
-    std::erase_if(excluded_, [body](std::uint64_t key) {
-        return (key >> 32) == body || (key & 0xffffffffu) == body;
-    });
-    refresh_exclusion_marks();
+    vacate(parts_of(body));
+    end_exclusions(body);
     ++version_;
     return ok_status();
+}
+
+/// Vacant places at the end fall away, and all where they are more than the others.
+void BodyTable::vacate(Range places) {
+    for (std::uint32_t i = places.first; i < places.last; ++i) {
+        const std::uint32_t body = parts_[i].body;
+        parts_[i] = Part{};
+        parts_[i].body = body, parts_[i].vacant = true;
+        ++vacant_;
+    }
+    for (; !parts_.empty() && parts_.back().vacant; --vacant_) parts_.pop_back();
+    if (2 * vacant_ <= parts_.size()) return;
+    std::erase_if(parts_, [](const Part& part) { return part.vacant; });
+    vacant_ = 0;
+    ++order_;
+}
+
+void BodyTable::end_exclusions(std::uint32_t body) {
+    if (!exclusions_.contains(body)) return;
+    std::erase_if(excluded_, [&](std::uint64_t key) {
+        const auto a = static_cast<std::uint32_t>(key >> 32), b = static_cast<std::uint32_t>(key);
+        if (a != body && b != body) return false;
+        count_exclusion(a, -1), count_exclusion(b, -1);
+        return true;
+    });
 }
 
 Status BodyTable::exclude(std::uint32_t a, std::uint32_t b, bool excluded) {
     if (a == b) return {Status::bad_argument, 0, "a body cannot be excluded from itself"};
-    if (excluded)
-        excluded_.insert(pair_key(a, b));
-    else
-        excluded_.erase(pair_key(a, b));
-    refresh_exclusion_marks();
-    ++version_;
+    const std::uint64_t key = pair_key(a, b);
+    if (!(excluded ? excluded_.insert(key).second : excluded_.erase(key) > 0)) return ok_status();
+    count_exclusion(a, excluded ? 1 : -1), count_exclusion(b, excluded ? 1 : -1);
+    const Range of_one = parts_of(a);
+    for (std::uint32_t i = of_one.first; i < of_one.last; ++i) parts_[i].fat = kNothing;
     return ok_status();
 }
 
-void BodyTable::refresh_exclusion_marks() {
-    std::unordered_set<std::uint32_t> marked;
-    for (std::uint64_t key : excluded_) {
-        marked.insert(static_cast<std::uint32_t>(key >> 32));
-        marked.insert(static_cast<std::uint32_t>(key));
-    }
-    for (Part& part : parts_) part.has_exclusions = marked.count(part.body) != 0;
+void BodyTable::count_exclusion(std::uint32_t body, int change) {
+    const auto count = exclusions_.try_emplace(body, 0).first;
+    count->second += change;
+    const bool any = count->second > 0;
+    if (!any) exclusions_.erase(count);
+    const Range range = parts_of(body);
+    for (std::uint32_t i = range.first; i < range.last; ++i) parts_[i].has_exclusions = any;
 }
 
 Status BodyTable::place(const DetectRequest& request) {
@@ -230,6 +259,7 @@ Status BodyTable::place(const DetectRequest& request) {
     std::uint32_t lost = 0;
     greatest_expansion_ = 0;
     for (Part& part : parts_) {
+        if (part.vacant) continue;
         part.present = part.body < request.body_count;
         if (part.present) part.world = frame_of(request.poses[part.body]) * part.local;
         part.present = part.present && placed(part.world);

@@ -3,7 +3,8 @@
 ///
 /// Every plugin keeps one. A compound is taken apart on the way in, so that a narrow phase meets
 /// single shapes only; parts stand in the order of (body id, part), which makes i < j mean "a
-/// before b".
+/// before b". The parts of a body that was removed leave vacant places, which the next body of its
+/// id takes: most often the others stay where they are.
 #pragma once
 
 #include "manifold/hull_faces.h"
@@ -14,6 +15,7 @@
 #include <cstdint>
 #include <memory>
 #include <tuple>
+#include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
@@ -22,6 +24,7 @@ namespace plumb {
 /// One single shape of a body.
 struct Part {
     std::uint32_t body = 0;
+    bool vacant = false;      ///< a place that was left: its body is not here
     std::uint32_t index = 0;  ///< in its compound; else 0
     bool in_compound = false;
     Shape shape{};
@@ -35,7 +38,8 @@ struct Part {
 
     Frame world{};         ///< shape frame → world, at the poses of the last `place`
     Aabb bounds{};         ///< world, grown by half the margin and the sweep
-    Aabb fat{};            ///< contains `bounds`; what a broad phase works on
+    Aabb fat = kNothing;   ///< contains `bounds`; what a broad phase works on. Nothing where
+                           ///< all of the part's pairs are to be found anew
     double expansion = 0;  ///< of its bounds: half the margin and the sweep [m]
     bool present = false;  ///< has a pose, and a finite one
     std::uint32_t group = 0, mask = 0;
@@ -71,26 +75,30 @@ public:
     /// Whether two parts are to be tested, by mobility, filters and exclusions (not by place).
     bool wanted(const Part& a, const Part& b) const;
 
-    /// Whether some body has more than one part.
-    bool has_compounds() const { return has_compounds_; }
-
     /// The greatest expansion of a part's bounds, at the poses of the last `place` [m].
     double greatest_expansion() const { return greatest_expansion_; }
 
-    /// Counts changes of the set of parts and of what is excluded.
+    /// Counts changes of the set of parts.
     std::uint64_t version() const { return version_; }
+
+    /// Counts those among them that gave parts other indices.
+    std::uint64_t order() const { return order_; }
 
 private:
     void insert(std::uint32_t body, const ShapePlacement& placement);
+    Range places_of(std::uint32_t body) const;
     bool knows(std::uint32_t body) const;
-    void refresh_exclusion_marks();
+    void vacate(Range places);
+    void end_exclusions(std::uint32_t body);
+    void count_exclusion(std::uint32_t body, int change);
 
     std::vector<Part> parts_;
     SurfaceStore surfaces_;
     std::unordered_set<std::uint64_t> excluded_;
-    bool has_compounds_ = false;
+    std::unordered_map<std::uint32_t, int> exclusions_;  ///< of a body that has some
+    std::size_t vacant_ = 0;                             ///< places
     double greatest_expansion_ = 0;
-    std::uint64_t version_ = 0;
+    std::uint64_t version_ = 0, order_ = 0;
 };
 
 /// Distance up to which two parts are reported [m].
@@ -99,10 +107,10 @@ inline double pair_margin(const Part& a, const Part& b) { return a.expansion + b
 /// By bodies, then by parts. Parts stand in the order of their bodies, so only compounds make the
 /// two disagree.
 struct PairOrder {
-    const std::vector<Part>& parts;
+    const std::vector<std::uint32_t>& bodies;  ///< [part]
     bool operator()(const PartPair& p, const PartPair& q) const {
         const auto key = [this](const PartPair& x) {
-            return std::tuple(parts[x.first].body, parts[x.second].body, x.first, x.second);
+            return std::tuple(bodies[x.first], bodies[x.second], x.first, x.second);
         };
         return key(p) < key(q);
     }

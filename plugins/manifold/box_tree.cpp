@@ -31,7 +31,6 @@ Ray make_ray(Vec3 origin, Vec3 direction) {
 }
 
 double entry(const Ray& ray, const Aabb& box) {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
     double from = 0, to = kInfinity;
     for (int k = 0; k < 3; ++k) {
         const double o = at(ray.origin, k), inverse = at(ray.one_over, k);

@@ -1,16 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "manifold/candidates.h"
 
-#include <limits>
-
 namespace plumb {
 namespace {
 
 constexpr double kSpare = 0.03;         ///< of a part's least extent, left around it everywhere
 constexpr double kDetectionsAhead = 8;  ///< for which a moving part gets room where it goes
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr Aabb kNothing{{kInfinity, kInfinity, kInfinity}, {-kInfinity, -kInfinity, -kInfinity}};
 
 bool contains(const Aabb& outer, const Aabb& inner) {
     return outer.low.x <= inner.low.x && outer.low.y <= inner.low.y && outer.low.z <= inner.low.z &&
@@ -31,22 +26,32 @@ double least_extent(const Aabb& b) {
 
 }  // namespace
 
-void Candidates::find_escaped(BodyTable& table) {
+/// Returns whether any came, went or left its fat bounds.
+bool Candidates::find_escaped(BodyTable& table) {
     ++detection_;
     escaped_.clear();
     std::vector<Part>& parts = table.parts();
-    bounds_.resize(parts.size()), fats_.resize(parts.size()), bodies_.resize(parts.size());
+    const std::size_t known = fats_.size();
+    is_outdated_.assign(std::max(known, parts.size()), 0);
+    std::fill(is_outdated_.begin() + static_cast<std::ptrdiff_t>(parts.size()), is_outdated_.end(),
+              std::uint8_t{1});
+    bool any = known > parts.size();
+    bounds_.resize(parts.size()), fats_.resize(parts.size(), {kNothing});
+    bodies_.resize(parts.size()), made_.resize(parts.size());
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         Part& part = parts[i];
         // A part that is lost may come back anywhere, and then counts as escaped.
-        if (!part.present)
-            part.fat = kNothing;
-        else if (!contains(part.fat, part.bounds))
-            escaped_.push_back(i);
+        if (!part.present) part.fat = kNothing;
+        if (is_nothing(part.fat)) made_[i] = {};
+        const bool escaped = part.present && !contains(part.fat, part.bounds);
+        if (escaped) escaped_.push_back(i);
+        is_outdated_[i] = escaped || (!part.present && !is_nothing(fats_[i].box));
+        any |= is_outdated_[i] != 0;
         bounds_[i] = {part.present ? part.bounds : kNothing};
         fats_[i] = {part.fat};
         bodies_[i] = part.body;
     }
+    return any;
 }
 
 void Candidates::fatten(Part& part, Made& made) const {
@@ -63,39 +68,48 @@ void Candidates::fatten(Part& part, Made& made) const {
 }
 
 void Candidates::fatten_all(BodyTable& table) {
-    if (version_ != table.version()) made_.assign(table.parts().size(), Made{});
+    if (order_ != table.order()) made_.assign(table.parts().size(), Made{});
     for (std::size_t i = 0; i < table.parts().size(); ++i) {
         Part& part = table.parts()[i];
         if (part.present) fatten(part, made_[i]);
     }
-    version_ = table.version();
+    order_ = table.order();
 }
 
 void Candidates::renew_escaped(BodyTable& table) {
     std::vector<Part>& parts = table.parts();
-    is_escaped_.assign(parts.size(), 0);
     escaped_fat_.clear();
     for (std::uint32_t i : escaped_) {
         fatten(parts[i], made_[i]);
-        is_escaped_[i] = 1;
         fats_[i] = {parts[i].fat};
         escaped_fat_.push_back(parts[i].fat);
     }
-    std::erase_if(wide_,
-                  [&](const PartPair& p) { return is_escaped_[p.first] || is_escaped_[p.second]; });
+    std::erase_if(
+        wide_, [&](const PartPair& p) { return is_outdated_[p.first] || is_outdated_[p.second]; });
 
     renewed_.clear();
     for (std::uint32_t j = 0; j < parts.size(); ++j)
         for (std::size_t k = 0; k < escaped_.size(); ++k) {
             const std::uint32_t i = escaped_[k];
-            if (!overlap(fats_[j].box, escaped_fat_[k]) || (is_escaped_[j] && j <= i)) continue;
+            if (!overlap(fats_[j].box, escaped_fat_[k]) || (is_outdated_[j] && j <= i)) continue;
             if (parts[j].present && table.wanted(parts[i], parts[j]))
                 renewed_.push_back({std::min(i, j), std::max(i, j)});
         }
-    sort_pairs(renewed_, parts);
-    const auto middle = static_cast<std::ptrdiff_t>(wide_.size());
-    wide_.insert(wide_.end(), renewed_.begin(), renewed_.end());
-    std::inplace_merge(wide_.begin(), wide_.begin() + middle, wide_.end(), PairOrder{parts});
+    std::sort(renewed_.begin(), renewed_.end(), PairOrder{bodies_});
+    merge_renewed();
+}
+
+/// Among the others, the last first: few come, and what stands between them moves in one piece.
+void Candidates::merge_renewed() {
+    const auto stay = static_cast<std::ptrdiff_t>(wide_.size());
+    wide_.resize(wide_.size() + renewed_.size());
+    auto end = wide_.begin() + stay, to = wide_.end();
+    for (auto pair = renewed_.rbegin(); pair != renewed_.rend(); ++pair) {
+        const auto after = std::upper_bound(wide_.begin(), end, *pair, PairOrder{bodies_});
+        to = std::move_backward(after, end, to);
+        *--to = *pair;
+        end = after;
+    }
 }
 
 void Candidates::take_overlapping(std::vector<PartPair>& near) const {

@@ -20,13 +20,13 @@ public:
     /// left theirs. Few are compared with all others here.
     template <class Search>
     void find(std::vector<PartPair>& near, BodyTable& table, Search&& search) {
-        find_escaped(table);
-        if (version_ != table.version() || escaped_.size() > table.parts().size() / 16) {
+        const bool any = find_escaped(table);
+        if (order_ != table.order() || escaped_.size() > table.parts().size() / 16) {
             fatten_all(table);
             wide_.clear();
             search(wide_);
             sort_pairs(wide_, table.parts());
-        } else if (!escaped_.empty()) {
+        } else if (any) {
             renew_escaped(table);
         }
         take_overlapping(near);
@@ -42,10 +42,11 @@ private:
         std::uint64_t detection;  ///< which
     };
 
-    void find_escaped(BodyTable& table);
+    bool find_escaped(BodyTable& table);
     void fatten_all(BodyTable& table);
     void fatten(Part& part, Made& made) const;
     void renew_escaped(BodyTable& table);
+    void merge_renewed();
     void take_overlapping(std::vector<PartPair>& near) const;
 
     /// In one line of the processor's cache.
@@ -55,18 +56,18 @@ private:
 
     std::vector<PartPair> wide_, renewed_;
     // What walks over all pairs and parts read of them, side by side in memory.
-    std::vector<Bounds> bounds_;          ///< [part] nothing where it is absent
-    std::vector<Bounds> fats_;            ///< [part]
-    std::vector<std::uint32_t> bodies_;   ///< [part]
-    std::vector<std::uint32_t> escaped_;  ///< parts that left their fat bounds
-    std::vector<std::uint8_t> is_escaped_;
-    std::vector<Aabb> escaped_fat_;  ///< [escaped part]
-    std::vector<Made> made_;         ///< [part]
-    std::uint64_t version_ = ~std::uint64_t{0};
-    std::uint64_t detection_ = 0;       ///< counted
-    std::vector<CandidatePair> asked_;  ///< of the filter, each once
-    std::vector<std::size_t> first_;    ///< [asked, and the end] of their pairs of parts
-    std::vector<std::uint8_t> wanted_;  ///< [asked]
+    std::vector<Bounds> bounds_;               ///< [part] nothing where it is absent
+    std::vector<Bounds> fats_;                 ///< [part]
+    std::vector<std::uint32_t> bodies_;        ///< [part]
+    std::vector<std::uint32_t> escaped_;       ///< parts that came, or left their fat bounds
+    std::vector<std::uint8_t> is_outdated_;    ///< [part, of now or before] its pairs may be others
+    std::vector<Aabb> escaped_fat_;            ///< [escaped part]
+    std::vector<Made> made_;                   ///< [part]
+    std::uint64_t order_ = ~std::uint64_t{0};  ///< of the table, BodyTable::order
+    std::uint64_t detection_ = 0;              ///< counted
+    std::vector<CandidatePair> asked_;         ///< of the filter, each once
+    std::vector<std::size_t> first_;           ///< [asked, and the end] of their pairs of parts
+    std::vector<std::uint8_t> wanted_;         ///< [asked]
 };
 
 }  // namespace plumb

@@ -7,8 +7,6 @@
 namespace plumb {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 bool is(const Part& part, ShapeKind kind) { return part.shape.kind == kind; }
 
 Contact blank(const Part& a, const Part& b) {

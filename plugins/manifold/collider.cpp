@@ -27,8 +27,8 @@ Status Collider::add(std::uint32_t body, const ShapePlacement& placement) noexce
         const Status added = table_.add(body, placement, supported_.kind, supported_.refusal);
         if (added.code != Status::ok) return added;
         try {
-            for (Part& part : table_.parts())
-                if (part.body == body) prepare(part);
+            const BodyTable::Range fresh = table_.parts_of(body);
+            for (std::uint32_t i = fresh.first; i < fresh.last; ++i) prepare(table_.parts()[i]);
         } catch (...) {
             table_.remove(body);
             throw;

@@ -47,7 +47,7 @@ protected:
     virtual void prepare(Part& part) { (void)part; }
 
     /// Fills `pairs` with the candidates: fat bounds overlap, and the table wants them. Any order.
-    /// Called only when some part has left its fat bounds.
+    /// Called only when many parts came or left their fat bounds.
     virtual void find_pairs(std::vector<PartPair>& pairs) = 0;
 
     /// Called before blocks of these pairs, whose parts have their world frames: brings what the

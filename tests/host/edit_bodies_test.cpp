@@ -2,6 +2,9 @@
 /// Bodies that come, go and are moved by hand while a simulation runs, on every collider.
 #include "host/editing.h"
 
+#include <cstring>
+#include <tuple>
+
 namespace plumb::test {
 namespace {
 
@@ -127,6 +130,50 @@ TEST_P(EditedBodies, WhatIsMovedByHandStaysWhereItIsPut) {
 
 INSTANTIATE_TEST_SUITE_P(All, EditedBodies, testing::Values("reference", "ode", "bullet", "fcl"),
                          [](const auto& param_info) { return param_info.param; });
+
+/// Contacts stand in columns, and by pairs: what stays, stays together.
+TEST(EditedBody, TakesItsOwnContactsAlongAlone) {
+    const Scene scene = heap();
+    Simulation s(scene, colliders(), "ode");
+    make_steps(s, 150);
+    for (const std::uint32_t body :
+         {17u, static_cast<std::uint32_t>(scene.bodies.size()) - 1, 0u}) {
+        const ContactTable before = s.world().contacts;
+        s.remove_body(body);
+        const ContactTable& now = s.world().contacts;
+        ContactTable listed;
+        std::size_t stays = 0, pairs = 0;
+        for (std::size_t i = 0; i < before.found.size(); ++i) {
+            const Contact& c = before.found[i];
+            if (c.a == body || c.b == body) continue;
+            ASSERT_LT(stays, now.found.size());
+            EXPECT_EQ(std::memcmp(&now.found[stays], &c, sizeof c), 0);
+            EXPECT_EQ(now.memory[stays].normal_impulse, before.memory[i].normal_impulse);
+            EXPECT_EQ(now.kept.rides[stays].point_b.x, before.kept.rides[i].point_b.x);
+            listed.add_to_pairs(c, static_cast<std::uint32_t>(stays++));
+        }
+        EXPECT_LT(stays, before.found.size());
+        EXPECT_EQ(now.found.size(), stays);
+        EXPECT_EQ(now.memory.size(), stays);
+        EXPECT_EQ(now.kept.rides.size(), stays);
+        ASSERT_EQ(now.pairs.size(), listed.pairs.size());
+        for (std::size_t i = 0; i < listed.pairs.size(); ++i) {
+            const ContactPair &is = now.pairs[i], &should = listed.pairs[i];
+            EXPECT_EQ(std::tie(is.a, is.b, is.first, is.count),
+                      std::tie(should.a, should.b, should.first, should.count));
+        }
+        for (std::size_t i = 0; i < before.kept.pairs.size(); ++i) {
+            const KeptPair& pair = before.kept.pairs[i];
+            if (pair.a == body || pair.b == body) continue;
+            ASSERT_LT(pairs, now.kept.pairs.size());
+            EXPECT_EQ(std::tie(now.kept.pairs[pairs].a, now.kept.pairs[pairs].b),
+                      std::tie(pair.a, pair.b));
+            EXPECT_EQ(now.kept.poses[pairs++].offset, before.kept.poses[i].offset);
+        }
+        EXPECT_EQ(now.kept.pairs.size(), pairs);
+        EXPECT_EQ(now.kept.poses.size(), pairs);
+    }
+}
 
 TEST(EditedBody, APlacementIsThatOfTheGeometry) {
     Scene scene;
