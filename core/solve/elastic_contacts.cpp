@@ -25,31 +25,16 @@ void ElasticContacts::weigh(const SparseLdlt& system) {
         resistance_[i] = system.diagonal(i).trace() / 3;
 }
 
-/// Masses as they are now, and what loads on ties add to inertia.
-void ElasticContacts::begin_masses(const World& world, double h, ElasticTies& ties) {
-    const Bodies& b = world.bodies;
-    tied_.clear();
-    for (Body& body : bodies_) {
-        const Symmetric3<double>& inverse_inertia = b.world_inverse_inertia[body.index];
-        body.table_row = b.row[body.index];
-        body.mass = 1 / b.inverse_mass[body.index];
-        tied_.push_back({body.index, body.mass, inverse(inverse_inertia), inverse_inertia});
-    }
-    ties.begin(world, h);
-    ties.stiffen(world, h, tied_);
-    for (std::size_t i = 0; i < bodies_.size(); ++i) {
-        Body& body = bodies_[i];
-        body.inverse = {b.inverse_mass[body.index], tied_[i].inverse_inertia};
-        body.inertia = matrix_of(tied_[i].inertia);
-        body.size = std::sqrt(body.inertia.trace() / body.mass);
-    }
-}
-
-void ElasticContacts::begin(const World& world, double h, double stiffness, double recovery,
-                            ElasticTies& ties) {
+void ElasticContacts::begin(const World& world, double h, double stiffness, double recovery) {
     const Bodies& b = world.bodies;
     const Particles& p = world.particles;
-    begin_masses(world, h, ties);
+    for (Body& body : bodies_) {
+        body.table_row = b.row[body.index];
+        body.inverse = {b.inverse_mass[body.index], b.world_inverse_inertia[body.index]};
+        body.mass = 1 / body.inverse.mass;
+        body.inertia = matrix_of(inverse(body.inverse.inertia));
+        body.size = std::sqrt(body.inertia.trace() / body.mass);
+    }
     for (Contact& c : contacts_) {
         Vector3d place = Vector3d::Zero();
         double yields = 0, of_body[2] = {0, 0}, gap = 0;

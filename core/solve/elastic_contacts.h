@@ -112,9 +112,9 @@ public:
     /// How the elements that are in the system resist a push on each particle [kg].
     void weigh(const SparseLdlt& system);
 
-    /// Once a substep of length h [s]: gaps and arms, and rows of `ties`. Of old overlap,
+    /// Once a substep of length h [s]: gaps and arms. Of old overlap,
     /// `stiffness` is pushed out, and no more than `recovery` [m] of it counts.
-    void begin(const World& world, double h, double stiffness, double recovery, ElasticTies& ties);
+    void begin(const World& world, double h, double stiffness, double recovery);
 
     /// Once a call of the system: velocities of bodies as they are, and without the system's
     /// impulses, [row of the system].
@@ -159,7 +159,6 @@ private:
     std::uint32_t body_of(const World& world, std::uint32_t body);
     void take_kept(const World& world);
     void begin_bodies(const World& world, double h, Contact& contact) const;
-    void begin_masses(const World& world, double h, ElasticTies& ties);
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
     Vector3d velocity_of(const Contact& contact, const std::vector<Vector3d>& v) const;
 
@@ -168,7 +167,6 @@ private:
     std::uint32_t first_row_ = 0;
     std::vector<Body> bodies_;
     std::vector<Contact> contacts_;
-    std::vector<SolvedBody> tied_;         ///< [`bodies_`] with what their ties make of them
     std::vector<std::uint32_t> body_of_;   ///< [world's body] in `bodies_`
     DisjointSets groups_;                  ///< of the world's bodies
     std::vector<std::uint32_t> members_;   ///< [lowest of a group] how many it has

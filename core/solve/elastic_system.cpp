@@ -122,7 +122,8 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     enough_size_ = kEnoughOfMotion * std::sqrt(motion);
     near_ = parts_.contacts.empty() ? 1 : kFirstRound;
     for (const auto& elements : parts_.elements) elements->begin(start_, h);
-    parts_.contacts.begin(world, h, stiffness, recovery, parts_.ties);
+    parts_.contacts.begin(world, h, stiffness, recovery);
+    parts_.ties.begin(world, h);
     if (!parts_.contacts.empty()) {
         x_ = start_;
         find_elastic_forces();

@@ -40,7 +40,7 @@ void ElasticTies::mark(SolvedTies& solved) const {
 }
 
 void ElasticTies::begin(const World& world, double h) {
-    h_ = h, holds_ = true;
+    holds_ = true;
     mass_ = 0;
     rows_.each(range_, [&](const Tie& tie) {
         each_body(world, tie, [&](std::uint32_t body) {

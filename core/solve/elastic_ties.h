@@ -42,11 +42,6 @@ public:
 
     // velocities (v, ω) of the system's bodies, [body of the system]
 
-    /// What loads of the substep before add to the inertia of the bodies.
-    void stiffen(const World& world, double h, std::span<SolvedBody> bodies) const {
-        rows_.stiffen(world, h, range_, bodies);
-    }
-
     /// Asks the rows to close what is open at the preview of the velocities. Returns by how much
     /// that changes what the worst is asked for [m/s].
     double ask(std::span<const Vector6d> velocity);
@@ -87,7 +82,7 @@ private:
     std::vector<double> applied_;             ///< [row]
     std::vector<double> rate_, way_, slope_;  ///< [row] at the last forces; of the line
     bool holds_ = true;
-    double h_ = 0, mass_ = 0, driven_energy_ = 0;
+    double mass_ = 0, driven_energy_ = 0;
 };
 
 }  // namespace plumb

@@ -166,6 +166,17 @@ TEST(SavedState, OfClothGoesOn) {
     expect_continuation(s, "reference", 40, 80);
     s.settings.exact_deformables = 1000;
     expect_continuation(s, "reference", 40, 80);
+    // and with two boxes on a hinge that lie on it
+    s.attachments[0].points = {0, 72, 80};
+    s.attachments[0].body = kNoIndex;
+    add_body(s, box(0.1, 0.05, 0.1), {0.4, 0.87, 0.5});
+    add_body(s, box(0.1, 0.05, 0.1), {0.62, 0.87, 0.5});
+    JointSpec hinge;
+    hinge.kind = JointKind::hinge, hinge.anchor = {0.51, 0.87, 0.5};
+    hinge.body_a = 4, hinge.body_b = 3;
+    hinge.axes[kTurnX].upper = 0.2;
+    s.joints.push_back(hinge);
+    expect_continuation(s, "reference", 40, 80);
 }
 
 /// Also back to when less was torn.
