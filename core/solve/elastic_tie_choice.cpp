@@ -11,8 +11,9 @@ namespace plumb {
 namespace {
 
 /// What turns farther within a substep [rad], or swings under a harder pull (the square of h ω), is
-/// solved by others: levers of the substep's start say little of its end.
-constexpr double kFarTurn = 1, kHardPull = 1;
+/// solved by others: levers of the substep's start say little of its end. What lies on a sheet
+/// swings less.
+constexpr double kFarTurn = 1, kHardPull = 1, kHeldPull = 4;
 
 /// The square of h ω of a joint that bears `impulse` [N s].
 double pull_of(const World& world, const Joint& joint, double impulse, double h) {
@@ -36,17 +37,19 @@ double lasting_pull(const World& world, const Joint& joint, double pull, double 
     return pull * load_of(joint, kAlongX, JointSolve::iterations) / bore;
 }
 
-bool belongs(const World& world, const Tie& tie, double weight, double h) {
+/// `lies`: whether one of its bodies does; `weight`: of all that hang together [N s].
+bool belongs(const World& world, const Tie& tie, bool lies, double weight, double h) {
+    const double most = lies ? kHeldPull : kHardPull;
     if (tie.kind == TieKind::link) {
         const TieLoad load = load_of(world, world.links[tie.index], h);
-        return load.turn <= kFarTurn && load.pull <= kHardPull;
+        return load.turn <= kFarTurn && load.pull <= most;
     }
     if (world.settings.joints == JointMethod::iterate) return false;
     if (tie.kind == TieKind::coupling) return true;
     const Joint& joint = world.joints.joints[tie.index];
     const TieLoad load = load_of(world, joint, h);
     return !joint.pace.is_divided() && load.turn <= kFarTurn &&
-           lasting_pull(world, joint, load.pull, weight, h) <= kHardPull;
+           lasting_pull(world, joint, load.pull, weight, h) <= most;
 }
 
 bool moves(const World& world, std::uint32_t body) {
@@ -67,7 +70,10 @@ void ElasticTieChoice::find_groups(const World& world) {
         });
     }
     const double h = substep_of(world.settings);
-    weight_.assign(n, 0), is_other_.assign(n, 0);
+    weight_.assign(n, 0), is_other_.assign(n, 0), lies_.assign(n, 0);
+    world.each_body_among_particles([&](std::uint32_t body) {
+        if (body != kNoIndex) lies_[body] = 1;
+    });
     for (std::uint32_t i = 0; i < n; ++i)
         if (moves(world, i))
             weight_[groups_.lowest(i)] += h * world.bodies.mass[i] * pull_on(world, i);
@@ -85,7 +91,10 @@ const std::vector<Tie>& ElasticTieChoice::find(const World& world) {
     for (const Tie& tie : list_.all()) {
         double weight = 0;
         each_group(tie, [&](std::uint32_t group) { weight = std::max(weight, weight_[group]); });
-        if (belongs(world, tie, weight, h)) continue;
+        bool lies = false;
+        each_body(world, tie,
+                  [&](std::uint32_t body) { lies |= moves(world, body) && lies_[body] != 0; });
+        if (belongs(world, tie, lies, weight, h)) continue;
         each_group(tie, [&](std::uint32_t group) { is_other_[group] = 1; });
     }
     for (const Tie& tie : list_.all()) {

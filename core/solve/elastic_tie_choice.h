@@ -21,6 +21,7 @@ private:
     TieList list_;
     DisjointSets groups_;                 ///< of the world's bodies that move, by ties
     std::vector<double> weight_;          ///< [lowest of a group] in a substep [N s]
+    std::vector<std::uint8_t> lies_;      ///< [world's body] whether it touches particles
     std::vector<std::uint8_t> is_other_;  ///< [lowest of a group] whether others solve it
     std::vector<Tie> found_;
 };

@@ -135,7 +135,8 @@ void ElasticTies::forget() {
     for (TieRow& row : rows_.rows()) row.impulse = 0;
 }
 
-void ElasticTies::store(std::span<const Vector6d> velocity, World& world) const {
+void ElasticTies::store(std::span<const Vector6d> velocity, World& world) {
+    for (std::size_t i = 0; i < applied_.size(); ++i) rows_.rows()[i].impulse = applied_[i];
     rows_.store_impulses(range_, velocity, world);
 }
 

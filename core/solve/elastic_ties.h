@@ -70,7 +70,7 @@ public:
     const std::vector<double>& applied() const { return applied_; }
 
     /// Impulses of the substep that ends at these velocities, into the world's tables.
-    void store(std::span<const Vector6d> velocity, World& world) const;
+    void store(std::span<const Vector6d> velocity, World& world);
 
 private:
     ElasticTieChoice choice_;
