@@ -15,13 +15,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Seen = ErrorWatch::Seen;
 
-/// How many bodies joints and links tie to those of a joint, these included.
-std::uint32_t bodies_tied(const World& world, const JointSpec& joint) {
+/// How many bodies joints and links tie to two of them, these included.
+std::uint32_t bodies_tied(const World& world, std::uint32_t body_a, std::uint32_t body_b) {
     std::vector<BodyPair> ties;
     add_tied_rows(world, ties);
     ContactIslands tied;
     tied.find(ties, {}, 0, world.dynamic_count);
-    for (const std::uint32_t body : {joint.body_a, joint.body_b}) {
+    for (const std::uint32_t body : {body_a, body_b}) {
         const std::int32_t row = world.row_of(body);
         if (row >= world.dynamic_count || tied.island_of()[row] == ~0u) continue;
         const ContactIsland& island = tied.islands()[tied.island_of()[row]];
@@ -30,23 +30,46 @@ std::uint32_t bodies_tied(const World& world, const JointSpec& joint) {
     return 1;
 }
 
-/// The joint or coupling that an error is of.
+/// The joint, link or coupling that an error is of.
 struct Subject {
     const char* kind;
-    const std::string& name;
+    std::uint32_t index;  ///< in the scene
+    std::string name;
     const char* unit;
-    const JointSpec& joint;  ///< of a coupling its second
+    std::uint32_t body_a, body_b;  ///< of a coupling those of its second joint
 };
 
+/// Whether the world makes a joint of a link: see world/build_links.h.
+bool is_rod(const Scene& scene, const LinkSpec& link) {
+    const auto moves = [&](const ScenePoint& p) {
+        return p.body != kNoIndex && scene.bodies[p.body].motion == Motion::dynamic;
+    };
+    return link.a.deformable == kNoIndex && link.b.deformable == kNoIndex &&
+           link.shortest == link.longest && link.compliance == 0 &&
+           (moves(link.a) || moves(link.b));
+}
+
+/// Joints of rods have the identifiers after those of the scene's joints.
 Subject joint_of(const Scene& scene, std::uint32_t id, const char* unit) {
-    return {"joint", scene.joints[id].name, unit, scene.joints[id]};
+    const std::size_t joints = scene.joints.size();
+    if (id < joints) {
+        const JointSpec& joint = scene.joints[id];
+        return {"joint", id, joint.name, unit, joint.body_a, joint.body_b};
+    }
+    std::size_t rods = 0;
+    for (std::uint32_t i = 0; i < scene.links.size(); ++i) {
+        const LinkSpec& link = scene.links[i];
+        if (is_rod(scene, link) && rods++ == id - joints)
+            return {"link", i, "", unit, link.a.body, link.b.body};
+    }
+    return {"joint", id, "", unit, kNoIndex, kNoIndex};
 }
 
 Subject coupling_of(const Scene& scene, std::uint32_t id, const char*) {
     const CouplingSpec& c = scene.couplings[id];
     const JointSpec& second = scene.joints[c.joint_b];
     const bool along = c.axis_b <= kAlongZ || second.kind == JointKind::distance;
-    return {"coupling", c.name, along ? "m" : "rad", second};
+    return {"coupling", id, c.name, along ? "m" : "rad", second.body_a, second.body_b};
 }
 
 /// What is watched, and how it is told of.
@@ -102,9 +125,12 @@ Json JointWatch::json(const Scene& scene, const World& world) const {
         const auto of_one = [&](const Seen& seen) -> Json {
             if (seen.id == kNoIndex) return nullptr;
             const Subject subject = kind.subject(scene, seen.id, kind.unit);
-            return {{subject.kind, seen.id}, {"name", subject.name},
-                    {"error", seen.error},   {"unit", subject.unit},
-                    {"time", seen.time},     {"bodies", bodies_tied(world, subject.joint)}};
+            return {{subject.kind, subject.index},
+                    {"name", subject.name},
+                    {"error", seen.error},
+                    {"unit", subject.unit},
+                    {"time", seen.time},
+                    {"bodies", bodies_tied(world, subject.body_a, subject.body_b)}};
         };
         const ErrorWatch& watch = kind.watch;
         if (watch.steps() > 0)
@@ -126,7 +152,7 @@ std::vector<std::string> JointWatch::warnings(const Scene& scene, const World& w
             const Subject subject = kind.subject(scene, seen.id, kind.unit);
             return fmt::format(
                 "{} {}", subject.kind,
-                subject.name.empty() ? std::to_string(seen.id) : '"' + subject.name + '"');
+                subject.name.empty() ? std::to_string(subject.index) : '"' + subject.name + '"');
         };
         const auto how_far = [&](const Seen& seen) {
             return fmt::format("{:.3g} {}", seen.error,

@@ -378,7 +378,9 @@ bool ElasticSystem::has_moved(const std::vector<Vector3d>& velocity) const {
 /// Contacts and implicit steps only take energy, but for what contacts give by themselves and what
 /// points that are moved by others pull along.
 bool ElasticSystem::gains_energy() const {
-    double mass = 0, pull = 0;
+    // what hangs on a point that is moved may overtake it at twice its speed
+    const double tied = 2 * parts_.ties.scripted_speed();
+    double mass = 0, pull = tied * tied;
     for (std::size_t i = 0; i < parts_.mass.size(); ++i) {
         mass += parts_.mass[i];
         if (parts_.mass[i] == 0) pull = std::max(pull, target_[i].squaredNorm());
@@ -407,11 +409,11 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
         v_ = begin_;
         go_rounds();
         if (gains_energy()) {
-            parts_.contacts.let_go();
+            parts_.ties.let_go();
             v_ = begin_;
             go_rounds();
             if (gains_energy()) {
-                parts_.ties.let_go();
+                parts_.contacts.let_go();
                 v_ = begin_;
                 go_rounds();
             }

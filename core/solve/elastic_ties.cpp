@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace plumb {
 namespace {
@@ -16,19 +17,29 @@ namespace {
 /// drives an axis may let go, as contacts may: so many times its effective mass.
 constexpr double kTieFirm = 100, kDriveFirm = 5;
 
+/// A row that bears nothing, for its bounds are 0.
+const TieRow kFree{};
+
 }  // namespace
 
 void ElasticTies::clear() {
     rows_.clear();
     rows_.begin_range(range_), rows_.end_range(range_);
-    for (auto* column : {&impulse_, &applied_, &rate_, &way_, &slope_}) column->clear();
-    laws_.clear(), pairs_.clear();
-    driven_energy_ = 0;
+    for (auto* column : {&impulse_, &applied_, &rate_, &way_, &slope_, &wanted_}) column->clear();
+    laws_.clear(), pairs_.clear(), tied_.clear();
+    mass_ = driven_energy_ = 0;
 }
 
 void ElasticTies::add(const World& world, const Tie& tie, const TiedBodies& at) {
     rows_.add(world, tie, at);
     rows_.end_range(range_);
+    std::size_t side = 0;
+    each_body(world, tie, [&](std::uint32_t body) {
+        const std::uint32_t i = at[side++];
+        if (i == kImmovable) return;
+        if (i >= tied_.size()) tied_.resize(i + 1, 0);
+        if (!std::exchange(tied_[i], 1)) mass_ += world.bodies.mass[body];
+    });
     for (std::size_t i = 0; i < at.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
             if (at[i] != kImmovable && at[k] != kImmovable && at[i] != at[k])
@@ -41,30 +52,40 @@ void ElasticTies::mark(SolvedTies& solved) const {
 
 void ElasticTies::begin(const World& world, double h) {
     holds_ = true;
-    mass_ = 0;
-    rows_.each(range_, [&](const Tie& tie) {
-        each_body(world, tie, [&](std::uint32_t body) {
-            if (body != kNoIndex && world.bodies.inverse_mass[body] > 0)
-                mass_ += world.bodies.mass[body];
-        });
-    });
     rows_.begin();
     rows_.begin(world, substep_time(world, h), range_);
-    const std::size_t n = rows_.rows().size();
-    for (auto* column : {&impulse_, &applied_, &rate_, &way_, &slope_}) column->assign(n, 0);
-    for (TieRow& row : rows_.rows()) {
+    const std::span<TieRow> rows = rows_.rows();
+    for (auto* column : {&impulse_, &applied_, &rate_, &way_, &slope_, &wanted_})
+        column->assign(rows.size(), 0);
+    for (TieRow& row : rows) {
         row.most = std::numeric_limits<double>::infinity();
         if (!world.settings.warm_start) row.impulse = 0;
     }
+    rest_.assign(tied_.size(), Vector6d::Zero());
+    rows_.ask(range_, rest_);
+    find_driven_energy(world, h);
+}
+
+/// Motors and springs of drives do work; rows that are open close, and those that yield give back
+/// what they hold.
+void ElasticTies::find_driven_energy(const World& world, double h) {
     driven_energy_ = 0;
+    for (const TieRow& row : rows_.rows())
+        if (!row.drive)
+            driven_energy_ += 0.5 * (row.mass * row.wanted * row.wanted +
+                                     row.softness * row.impulse * row.impulse);
     rows_.each(range_, [&](const Tie& tie) {
-        if (tie.kind == TieKind::joint) driven_energy_ += most_work(world, tie.index, h);
+        if (tie.kind != TieKind::joint) return;
+        const double work = most_work(world, tie.index, h);
+        const Joint& joint = world.joints.joints[tie.index];
+        const bool yields = joint.compliance > 0 || joint.angular_compliance > 0;
+        if (!yields || std::isfinite(work)) driven_energy_ += work;
     });
 }
 
 double ElasticTies::ask(std::span<const Vector6d> velocity) {
     const std::span<TieRow> rows = rows_.rows();
-    for (std::size_t i = 0; i < rows.size(); ++i) way_[i] = rows[i].wanted;
+    for (std::size_t i = 0; i < rows.size(); ++i) wanted_[i] = rows[i].wanted;
     rows_.ask(range_, velocity);
     laws_.clear();
     double most = 0;
@@ -72,8 +93,8 @@ double ElasticTies::ask(std::span<const Vector6d> velocity) {
         const TieRow& row = rows[i];
         const double firm = std::max(row.mass, mass_ * row.length * row.length);
         RowLaw& law = laws_.emplace_back(row, row.drive ? kDriveFirm * row.mass : kTieFirm * firm);
-        if (!holds_) law = RowLaw(TieRow(), 1);
-        if (!row.drive) most = std::max(most, row.length * std::abs(row.wanted - way_[i]));
+        if (!holds_) law = RowLaw(kFree, 1);
+        if (!row.drive) most = std::max(most, row.length * std::abs(row.wanted - wanted_[i]));
     }
     return most;
 }
@@ -87,10 +108,10 @@ double ElasticTies::add_forces(std::span<const Vector6d> velocity, std::span<Vec
         const RowAnswer answer = answer_of(law, rate_[i]);
         impulse_[i] = answer.impulse, slope_[i] = answer.slope;
         add_impulse(rows[i], answer.impulse, force);
-        // of a spring of this stiffness whose pull is bounded
-        const double pull = law.impulse + law.stiffness * (law.wanted - rate_[i]),
+        // of a spring whose pull is bounded; of what drives an axis, about
+        const double pull = law.impulse + law.slope * (law.wanted - law.yields - rate_[i]),
                      beyond = pull - answer.impulse;
-        energy += 0.5 * (pull * pull - beyond * beyond) / law.stiffness;
+        energy += 0.5 * (pull * pull - beyond * beyond) / law.slope;
     }
     return energy;
 }

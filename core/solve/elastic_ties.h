@@ -4,7 +4,7 @@
 /// Where a doll lies on a sheet, its limbs are held by its joints and by the sheet. Solved in turn,
 /// neither lets the other get anywhere: the doll's elbow turns past its limit while the sheet holds
 /// its arm. So rows of ties (ties/tie_row.h) are terms of what the system minimises, as those of
-/// its contacts are, with the impulses that have been found so far and what they are firm by.
+/// its contacts are: augmented Lagrangians, with the impulses that have been found so far.
 #pragma once
 
 #include "math/block_cholesky.h"
@@ -23,7 +23,8 @@ public:
 
     /// Those of the world that can be solved here.
     const std::vector<Tie>& find(const World& world) { return choice_.find(world); }
-    /// Forgets those of the step before; adds one of them, whose bodies are `at` of the system's.
+    /// Forgets those of the step before; adds one, `at`: its bodies in the order of `each_body`,
+    /// among those of the system, or kImmovable.
     void clear();
     void add(const World& world, const Tie& tie, const TiedBodies& at);
 
@@ -57,6 +58,10 @@ public:
     double take_forces();
     /// What ties can give by themselves, about [J]: drives do work, and what is open closes.
     double driven_energy() const { return driven_energy_; }
+    /// How fast scripts move the points of joints [m/s].
+    double scripted_speed() const { return rows_.scripted_speed(range_); }
+    /// Whether the row's impulse can change: it is not at a bound.
+    bool yields(std::size_t row) const { return slope_[row] != 0; }
     /// All λ₀ are 0 again; none hold any more in this substep.
     void forget();
     void let_go() { holds_ = false; }
@@ -73,13 +78,18 @@ public:
     void store(std::span<const Vector6d> velocity, World& world);
 
 private:
+    void find_driven_energy(const World& world, double h);
+
     ElasticTieChoice choice_;
     BlockCholesky::Pattern pairs_;
+    std::vector<Vector6d> rest_;      ///< [body of the system] no velocity
+    std::vector<std::uint8_t> tied_;  ///< [body of the system] whether any of them ties it
     TieRows rows_;
     TieRange range_;
     std::vector<RowLaw> laws_;                ///< [row]
     std::vector<double> impulse_;             ///< [row] λ at the last forces [N s], [N m s]
     std::vector<double> applied_;             ///< [row]
+    std::vector<double> wanted_;              ///< [row] before it was asked again
     std::vector<double> rate_, way_, slope_;  ///< [row] at the last forces; of the line
     bool holds_ = true;
     double mass_ = 0, driven_energy_ = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// All that holds deformables together, and contacts of sheets with bodies and of these with each
-/// other, solved as one system. Other contacts, links and attachments stay with the iterations, in
-/// turn with it.
+/// All that holds deformables together, contacts of sheets with bodies and of these with each
+/// other, and their ties, solved as one system. Other contacts and links, and attachments, stay
+/// with the iterations, in turn with it.
 #pragma once
 
 #include "contacts/contact_sums.h"

@@ -73,7 +73,7 @@ bool ImpulseMatch::factor(const ElasticContacts& contacts, const ElasticTies& ti
     }
     for (std::size_t i = 0; i < ties.rows().size(); ++i) {
         const TieRow& row = ties.rows()[i];
-        if (ties.impulses()[i] == 0) continue;
+        if (!ties.yields(i)) continue;
         for (std::uint32_t k = 0; k < row.count; ++k) {
             const Vector6d one = motion_of(bodies, row, row.side[k]);
             most += one.squaredNorm();
@@ -126,7 +126,7 @@ void ImpulseMatch::match(const std::vector<Vector3d>& v, const std::vector<Vecto
         }
         for (std::size_t i = 0; i < ties.rows().size(); ++i) {
             const TieRow& row = ties.rows()[i];
-            if (ties.impulses()[i] == 0) continue;
+            if (!ties.yields(i)) continue;
             double more = 0;
             for (const RowSide& side : row.sides())
                 more += motion_of(bodies, row, side).dot(missing_[side.body]);

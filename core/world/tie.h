@@ -51,8 +51,8 @@ auto& rest_of(SomeWorld& world, const Tie& tie) {
                                       : world.links[tie.index].island_rest;
 }
 
-/// What exact islands solve in a step, so that others leave it alone: by index in the world's
-/// tables.
+/// What exact islands and the systems of sheets solve in a step, so that others leave it alone: by
+/// index in the world's tables.
 struct SolvedTies {
     std::vector<std::uint8_t> joints, links, couplings;
 

@@ -156,6 +156,62 @@ TEST_P(TiedOnSheets, MotorsAndLimitsHold) {
     }
 }
 
+/// A kinematic hand lifts a box off the sheet at up to 3 m/s, or shakes it there at usual settings.
+TEST_P(TiedOnSheets, HandsHoldWhatTheyLift) {
+    Random random(seed(41));
+    for (int draw = 0; draw < 6; ++draw) {
+        Tray t = empty_tray(scene(), random);
+        Scene& s = t.scene;
+        const bool shakes = draw % 2 == 1;
+        if (!shakes) draw_settings(s.settings, random, draw / 2);
+        const double a = 0.1 * t.size, speed = random.number(0.5, 3);
+        add_body(s, box(a, 0.5 * a, a), {0, 0.55 * a, 0}).mass = 2 * t.cloth;
+        BodySpec& hand = add_body(s, sphere(0.1 * a), {0, 1.5 * a, 0}, Motion::kinematic);
+        hand.mask = 0;
+        tie(s, JointKind::ball, 0, 1, {0, 1.1 * a, 0});
+        Simulation simulation(s, colliders(), collider());
+        double widest = 0;
+        while (simulation.time() < 1.5) {
+            const double time = simulation.time();
+            const Vector along =
+                shakes ? Vector(std::cos(20 * time), 0, 0) : Vector(0, time > 0.7 ? 1 : 0, 0);
+            simulation.set_velocity(1, speed * along, Vector::Zero());
+            ASSERT_TRUE(simulation.step().finite);
+            widest = std::max(widest, widest_joint(simulation.world()));
+        }
+        EXPECT_LT(widest, 1e-3 * t.size) << draw << ", at " << speed << " m/s, " << s.settings.dt
+                                         << " s with " << s.settings.substeps << " substeps, "
+                                         << s.settings.position_iterations << " iterations";
+    }
+}
+
+/// Ropes that are too short at the start, or struts that are too long, let nothing fall through.
+TEST_P(TiedOnSheets, RopesThatAreTooShortLetNothingFall) {
+    Random random(seed(43));
+    for (const double ratio : {0.85, 0.95, 1.02, 1.05}) {
+        Tray t = empty_tray(scene(), random);
+        Scene& s = t.scene;
+        const double a = 0.08 * t.size;
+        for (const double x : {-2.5 * a, 2.5 * a})
+            add_body(s, box(a, 0.5 * a, a), {x, 0.8 * a, 0}).mass = t.cloth;
+        LinkSpec& rope =
+            add_link(s, on_body(0, {-1.5 * a, 0.8 * a, 0}), on_body(1, {1.5 * a, 0.8 * a, 0}));
+        (ratio < 1 ? rope.longest : rope.shortest) = 3 * a * ratio;
+        Simulation simulation(s, colliders(), collider());
+        run_for(simulation, 2);
+        const Bodies& b = simulation.world().bodies;
+        const double apart = (b.position[0] + b.orientation[0] * Vector(a, 0, 0) - b.position[1] -
+                              b.orientation[1] * Vector(-a, 0, 0))
+                                 .norm();
+        for (const int i : {0, 1}) EXPECT_GT(b.position[i].y(), -0.5 * t.size) << ratio;
+        if (ratio < 1) {
+            EXPECT_LT(apart, 3 * a * ratio + 1e-4);
+        } else {
+            EXPECT_GT(apart, 3 * a * ratio - 1e-4);
+        }
+    }
+}
+
 /// Nothing holds the sheet, and nothing pulls: what a chain loses, it gains.
 TEST_P(TiedOnSheets, KeepMomentum) {
     Random random(seed(23));

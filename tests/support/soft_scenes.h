@@ -8,7 +8,8 @@
 namespace plumb::test {
 
 /// In a wind, on the ground, a kinematic plate and boxes: a cloth that is held at one side, a
-/// balloon, a balloon with a pressure, a solid, a rope between two bodies, and links of all kinds.
+/// balloon, a balloon with a pressure, a solid, a rope between two bodies, links of all
+/// kinds, and joints of bodies that fall on the cloth.
 inline Scene soft_scene() {
     Scene s;
     s.settings.substeps = 4;
@@ -38,6 +39,13 @@ inline Scene soft_scene() {
     add_link(s, on_body(3, {-0.2, 2.2, -0.1}), on_body(4, {0.2, 2.2, 0}));
     add_link(s, on_body(6, {-0.6, 2.5, 0}), in_the_world({-0.6, 3, 0})).compliance = 1e-3;
     s.links.back().damping = 10;
+    JointSpec joint;
+    joint.body_a = 3, joint.body_b = 2, joint.anchor = {-0.4, 2.2, -0.2};
+    s.joints.push_back(joint);
+    joint.kind = JointKind::hinge;
+    joint.body_a = 5, joint.body_b = 4, joint.anchor = {0.4, 2.2, 0};
+    joint.axes[kTurnX].lower = -0.3, joint.axes[kTurnX].upper = 0.3;
+    s.joints.push_back(joint);
     return s;
 }
 
