@@ -93,6 +93,18 @@ END
 "$plumb" run "$work/soft.json" --collider reference --quiet --summary - >"$work/out" 2>"$work/err" || fail "a soft joint ends with $?"
 [ -s "$work/err" ] && fail "a joint is called open that gives way: $(cat "$work/err")"
 
+# A rod that is too long at the start is named by its link, also behind one that may give way.
+cat >"$work/rod.json" <<'END'
+{"settings": {"dt": 0.01, "duration": 0.1}, "bodies": [
+   {"name": "a", "shape": {"sphere": {"radius": 0.1}}, "mass": 1},
+   {"name": "b", "shape": {"sphere": {"radius": 0.1}}, "mass": 1, "position": [1, 0, 0]}],
+ "links": [{"a": {"body": "a"}, "b": {"position": [0, 3, 0]}, "limits": [null, 4]},
+           {"a": {"body": "a"}, "b": {"body": "b"}, "length": 1.5}]}
+END
+"$plumb" run "$work/rod.json" --collider reference --quiet --summary - >"$work/out" 2>"$work/err" || fail "a rod ends with $?: $(cat "$work/err")"
+grep -q '^plumb: warning: joints were open, or past a limit, in .*: link 1 first' "$work/err" || fail "the rod is not named: $(cat "$work/err")"
+[ "$("$json_has" "$work/out" --print /open_joints/apart/first/link)" = 1 ] || fail "the summary does not name the rod"
+
 # The same without the option; all verbs have it.
 "$plumb" run "$small" --duration 0.05 --set 'forbid=["friction"]' >"$work/out" 2>"$work/err" || fail "run ends with $?"
 grep -qF "$warned" "$work/err" || fail "a run does not warn unless told"
