@@ -3,6 +3,7 @@
 
 #include "schedule/contact_islands.h"
 #include "solve/island_residuals.h"
+#include "world/build_links.h"
 
 #include <spdlog/fmt/fmt.h>
 #include <nlohmann/json.hpp>
@@ -38,16 +39,6 @@ struct Subject {
     const char* unit;
     std::uint32_t body_a, body_b;  ///< of a coupling those of its second joint
 };
-
-/// Whether the world makes a joint of a link: see world/build_links.h.
-bool is_rod(const Scene& scene, const LinkSpec& link) {
-    const auto moves = [&](const ScenePoint& p) {
-        return p.body != kNoIndex && scene.bodies[p.body].motion == Motion::dynamic;
-    };
-    return link.a.deformable == kNoIndex && link.b.deformable == kNoIndex &&
-           link.shortest == link.longest && link.compliance == 0 &&
-           (moves(link.a) || moves(link.b));
-}
 
 /// Joints of rods have the identifiers after those of the scene's joints.
 Subject joint_of(const Scene& scene, std::uint32_t id, const char* unit) {

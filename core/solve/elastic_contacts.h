@@ -112,8 +112,8 @@ public:
     /// How the elements that are in the system resist a push on each particle [kg].
     void weigh(const SparseLdlt& system);
 
-    /// Once a substep of length h [s]: gaps and arms. Of old overlap,
-    /// `stiffness` is pushed out, and no more than `recovery` [m] of it counts.
+    /// Once a substep of length h [s]: gaps and arms. Of old overlap, `stiffness` is pushed out,
+    /// and no more than `recovery` [m] of it counts.
     void begin(const World& world, double h, double stiffness, double recovery);
 
     /// Once a call of the system: velocities of bodies as they are, and without the system's

@@ -171,14 +171,7 @@ void ElasticContacts::find_members(const World& world, const std::vector<BodyPai
         belongs_[i] = belongs(world, pairs[i]);
         if (moves(c.a) && moves(c.b) && belongs_[i]) groups_.unite(c.a, c.b);
     }
-    for (const Tie& tie : ties) {
-        std::uint32_t before = kNoIndex;
-        each_body(world, tie, [&](std::uint32_t body) {
-            if (body == kNoIndex || !moves(body)) return;
-            if (before != kNoIndex) groups_.unite(before, body);
-            before = body;
-        });
-    }
+    for (const Tie& tie : ties) unite_bodies(world, tie, groups_);
     for (std::uint32_t i = 0; i < n; ++i) ++members_[groups_.lowest(i)];
     is_member_.assign(n, 0);
     const std::uint32_t most = std::min(kMostBodies, world.settings.exact_islands);

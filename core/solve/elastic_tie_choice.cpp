@@ -61,14 +61,7 @@ bool moves(const World& world, std::uint32_t body) {
 void ElasticTieChoice::find_groups(const World& world) {
     const std::size_t n = world.bodies.size();
     groups_.reset(n);
-    for (const Tie& tie : list_.all()) {
-        std::uint32_t before = kNoIndex;
-        each_body(world, tie, [&](std::uint32_t body) {
-            if (!moves(world, body)) return;
-            if (before != kNoIndex) groups_.unite(before, body);
-            before = body;
-        });
-    }
+    for (const Tie& tie : list_.all()) unite_bodies(world, tie, groups_);
     const double h = substep_of(world.settings);
     weight_.assign(n, 0), is_other_.assign(n, 0), lies_.assign(n, 0);
     world.each_body_among_particles([&](std::uint32_t body) {

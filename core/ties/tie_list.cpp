@@ -2,7 +2,6 @@
 #include "ties/tie_list.h"
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
 namespace plumb {
@@ -36,8 +35,8 @@ void TieList::find(const World& world) {
 /// Moves the joints behind the others that close loops, or that hold nothing but by what drives
 /// them, as ropes do, which are no part of trees; returns where they begin.
 std::size_t TieList::move_loops_back(const World& world) {
-    joined_.resize(static_cast<std::size_t>(world.dynamic_count) + 1);
-    std::iota(joined_.begin(), joined_.end(), std::size_t{0});
+    ground_ = world.dynamic_count;
+    joined_.reset(static_cast<std::size_t>(ground_) + 1);
     loops_.clear();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < ties_.size(); ++i) {
@@ -56,14 +55,11 @@ std::size_t TieList::move_loops_back(const World& world) {
 /// Called for one joint after another: whether those before tie its bodies together already. What
 /// is immovable is one body.
 bool TieList::closes_loop(const BodyPair& joint) {
-    const auto root = [this](std::int32_t row) {
-        auto at = static_cast<std::size_t>(row);
-        at = std::min(at, joined_.size() - 1);
-        while (joined_[at] != at) at = joined_[at] = joined_[joined_[at]];
-        return at;
+    const auto set = [this](std::int32_t row) {
+        return joined_.lowest(static_cast<std::uint32_t>(std::min(row, ground_)));
     };
-    const std::size_t a = root(joint.row_a), b = root(joint.row_b);
-    joined_[a] = b;
+    const std::uint32_t a = set(joint.row_a), b = set(joint.row_b);
+    joined_.unite(a, b);
     return a == b;
 }
 

@@ -3,6 +3,7 @@
 /// them.
 #pragma once
 
+#include "math/disjoint_sets.h"
 #include "schedule/colouring.h"
 #include "world/tie.h"
 
@@ -35,7 +36,8 @@ private:
     std::vector<BodyPair> rows_;
     std::size_t first_seed_ = 0;
     std::vector<std::pair<Tie, BodyPair>> loops_;
-    std::vector<std::size_t> joined_;  // [dynamic row, then the ground] see closes_loop
+    DisjointSets joined_;      // of dynamic rows, then the ground; see closes_loop
+    std::int32_t ground_ = 0;  // its row: whatever does not move
 };
 
 }  // namespace plumb

@@ -58,17 +58,6 @@ void attach(World& world, const AttachmentSpec& spec, const std::string& place) 
     }
 }
 
-/// Whether a link is a distance joint: rigid, and between bodies. Trees of joints know more of such
-/// than links do: how bodies turn at its ends within a substep, and what heavy loads do to light
-/// ones.
-bool is_rod(const World& world, const Link& link) {
-    const auto moves = [&](const WorldPoint& p) {
-        return p.body != kNoIndex && world.bodies.motion[p.body] == Motion::dynamic;
-    };
-    return link.is_between_bodies() && link.shortest == link.longest && link.compliance == 0 &&
-           (moves(link.a) || moves(link.b));
-}
-
 JointDraft rod_joint(const World& world, const Link& link, const std::string& place) {
     JointSpec spec;
     spec.kind = JointKind::distance;
@@ -83,6 +72,15 @@ JointDraft rod_joint(const World& world, const Link& link, const std::string& pl
 }
 
 }  // namespace
+
+bool is_rod(const Scene& scene, const LinkSpec& link) {
+    const auto moves = [&](const ScenePoint& p) {
+        return p.body != kNoIndex && scene.bodies[p.body].motion == Motion::dynamic;
+    };
+    return link.a.deformable == kNoIndex && link.b.deformable == kNoIndex &&
+           link.shortest == link.longest && link.compliance == 0 &&
+           (moves(link.a) || moves(link.b));
+}
 
 void build_links(World& world, const Scene& scene) {
     for (std::size_t i = 0; i < scene.attachments.size(); ++i)
@@ -103,7 +101,7 @@ void build_links(World& world, const Scene& scene) {
                              "its lengths must be 0 ≤ shortest ≤ longest, and not both 0");
         if (!(link.compliance >= 0) || !(link.damping >= 0))
             throw SceneError("", place, "compliance and damping must not be negative");
-        if (is_rod(world, link))
+        if (is_rod(scene, spec))
             append_joint(world, rod_joint(world, link, place));
         else
             world.links.push_back(link);

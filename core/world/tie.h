@@ -2,6 +2,7 @@
 /// Ties: what holds two or more bodies together for as long as it lives, unlike a contact.
 #pragma once
 
+#include "math/disjoint_sets.h"
 #include "world/world.h"
 
 #include <algorithm>
@@ -33,6 +34,16 @@ void each_body(const World& world, const Tie& tie, Visit visit) {
             of_joint(world.joints.couplings[tie.index].joint_a);
             of_joint(world.joints.couplings[tie.index].joint_b);
     }
+}
+
+/// Unites the bodies of a tie that move.
+inline void unite_bodies(const World& world, const Tie& tie, DisjointSets& sets) {
+    std::uint32_t before = kNoIndex;
+    each_body(world, tie, [&](std::uint32_t body) {
+        if (body == kNoIndex || !(world.bodies.inverse_mass[body] > 0)) return;
+        if (before != kNoIndex) sets.unite(before, body);
+        before = body;
+    });
 }
 
 /// Whether a tie holds anything: nothing does that is broken, or sleeps.
