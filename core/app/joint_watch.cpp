@@ -74,10 +74,6 @@ struct Kind {
 
 /// Joints of what lies on a sheet are solved with it, where sheets are not iterated.
 constexpr const char* kSolveSheets = " or \"exact_deformables\" where bodies lie on sheets,";
-bool sweeps_sheets(const World& world) {
-    return world.particles.size() > world.settings.exact_deformables;
-}
-
 std::array<Kind, 4> kinds_of(const JointWatch& watch) {
     constexpr const char* kSolveBetter = "more iterations or substeps, or \"joints\": \"tree\",";
     return {{{"apart", watch.apart(), "joints were open, or past a limit,", kSolveBetter, joint_of,
@@ -157,7 +153,7 @@ std::vector<std::string> JointWatch::warnings(const Scene& scene, const World& w
             kind.words, watch.steps(), world.steps, name(first), first.time, name(worst),
             how_far(worst), worst.time,
             last.id == kNoIndex ? "none" : name(last) + ", by " + how_far(last),
-            sweeps_sheets(world) ? std::string(kind.advice) + kSolveSheets : kind.advice));
+            sweeps_deformables(world) ? std::string(kind.advice) + kSolveSheets : kind.advice));
     }
     return warnings;
 }

@@ -35,6 +35,11 @@ private:
     Seen first_, worst_, last_;
 };
 
+/// Whether there are deformables, and these are iterated (`exact_deformables`).
+inline bool sweeps_deformables(const World& world) {
+    return world.particles.size() > world.settings.exact_deformables;
+}
+
 /// Joints and couplings that gape (effects/report.h), and trees that Newton's steps left open.
 class JointWatch {
 public:

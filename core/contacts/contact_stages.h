@@ -12,6 +12,7 @@
 #include "effects/plan.h"
 #include "effects/report.h"
 #include "schedule/workers.h"
+#include "world/joined_points.h"
 #include "world/world.h"
 
 #include <plumb/proximity.h>
@@ -27,6 +28,7 @@ struct DetectBuffers {
     std::vector<ContactRoom> rooms;   ///< [worker], behind the sinks
     std::vector<ContactSink> sinks;   ///< [worker]
     std::vector<Vec3> places;         ///< of particles
+    JoinedPoints joined;
 };
 
 /// Asks the collider for all contacts at the present poses, bodies growing their margin by how far

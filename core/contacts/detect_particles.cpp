@@ -33,6 +33,7 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
     ParticleContactTable& table = world.particle_contacts;
     table.found.clear();
     const TaskRunner runner = runner_on(workers);
+    buffers.joined.find(world);
     buffers.places.resize(world.particles.size());
     for (std::size_t i = 0; i < world.particles.size(); ++i)
         buffers.places[i] = to_plain(world.particles.position[i]);
@@ -64,7 +65,7 @@ void detect_particles(World& world, Workers& workers, Proximity& proximity, Dete
                 c.a += d.first;
                 if (!is_sound(c, world))
                     ++report.rejected_contacts;
-                else if (c.gap <= margin + buffers.sweeps[c.b])
+                else if (c.gap <= margin + buffers.sweeps[c.b] && !buffers.joined.has(c.a, c.b))
                     table.found.push_back(c);
             }
     }

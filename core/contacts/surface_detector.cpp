@@ -97,6 +97,7 @@ void SurfaceDetector::detect(World& world, double dt) {
     next_known_ = 0;
     if (triangles_.empty()) return;
     const Particles& p = world.particles;
+    joined_.find(world);
     speed_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) speed_[i] = p.velocity[i].norm();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -224,6 +225,8 @@ bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Tri
         (t.corners[0] == probe.point.particle || t.corners[1] == probe.point.particle ||
          t.corners[2] == probe.point.particle))
         return false;
+    for (const std::uint32_t corner : t.corners)
+        if (probe.point.body != kNoIndex && joined_.has(corner, probe.point.body)) return false;
     const Filter& surface = filters_[t.deformable];
     const Filter other = probe.deformable != kNoIndex ? filters_[probe.deformable]
                                                       : Filter{world.bodies.group[probe.point.body],

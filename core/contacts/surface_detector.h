@@ -5,6 +5,7 @@
 
 #include "geometry/corner_points.h"
 #include "schedule/box_grid.h"
+#include "world/joined_points.h"
 #include "world/world.h"
 
 #include <cstdint>
@@ -66,7 +67,8 @@ private:
     std::vector<Probe> probes_;
     std::vector<std::uint8_t> closed_;  ///< [deformable] whether its surface has an inside
     std::vector<Filter> filters_;       ///< [deformable]
-    std::vector<double> speed_;         ///< [particle] [m/s]
+    JoinedPoints joined_;
+    std::vector<double> speed_;  ///< [particle] [m/s]
     BoxGrid grid_;
     std::vector<Vector3d> low_, high_;                                         ///< [triangle]
     Vector3d bounds_low_ = Vector3d::Zero(), bounds_high_ = Vector3d::Zero();  ///< of all

@@ -74,7 +74,8 @@ struct StepReport {
     std::vector<OpenTree> open_trees;     ///< of the last substep
     GapingJoints gaping;                  ///< joints that anyone sees to be open
     std::uint32_t stretched_links = 0;    ///< links that the step left longer or shorter than
-                                          ///< they may be, by more than 1 % of that
+                                          ///< they may be, by more than 1 % of that, or attached
+                                          ///< points apart by a tenth of their radius
     double link_error = 0;                ///< by how much they were wrong at most [m]
     std::uint32_t rejected_contacts = 0;  ///< left out for one of the faults
     std::array<std::uint32_t, kContactFaultCount> faults{};  ///< contacts left out, by fault

@@ -119,6 +119,8 @@ void each_number_of_factors(Io& io, Factors& kept) {
         io.count(*places);
         for (auto& place : *places) vector(io, place);
     }
+    io.count(kept.near);
+    for (auto& [a, b] : kept.near) io(a), io(b);
     const auto matrix = [&](auto& m) {
         for (int k = 0; k < 9; ++k) io(m.data()[k]);
     };
@@ -132,6 +134,8 @@ void each_number_of_factors(Io& io, Factors& kept) {
         for (auto& body : c.body) io(body);
         for (auto& arm : c.arm) vector(io, arm);
     }
+    io.count(kept.points);
+    for (auto& particle : kept.points) io(particle);
     io.count(kept.rows);
     for (auto& row : kept.rows) {
         io(row.count), io(row.stiffness);
@@ -237,12 +241,18 @@ bool can_be(const KeptFactors& kept, const World& world) {
                    [&](std::uint32_t particle) { return particle < world.particles.size(); }) &&
                std::all_of(c.body.begin(), c.body.end(), has_body);
     };
+    const std::size_t tied = kept.bodies.size() + kept.points.size();
     const auto has_bodies = [&](const KeptFactors::Row& row) {
         return row.count <= row.body.size() &&
                std::all_of(row.body.begin(), row.body.begin() + row.count,
-                           [&](std::uint32_t body) { return body < kept.bodies.size(); });
+                           [&](std::uint32_t body) { return body < tied; });
     };
-    return std::all_of(kept.contacts.begin(), kept.contacts.end(), has_points) &&
+    const std::size_t n = world.particles.size();
+    return std::all_of(kept.near.begin(), kept.near.end(),
+                       [&](const auto& pair) { return pair.first < n && pair.second < n; }) &&
+           std::all_of(kept.points.begin(), kept.points.end(),
+                       [&](std::uint32_t i) { return i < n; }) &&
+           std::all_of(kept.contacts.begin(), kept.contacts.end(), has_points) &&
            std::all_of(kept.rows.begin(), kept.rows.end(), has_bodies);
 }
 
@@ -263,7 +273,7 @@ void read_state(World& world, StateReader& from) {
     std::erase_if(world.elastic_impulses,
                   [](const ElasticImpulse& kept) { return !kept.impulse.allFinite(); });
     std::sort(world.elastic_impulses.begin(), world.elastic_impulses.end());
-    if (!can_be(world.kept_factors, world)) world.kept_factors.clear();
+    if (!can_be(world.kept_factors, world)) world.kept_factors = {};
     for (Deformable& d : world.deformables)
         if (d.can_tear()) leave_out_torn(d);
 }

@@ -48,8 +48,11 @@ void ElasticContacts::begin(const World& world, double h, double stiffness, doub
             gap = gap_to_solve_for(world, c.source, recovery);
         } else if (c.of == Source::surface) {
             const SurfaceContact& found = world.surface_contacts[c.source];
-            gap = c.normal.dot(place - in_world(b, found.point.body, found.point.position)) -
-                  found.distance;
+            const Vector3d apart =
+                c.is_between_particles()
+                    ? place
+                    : place - in_world(b, found.point.body, found.point.position);
+            gap = c.normal.dot(apart) - found.distance;
         } else {
             const plumb::Contact& found = world.particle_contacts.found[c.source];
             gap = c.normal.dot(place -
@@ -113,6 +116,7 @@ void ElasticContacts::find_targets(std::vector<Vector3d>& v, std::vector<Vector3
         }
     for (std::size_t i = 0; i < ties.rows().size(); ++i)
         for (const RowSide& side : ties.rows()[i].sides()) {
+            if (ties.particle(side.body) != kNoIndex) continue;
             const Body& body = bodies_[side.body];
             const Velocity<double> change = change_by(body, -ties.applied()[i] * side.on);
             target[body.row] += change.v, target[body.row + 1] += change.w;
@@ -218,8 +222,8 @@ void ElasticContacts::list_stiffness(KeptFactors& made_of) const {
             d += c.rho * c.held *
                  (Matrix3d::Identity() - n - across * across.transpose() / (size * size));
         made_of.contacts.push_back({c.points,
-                                    {c.particle[0], c.particle[1], c.particle[2]},
-                                    {c.weight[0], c.weight[1], c.weight[2]},
+                                    {c.particle[0], c.particle[1], c.particle[2], c.particle[3]},
+                                    {c.weight[0], c.weight[1], c.weight[2], c.weight[3]},
                                     {c.sides[0].body, c.sides[1].body},
                                     {c.sides[0].arm, c.sides[1].arm},
                                     d});

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Contacts of sheets with bodies, and of those with each other, as part of the elastic system.
+/// Contacts of deformables, and of the bodies that touch them with each other, as part of the
+/// elastic system.
 ///
 /// Solved in turn with a stiff sheet, a contact of a heavy body never ends: the one lifts a light
 /// point off, the other pulls it back. So bodies that touch sheets, with what lies on or beside
@@ -9,8 +10,8 @@
 ///
 /// to what is minimised: the augmented Lagrangian of Coulomb's law (Alart and Curnier 1991).
 ///
-///   u  velocity of one side's point, particles' or a body's, against the other's, which is a
-///      body's, with what the gap leaves room for along n [m/s]
+///   u  velocity of one side's point, particles' or a body's, against the other's, with what the
+///      gap leaves room for along n [m/s]
 ///   p  impulse on the first side as found so far [N s]; P makes its part along n push, and that
 ///      across n no greater than b = μ p_n
 ///   ρ  some times what the points resist a push with [kg], so that p is found in a few rounds
@@ -35,16 +36,9 @@ namespace plumb {
 
 /// Whether the plan has an elastic system with contacts in it.
 inline bool has_elastic_contacts(const Plan& plan) {
-    return plan.runs(Effect::exact_deformables) && plan.runs(Effect::particle_contacts);
+    return plan.runs(Effect::exact_deformables) &&
+           (plan.runs(Effect::particle_contacts) || plan.runs(Effect::surface_contacts));
 }
-/// Whether contacts of a particle with bodies are part of the system that holds it together, where
-/// there is one. Those of solids, balloons and ropes are iterated: a thin solid or a balloon that
-/// nothing holds is thrown by what Newton's method leaves.
-inline bool has_elastic_contacts(const World& world, std::uint32_t particle) {
-    return world.deformables[world.particles.deformable[particle]].spec.kind ==
-           DeformableKind::cloth;
-}
-
 class ElasticContacts {
 public:
     /// Of what a side's point moves by, in u, and of q on it.
@@ -65,7 +59,7 @@ public:
     static Velocity<double> change_by(const Body& body, const Vector6d& sum) {
         return {body.inverse.mass * sum.head<3>(), body.inverse.inertia * Vector3d(sum.tail<3>())};
     }
-    /// What the first side of a contact is: a particle, a triangle's point, or a body.
+    /// What touches: a particle and a body, a triangle and a body or a particle, or two bodies.
     enum class Source : std::uint8_t { particle, surface, bodies };
     /// A side that is a body.
     struct Side {
@@ -76,9 +70,9 @@ public:
     struct Contact {
         Source of = Source::particle;
         std::uint32_t source = 0;  ///< in the world's table of these
-        std::uint32_t points = 0;  ///< particles: 0, 1 or 3
-        std::uint32_t particle[3] = {0, 0, 0};
-        double weight[3] = {1, 0, 0};
+        std::uint32_t points = 0;  ///< particles: 0, 1, 3 or 4
+        std::uint32_t particle[4] = {0, 0, 0, 0};
+        double weight[4] = {1, 0, 0, 0};  ///< of their velocities in u: negative on the second side
         Side sides[2];
         double friction = 0, rho = 0;
         Vector3d normal = Vector3d::Zero();  ///< towards the first side
@@ -91,6 +85,8 @@ public:
         double held = 1;                      ///< q_t is this share of p_t − ρ u_t
         Vector3d applied = Vector3d::Zero();  ///< part of q that velocities have felt
 
+        /// Of a triangle, and then another particle on the first side.
+        bool is_between_particles() const { return points == 4; }
         double applied_along() const { return applied.dot(normal); }
         Vector3d applied_across() const { return applied - applied_along() * normal; }
     };
@@ -149,11 +145,13 @@ public:
     void store(World& world) const;
 
 private:
-    void add_sheet_contacts(const World& world);
+    void add_contacts_of_particles(const World& world);
+    void add_linked_bodies(const World& world);
     void find_members(const World& world, const std::vector<BodyPair>& pairs,
                       const std::vector<Tie>& ties);
     bool is_member(const World& world, std::uint32_t body) const;
-    void take_bodies(const World& world, std::vector<BodyPair>& pairs, ElasticTies& ties);
+    void take_bodies(const World& world, std::vector<BodyPair>& pairs,
+                     const std::vector<Tie>& ties);
     void take_ties(const World& world, const std::vector<Tie>& found, ElasticTies& ties);
     void add(const World& world, Contact& contact, std::uint32_t a, std::uint32_t b);
     std::uint32_t body_of(const World& world, std::uint32_t body);
@@ -162,7 +160,7 @@ private:
     void find_force(const Vector3d& u, Contact& contact, double& energy) const;
     Vector3d velocity_of(const Contact& contact, const std::vector<Vector3d>& v) const;
 
-    bool has_friction_;
+    bool has_friction_, touches_;
     bool takes_bodies_;  ///< contacts of bodies with each other are solved here, too
     std::uint32_t first_row_ = 0;
     std::vector<Body> bodies_;
@@ -172,7 +170,7 @@ private:
     std::vector<std::uint32_t> members_;   ///< [lowest of a group] how many it has
     std::vector<std::uint8_t> belongs_;    ///< [pair of bodies] whether it can be solved here
     std::vector<std::uint8_t> is_member_;  ///< [world's body] whether it belongs here
-    std::vector<ElasticImpulse> keys_;     ///< of contacts with sheets, sorted
+    std::vector<ElasticImpulse> keys_;     ///< of contacts of particles, sorted
     std::vector<const ElasticImpulse*> now_, before_;  ///< those without a match so far
     std::vector<double> resistance_;                   ///< [particle] [kg]
 };

@@ -42,6 +42,10 @@ bool belongs(const World& world, const BodyPair& pair) {
     return true;
 }
 
+bool is_of_particles(const World& world, const Tie& tie) {
+    return tie.kind == TieKind::link && !world.links[tie.index].is_between_bodies();
+}
+
 /// By what a contact is known from step to step.
 ElasticImpulse key_of(const World& world, const ElasticContacts::Contact& c, std::uint32_t order) {
     ElasticImpulse key{
@@ -52,6 +56,7 @@ ElasticImpulse key_of(const World& world, const ElasticContacts::Contact& c, std
         Fnv1a hash;
         hash.add(point.data(), 3 * sizeof(double));
         key.feature = hash.value();
+        if (c.is_between_particles()) key.part = c.particle[3];
     } else {
         const plumb::Contact& found = world.particle_contacts.found[c.source];
         key.part = found.part_b, key.feature = found.feature;
@@ -59,8 +64,9 @@ ElasticImpulse key_of(const World& world, const ElasticContacts::Contact& c, std
     return key;
 }
 
-/// Body and particle, or body and the body's point.
+/// Body and particle, body and the body's point, or the particle that touches a triangle.
 std::tuple<std::uint32_t, std::uint32_t, std::uint64_t> spot_of(const ElasticImpulse& x) {
+    if (x.body == kNoIndex) return {kNoIndex, x.part, 0};
     const bool is_particle = x.particles[1] == kNoIndex;
     return {x.body, is_particle ? x.particles[0] : kNoIndex, is_particle ? 0 : x.feature};
 }
@@ -94,6 +100,7 @@ void pair_off(References& now, References& before, Key key, Take take) {
 
 ElasticContacts::ElasticContacts(const Plan& plan)
     : has_friction_(plan.runs(Effect::friction)),
+      touches_(has_elastic_contacts(plan)),
       takes_bodies_(plan.runs(Effect::exact_islands) && !plan.runs(Effect::shock_propagation)) {}
 
 void ElasticContacts::load(const World& world, std::uint32_t first_row,
@@ -104,10 +111,20 @@ void ElasticContacts::load(const World& world, std::uint32_t first_row,
                       world.contacts.found.capacity());
     bodies_.reserve(world.bodies.size());
     body_of_.assign(world.bodies.size(), kNoIndex);
-    add_sheet_contacts(world);
-    ties.clear();
-    if (takes_bodies_ && !bodies_.empty()) take_bodies(world, pairs, ties);
+    if (touches_) add_contacts_of_particles(world);
+    add_linked_bodies(world);
+    is_member_.assign(world.bodies.size(), 0);
+    const std::vector<Tie>& found = ties.find(world, takes_bodies_);
+    if (takes_bodies_ && !bodies_.empty()) take_bodies(world, pairs, found);
+    take_ties(world, found, ties);
     take_kept(world);
+}
+
+void ElasticContacts::add_linked_bodies(const World& world) {
+    for (const Link& link : world.links)
+        if (!link.is_between_bodies())
+            for (const WorldPoint* p : {&link.a, &link.b})
+                if (p->body != kNoIndex) body_of(world, p->body);
 }
 
 std::uint32_t ElasticContacts::body_of(const World& world, std::uint32_t body) {
@@ -126,17 +143,16 @@ void ElasticContacts::add(const World& world, Contact& c, std::uint32_t a, std::
     for (std::uint32_t k = 0; k < c.points; ++k)
         moves += world.particles.inverse_mass[c.particle[k]];
     if (a != kNoIndex) c.sides[0].index = a, c.sides[0].body = body_of(world, a);
-    c.sides[1].index = b, c.sides[1].body = body_of(world, b);
+    if (b != kNoIndex) c.sides[1].index = b, c.sides[1].body = body_of(world, b);
     if (!(moves > 0) && c.sides[0].body == kNoIndex && c.sides[1].body == kNoIndex) return;
     if (!has_friction_) c.friction = 0;
     contacts_.push_back(c);
 }
 
-void ElasticContacts::add_sheet_contacts(const World& world) {
+void ElasticContacts::add_contacts_of_particles(const World& world) {
     const ParticleContactTable& table = world.particle_contacts;
     for (std::uint32_t i = 0; i < table.found.size(); ++i) {
         const plumb::Contact& found = table.found[i];
-        if (!has_elastic_contacts(world, found.a)) continue;
         Contact c;
         c.of = Source::particle, c.source = i;
         c.points = 1, c.particle[0] = found.a;
@@ -148,13 +164,16 @@ void ElasticContacts::add_sheet_contacts(const World& world) {
     }
     for (std::uint32_t i = 0; i < world.surface_contacts.size(); ++i) {
         const SurfaceContact& found = world.surface_contacts[i];
-        if (found.point.body == kNoIndex || !has_elastic_contacts(world, found.triangle[0]))
-            continue;
+        const bool is_of_body = found.point.body != kNoIndex;
         Contact c;
-        c.of = Source::surface, c.source = i, c.points = 3;
-        for (int k = 0; k < 3; ++k)
-            c.particle[k] = found.triangle[k], c.weight[k] = found.weights[k];
-        c.normal = -found.normal, c.friction = found.friction;
+        c.of = Source::surface, c.source = i, c.points = is_of_body ? 3 : 4;
+        for (int k = 0; k < 3; ++k) {
+            c.particle[k] = found.triangle[k];
+            c.weight[k] = is_of_body ? found.weights[k] : -found.weights[k];
+        }
+        if (!is_of_body) c.particle[3] = found.point.particle, c.weight[3] = 1;
+        c.normal = is_of_body ? Vector3d(-found.normal) : found.normal;
+        c.friction = found.friction;
         add(world, c, kNoIndex, found.point.body);
     }
 }
@@ -187,10 +206,8 @@ bool ElasticContacts::is_member(const World& world, std::uint32_t body) const {
 }
 
 void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pairs,
-                                  ElasticTies& ties) {
-    const std::vector<Tie>& found = ties.find(world);
-    find_members(world, pairs, found);
-    take_ties(world, found, ties);
+                                  const std::vector<Tie>& ties) {
+    find_members(world, pairs, ties);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < pairs.size(); ++i) {
         const BodyPair pair = pairs[i];
@@ -210,21 +227,35 @@ void ElasticContacts::take_bodies(const World& world, std::vector<BodyPair>& pai
     pairs.resize(kept);
 }
 
+/// Of bodies those that are members; and all links with particles.
 void ElasticContacts::take_ties(const World& world, const std::vector<Tie>& found,
                                 ElasticTies& ties) {
-    for (const Tie& tie : found) {
+    const auto is_taken = [&](const Tie& tie) {
+        bool taken = is_of_particles(world, tie);
+        each_body(world, tie, [&](std::uint32_t body) { taken |= is_member(world, body); });
+        return taken;
+    };
+    const auto each_taken = [&](auto visit) {
+        for (const Tie& tie : found)
+            if (is_taken(tie)) visit(tie);
+    };
+    each_taken([&](const Tie& tie) {
+        each_body(world, tie, [&](std::uint32_t body) {
+            if (is_member(world, body)) body_of(world, body);
+        });
+    });
+    ties.clear(static_cast<std::uint32_t>(bodies_.size()));
+    each_taken([&](const Tie& tie) {
         TiedBodies at;
         at.fill(kImmovable);
-        bool belongs = false;
-        each_body(world, tie, [&](std::uint32_t body) { belongs |= is_member(world, body); });
-        if (!belongs) continue;
         std::size_t i = 0;
         each_body(world, tie, [&](std::uint32_t body) {
-            if (is_member(world, body)) at[i] = body_of(world, body);
+            if (is_member(world, body) || (body != kNoIndex && is_of_particles(world, tie)))
+                at[i] = body_of(world, body);
             ++i;
         });
         ties.add(world, tie, at);
-    }
+    });
 }
 
 /// p of what touched in the step before. A point that has come to lie on the next triangle, or a

@@ -12,27 +12,62 @@ namespace {
 /// Of attached rows that have blocks with each other; for more of them memory grows as it must.
 constexpr std::size_t kManyRows = 128;
 
+/// Pairs that touched before are kept up to so many times those that touch now.
+constexpr std::size_t kKeepNear = 3;
+
 }  // namespace
 
-ElasticFactors::ElasticFactors(const ElasticParts& parts)
+ElasticFactors::ElasticFactors(const World& world, const ElasticParts& parts)
     : system_(front_kernels()), places_(parts.particles(), Vector3d::Zero()) {
-    std::vector<SparseLdlt::Pair> pairs;
-    for (const auto& elements : parts.elements) elements->add_pairs(pairs);
-    system_.order(parts.particles(), pairs);
-    for (const auto& elements : parts.elements) elements->find_slots(system_);
+    for (const auto& elements : parts.elements) elements->add_pairs(own_pairs_);
+    for (const Link& link : world.links)
+        if (link.is_between_particles()) own_pairs_.emplace_back(link.a.particle, link.b.particle);
     parts.balloons.add_pairs(parts.first_balloon_row(), pairs_);
     balloon_pairs_ = pairs_.size();
+    order(parts, {});
+}
+
+void ElasticFactors::order(const ElasticParts& parts, const std::vector<SparseLdlt::Pair>& near) {
+    near_ = near;
+    std::vector<SparseLdlt::Pair> pairs = own_pairs_;
+    pairs.insert(pairs.end(), near.begin(), near.end());
+    system_.order(parts.particles(), pairs);
+    for (const auto& elements : parts.elements) elements->find_slots(system_);
+    pairs_.resize(balloon_pairs_);
+    contact_pairs_.clear();
     system_.attach(parts.balloons.rows(), pairs_);
+}
+
+/// Particles of different surfaces, or far apart on one, that touch now. Those that touched before
+/// stay, as long as they are not many more: they come and go.
+void ElasticFactors::take_near(const ElasticParts& parts) {
+    bool known = true;
+    near_now_.clear();
+    for (const ElasticContacts::Contact& c : parts.contacts.contacts())
+        for (std::uint32_t k = 0; k < c.points; ++k)
+            for (std::uint32_t l = 0; l < k; ++l) {
+                const auto [low, high] = std::minmax(c.particle[k], c.particle[l]);
+                known = known && system_.find_slot(low, high);
+                near_now_.emplace_back(low, high);
+            }
+    if (known) return;
+    const std::size_t many = kKeepNear * near_now_.size();
+    if (made_of_.near.size() <= many)
+        near_now_.insert(near_now_.end(), made_of_.near.begin(), made_of_.near.end());
+    std::sort(near_now_.begin(), near_now_.end());
+    near_now_.erase(std::unique(near_now_.begin(), near_now_.end()), near_now_.end());
+    made_of_.near = near_now_;
 }
 
 /// Memory for as many attached rows and pairs as there may be.
 void ElasticFactors::reserve(const ElasticParts& parts) {
     system_.reserve_attached(std::min(parts.most_rows() - parts.particles(), kManyRows));
-    const std::size_t most_contacts = parts.contacts.contacts().capacity();
+    const std::size_t most_contacts = parts.contacts.contacts().capacity(),
+                      most_ties = parts.ties.points().size();
     made_of_.bodies.reserve(parts.contacts.bodies().capacity());
     made_of_.contacts.reserve(most_contacts);
     for (auto* pairs : {&pairs_, &contact_pairs_, &pairs_now_})
-        pairs->reserve(balloon_pairs_ + 6 * most_contacts);
+        pairs->reserve(balloon_pairs_ + 6 * most_contacts + 12 * most_ties);
 }
 
 void ElasticFactors::begin_step(const World& world, ElasticParts& parts, double h) {
@@ -43,6 +78,11 @@ void ElasticFactors::begin_step(const World& world, ElasticParts& parts, double 
         made_of_ = world.kept_factors;
     }
     const std::size_t n = parts.particles();
+    take_near(parts);
+    if (made_of_.near != near_) {
+        order(parts, made_of_.near);
+        exist_ = false;
+    }
     if (made_of_.places.size() != n || made_of_.before.size() != n ||
         !parts.contacts.has_bodies_of(made_of_))
         drop();
@@ -81,7 +121,7 @@ bool ElasticFactors::make(ElasticParts& parts, const ParticlePlaces& x,
 bool ElasticFactors::make_again(ElasticParts& parts, double h) {
     attach_contacts(parts);
     assemble_elements(parts, made_of_.places, made_of_.before, h);
-    if (parts.may_touch) parts.contacts.weigh(system_);
+    if (parts.may_have_bodies) parts.contacts.weigh(system_);
     parts.balloons.add_stiffness(made_of_.places, parts.mass, h, parts.first_balloon_row(),
                                  system_);
     add_contact_stiffness(made_of_, parts.mass, parts.first_body_row(), contact_pairs_,
@@ -114,7 +154,7 @@ void ElasticFactors::assemble_elements(const ElasticParts& parts, const Particle
 
 void ElasticFactors::drop() {
     exist_ = false;
-    made_of_.clear();
+    made_of_.drop();
 }
 
 }  // namespace plumb

@@ -12,7 +12,7 @@ namespace plumb {
 
 class ElasticFactors {
 public:
-    explicit ElasticFactors(const ElasticParts& parts);
+    ElasticFactors(const World& world, const ElasticParts& parts);
 
     /// Once a step, of substeps of length h [s]: `begin_step` takes over what the step before left,
     /// if bodies are the same, and `store` leaves it for the next.
@@ -31,6 +31,8 @@ public:
     void solve(std::vector<Vector3d>& b) { system_.solve(b); }
 
 private:
+    void order(const ElasticParts& parts, const std::vector<SparseLdlt::Pair>& near);
+    void take_near(const ElasticParts& parts);
     void reserve(const ElasticParts& parts);
     void attach_contacts(const ElasticParts& parts);
     void assemble_elements(const ElasticParts& parts, const ParticlePlaces& x,
@@ -39,8 +41,10 @@ private:
 
     SparseLdlt system_;
     bool exist_ = false;
-    int made_ = 0;         // in this step
-    KeptFactors made_of_;  // if they exist
+    int made_ = 0;                                   // in this step
+    KeptFactors made_of_;                            // if they exist
+    std::vector<SparseLdlt::Pair> own_pairs_;        ///< of particles, by elements and links
+    std::vector<SparseLdlt::Pair> near_, near_now_;  ///< those that touch, as they were ordered
     /// Of particles and attached rows, as told: first those of balloons, then those of contacts.
     std::vector<SparseLdlt::Pair> pairs_, contact_pairs_, pairs_now_;
     std::size_t balloon_pairs_ = 0;

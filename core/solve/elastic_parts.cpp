@@ -11,8 +11,9 @@ ElasticParts elastic_parts(const World& world, const Plan& plan) {
         Balloons(world),
         {},
         ElasticContacts(plan),
-        {},
-        has_elastic_contacts(plan)};
+        ElasticTies(world),
+        false};
+    parts.may_have_bodies = has_elastic_contacts(plan) || !parts.ties.points().empty();
     const Particles& p = world.particles;
     for (std::size_t i = 0; i < p.size(); ++i)
         parts.mass.push_back(p.inverse_mass[i] > 0 ? p.mass[i] : 0);

@@ -63,7 +63,7 @@ constexpr int kCuts = 6;
 }  // namespace
 
 ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
-    : parts_(elastic_parts(world, plan)), factors_(parts_) {
+    : parts_(elastic_parts(world, plan)), factors_(world, parts_) {
     const std::uint32_t calls = std::max(1u, world.settings.position_iterations);
     rounds_ = std::max(kLeastRounds, kRounds / calls);
     h_ = world.settings.dt / world.settings.substeps;
@@ -72,7 +72,7 @@ ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
 }
 
 void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
-    if (parts_.may_touch) {
+    if (parts_.may_have_bodies) {
         parts_.contacts.load(world, parts_.first_body_row(), pairs, parts_.ties);
         match_.load(parts_.contacts, parts_.ties);
     }
@@ -87,7 +87,7 @@ void ElasticSystem::store(World& world) {
 
 void ElasticSystem::store_ties(World& world) {
     if (parts_.ties.empty()) return;
-    parts_.contacts.gather(v_, of_bodies_);
+    parts_.gather(v_, of_bodies_);
     parts_.ties.store(of_bodies_, world);
 }
 
@@ -120,11 +120,11 @@ void ElasticSystem::begin(const World& world, double h, double stiffness, double
     enough_ = kEnoughOfGravity * world.settings.gravity.norm() * h +
               kEnoughOfSpeed * std::sqrt(fastest) + kRounding * std::sqrt(furthest) / h;
     enough_size_ = kEnoughOfMotion * std::sqrt(motion);
-    near_ = parts_.contacts.empty() ? 1 : kFirstRound;
+    near_ = parts_.are_alone() ? 1 : kFirstRound;
     for (const auto& elements : parts_.elements) elements->begin(start_, h);
     parts_.contacts.begin(world, h, stiffness, recovery);
     parts_.ties.begin(world, h);
-    if (!parts_.contacts.empty()) {
+    if (!parts_.are_alone()) {
         x_ = start_;
         find_elastic_forces();
         elastic_start_ = elastic_energy_;
@@ -160,10 +160,10 @@ void ElasticSystem::sum_forces() {
     }
     energy_ += parts_.contacts.add_forces(target_, v_, force_);
     if (!parts_.ties.empty()) {
-        parts_.contacts.gather(v_, of_bodies_);
+        parts_.gather(v_, of_bodies_);
         on_bodies_.assign(of_bodies_.size(), Vector6d::Zero());
         energy_ += parts_.ties.add_forces(of_bodies_, on_bodies_);
-        parts_.contacts.add_to_rows(on_bodies_, force_);
+        parts_.add_to_rows(on_bodies_, force_);
     }
     for (std::size_t i = 0; i < x_.size(); ++i)
         if (parts_.mass[i] == 0) force_[i].setZero();
@@ -207,12 +207,12 @@ double ElasticSystem::slope() const {
 /// Share of `way_` where the energy is least, about: of the contacts as it is, of all else as the
 /// factors have it. For the one has kinks, and across a fold the other is no guide.
 double ElasticSystem::share_of_way() {
-    if (parts_.contacts.empty()) return 1;
+    if (parts_.are_alone()) return 1;
     const auto push_along = [this](double share) {
         return parts_.contacts.push_along(share) + parts_.ties.push_along(share);
     };
     parts_.contacts.begin_line(way_);
-    parts_.contacts.gather(way_, of_bodies_);
+    parts_.gather(way_, of_bodies_);
     parts_.ties.begin_line(of_bodies_);
     const double fall = -slope(), of_contacts = push_along(0);
     const double bend =
@@ -332,7 +332,7 @@ void ElasticSystem::keep_best() { best_ = v_, least_ = energy_; }
 /// By how much that changes what a row of ties is asked for [m/s].
 double ElasticSystem::ask_ties() {
     if (parts_.ties.empty()) return 0;
-    parts_.contacts.gather(v_, of_bodies_);
+    parts_.gather(v_, of_bodies_);
     return parts_.ties.ask(of_bodies_);
 }
 
@@ -346,7 +346,7 @@ void ElasticSystem::go_rounds() {
     for (std::uint32_t round = 0; round < rounds_ && !is_settled_; ++round) {
         if (round > 0) sum_forces();
         const bool is_there = descend();
-        if (parts_.contacts.empty()) {
+        if (parts_.are_alone()) {
             is_settled_ = is_there;
             return;
         }
@@ -403,7 +403,7 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
     if (is_first_) guess_rest();
     begin_ = v_;
     go_rounds();
-    if (!parts_.contacts.empty() && gains_energy()) {
+    if (!parts_.are_alone() && gains_energy()) {
         // thrown by what held something up before, or by what Newton's method left
         parts_.contacts.forget(), parts_.ties.forget();
         v_ = begin_;
@@ -429,7 +429,7 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
 /// Most of what touches is held up by something: it moves on as it did, and does not fall.
 void ElasticSystem::guess_rest() {
     is_first_ = false;
-    if (parts_.contacts.empty()) return;
+    if (parts_.are_alone()) return;
     for (std::size_t i = 0; i < x_.size(); ++i)
         if (parts_.mass[i] > 0) v_[i] -= fall_;
     for (const ElasticContacts::Body& body : parts_.contacts.bodies()) v_[body.row] -= fall_;

@@ -72,8 +72,16 @@ void ElasticTieChoice::find_groups(const World& world) {
             weight_[groups_.lowest(i)] += h * world.bodies.mass[i] * pull_on(world, i);
 }
 
-const std::vector<Tie>& ElasticTieChoice::find(const World& world) {
-    list_.find(world), found_.clear();
+const std::vector<Tie>& ElasticTieChoice::find(const World& world, bool takes_bodies) {
+    found_.clear();
+    if (takes_bodies) find_of_bodies(world);
+    for (std::uint32_t i = 0; i < world.links.size(); ++i)
+        if (!world.links[i].is_between_bodies()) found_.push_back({TieKind::link, i});
+    return found_;
+}
+
+void ElasticTieChoice::find_of_bodies(const World& world) {
+    list_.find(world);
     find_groups(world);
     const double h = substep_of(world.settings);
     const auto each_group = [&](const Tie& tie, auto visit) {
@@ -95,7 +103,6 @@ const std::vector<Tie>& ElasticTieChoice::find(const World& world) {
         each_group(tie, [&](std::uint32_t group) { other |= is_other_[group] != 0; });
         if (!other) found_.push_back(tie);
     }
-    return found_;
 }
 
 }  // namespace plumb

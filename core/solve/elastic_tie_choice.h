@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Which ties can be solved in one system with sheets: all that hang together, or none of them.
+/// Which ties can be solved in one system with deformables: of bodies all that hang together, or
+/// none of them; and links with particles.
 #pragma once
 
 #include "math/disjoint_sets.h"
@@ -12,10 +13,11 @@ namespace plumb {
 
 class ElasticTieChoice {
 public:
-    /// Once a step; those of the world.
-    const std::vector<Tie>& find(const World& world);
+    /// Once a step; those of the world, of bodies if it `takes_bodies`.
+    const std::vector<Tie>& find(const World& world, bool takes_bodies);
 
 private:
+    void find_of_bodies(const World& world);
     void find_groups(const World& world);
 
     TieList list_;

@@ -22,28 +22,63 @@ const TieRow kFree{};
 
 }  // namespace
 
-void ElasticTies::clear() {
+ElasticTies::ElasticTies(const World& world) {
+    for (const Link& link : world.links)
+        for (const WorldPoint* p : {&link.a, &link.b})
+            if (p->particle != kNoIndex && world.particles.inverse_mass[p->particle] > 0)
+                points_.push_back(p->particle);
+    std::sort(points_.begin(), points_.end());
+    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
+}
+
+std::uint32_t ElasticTies::place_of(const World& world, const WorldPoint& point) const {
+    if (!(world.particles.inverse_mass[point.particle] > 0)) return kImmovable;
+    const auto found = std::lower_bound(points_.begin(), points_.end(), point.particle);
+    return bodies_ + static_cast<std::uint32_t>(found - points_.begin());
+}
+
+void ElasticTies::clear(std::uint32_t bodies) {
+    bodies_ = bodies;
     rows_.clear();
     rows_.begin_range(range_), rows_.end_range(range_);
     for (auto* column : {&impulse_, &applied_, &rate_, &way_, &slope_, &wanted_}) column->clear();
-    laws_.clear(), pairs_.clear(), tied_.clear();
+    laws_.clear(), pairs_.clear();
+    tied_.assign(bodies_ + points_.size(), 0);
     mass_ = driven_energy_ = 0;
 }
 
-void ElasticTies::add(const World& world, const Tie& tie, const TiedBodies& at) {
+void ElasticTies::add(const World& world, const Tie& tie, TiedBodies at) {
+    if (tie.kind == TieKind::link) {
+        const Link& link = world.links[tie.index];
+        if (link.a.particle != kNoIndex) at[0] = place_of(world, link.a);
+        if (link.b.particle != kNoIndex) at[1] = place_of(world, link.b);
+    }
     rows_.add(world, tie, at);
     rows_.end_range(range_);
     std::size_t side = 0;
     each_body(world, tie, [&](std::uint32_t body) {
         const std::uint32_t i = at[side++];
-        if (i == kImmovable) return;
-        if (i >= tied_.size()) tied_.resize(i + 1, 0);
-        if (!std::exchange(tied_[i], 1)) mass_ += world.bodies.mass[body];
+        if (i == kImmovable || std::exchange(tied_[i], 1)) return;
+        mass_ += i < bodies_ ? world.bodies.mass[body] : world.particles.mass[particle(i)];
     });
     for (std::size_t i = 0; i < at.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
-            if (at[i] != kImmovable && at[k] != kImmovable && at[i] != at[k])
+            if (at[i] < bodies_ && at[k] < bodies_ && at[i] != at[k])
                 pairs_.emplace_back(at[k], at[i]);
+}
+
+void ElasticTies::gather(const std::vector<Vector3d>& rows,
+                         std::vector<Vector6d>& of_bodies) const {
+    for (const std::uint32_t point : points_) {
+        of_bodies.emplace_back(Vector6d::Zero());
+        of_bodies.back().head<3>() = rows[point];
+    }
+}
+
+void ElasticTies::add_to_rows(const std::vector<Vector6d>& of_bodies,
+                              std::vector<Vector3d>& rows) const {
+    for (std::size_t i = 0; i < points_.size(); ++i)
+        rows[points_[i]] += of_bodies[bodies_ + i].head<3>();
 }
 
 void ElasticTies::mark(SolvedTies& solved) const {
@@ -93,10 +128,17 @@ double ElasticTies::ask(std::span<const Vector6d> velocity) {
         const TieRow& row = rows[i];
         const double firm = std::max(row.mass, mass_ * row.length * row.length);
         RowLaw& law = laws_.emplace_back(row, row.drive ? kDriveFirm * row.mass : kTieFirm * firm);
-        if (!holds_) law = RowLaw(kFree, 1);
+        if (!holds_ && !is_of_particles(row)) law = RowLaw(kFree, 1);
         if (!row.drive) most = std::max(most, row.length * std::abs(row.wanted - wanted_[i]));
     }
     return most;
+}
+
+/// Those are never let go: they and what is elastic give no energy, and a load hangs on them.
+bool ElasticTies::is_of_particles(const TieRow& row) const {
+    const auto sides = row.sides();
+    return std::any_of(sides.begin(), sides.end(),
+                       [this](const RowSide& side) { return side.body >= bodies_; });
 }
 
 double ElasticTies::add_forces(std::span<const Vector6d> velocity, std::span<Vector6d> force) {
@@ -129,7 +171,7 @@ double ElasticTies::push_along(double share) const {
 }
 
 void ElasticTies::list_stiffness(KeptFactors& made_of) const {
-    made_of.rows.clear();
+    made_of.rows.clear(), made_of.points = points_;
     for (std::size_t i = 0; i < laws_.size(); ++i) {
         if (slope_[i] == 0) continue;
         const TieRow& row = rows_.rows()[i];

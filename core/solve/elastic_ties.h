@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// Joints, links and couplings of bodies that touch sheets, as part of the elastic system.
+/// Joints, links and couplings of bodies that touch sheets, and links with particles, as part of
+/// the elastic system.
 ///
 /// Where a doll lies on a sheet, its limbs are held by its joints and by the sheet. Solved in turn,
 /// neither lets the other get anywhere: the doll's elbow turns past its limit while the sheet holds
 /// its arm. So rows of ties (ties/tie_row.h) are terms of what the system minimises, as those of
 /// its contacts are: augmented Lagrangians, with the impulses that have been found so far.
+///
+/// What they tie are the system's bodies and, behind these, the particles that are linked.
 #pragma once
 
 #include "math/block_cholesky.h"
@@ -19,14 +22,25 @@ namespace plumb {
 
 class ElasticTies {
 public:
+    explicit ElasticTies(const World& world);
+
+    /// Particles that are linked, in order.
+    const std::vector<std::uint32_t>& points() const { return points_; }
+    /// The particle, or kNoIndex, that is tied at this place.
+    std::uint32_t particle(std::uint32_t at) const {
+        return at < bodies_ ? kNoIndex : points_[at - bodies_];
+    }
+
     // once a step
 
-    /// Those of the world that can be solved here.
-    const std::vector<Tie>& find(const World& world) { return choice_.find(world); }
-    /// Forgets those of the step before; adds one, `at`: its bodies in the order of `each_body`,
-    /// among those of the system, or kImmovable.
-    void clear();
-    void add(const World& world, const Tie& tie, const TiedBodies& at);
+    /// Those of the world that can be solved here, of bodies if it `takes_bodies`.
+    const std::vector<Tie>& find(const World& world, bool takes_bodies) {
+        return choice_.find(world, takes_bodies);
+    }
+    /// Forgets those of the step before; `bodies`: how many the system has.
+    void clear(std::uint32_t bodies);
+    /// `at`: its bodies in the order of `each_body`, among those of the system, or kImmovable.
+    void add(const World& world, const Tie& tie, TiedBodies at);
 
     bool empty() const { return range_.empty(); }
     /// Marks those that were added.
@@ -41,7 +55,11 @@ public:
     /// Rows at its start, with the impulses of the one before.
     void begin(const World& world, double h);
 
-    // velocities (v, ω) of the system's bodies, [body of the system]
+    // velocities (v, ω) of the system's bodies, then (v, 0) of the points
+
+    /// Appends those of the points; adds the forces on them to their rows.
+    void gather(const std::vector<Vector3d>& rows, std::vector<Vector6d>& of_bodies) const;
+    void add_to_rows(const std::vector<Vector6d>& of_bodies, std::vector<Vector3d>& rows) const;
 
     /// Asks the rows to close what is open at the preview of the velocities. Returns by how much
     /// that changes what the worst is asked for [m/s].
@@ -62,7 +80,7 @@ public:
     double scripted_speed() const { return rows_.scripted_speed(range_); }
     /// Whether the row's impulse can change: it is not at a bound.
     bool yields(std::size_t row) const { return slope_[row] != 0; }
-    /// All λ₀ are 0 again; none hold any more in this substep.
+    /// All λ₀ are 0 again; none but those of particles hold any more in this substep.
     void forget();
     void let_go() { holds_ = false; }
 
@@ -80,10 +98,15 @@ public:
 private:
     void find_driven_energy(const World& world, double h);
 
+    std::uint32_t place_of(const World& world, const WorldPoint& point) const;
+    bool is_of_particles(const TieRow& row) const;
+
+    std::vector<std::uint32_t> points_;  ///< particles
+    std::uint32_t bodies_ = 0;           ///< of the system
     ElasticTieChoice choice_;
-    BlockCholesky::Pattern pairs_;
-    std::vector<Vector6d> rest_;      ///< [body of the system] no velocity
-    std::vector<std::uint8_t> tied_;  ///< [body of the system] whether any of them ties it
+    BlockCholesky::Pattern pairs_;    ///< of bodies
+    std::vector<Vector6d> rest_;      ///< [body or point of the system] no velocity
+    std::vector<std::uint8_t> tied_;  ///< [body or point of the system] whether any ties it
     TieRows rows_;
     TieRange range_;
     std::vector<RowLaw> laws_;                ///< [row]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// All that holds deformables together, contacts of sheets with bodies and of these with each
-/// other, and their ties, solved as one system. Other contacts and links, and attachments, stay
-/// with the iterations, in turn with it.
+/// other, their ties, and links of particles, solved as one system. Other contacts stay with the
+/// iterations, in turn with it.
 #pragma once
 
 #include "contacts/contact_sums.h"
@@ -11,6 +11,7 @@
 #include "solve/elastic_system.h"
 #include "solve/momentum_keeper.h"
 #include "solve/particle_rows.h"
+#include "solve/triangle_couple.h"
 
 #include <vector>
 
@@ -34,9 +35,10 @@ public:
     void take(const World& world, std::vector<BodyPair>& pairs, SolvedTies& solved) {
         system_.load(world, pairs);
         system_.ties().mark(solved);
+        couples_.reserve(system_.contacts().contacts().capacity());
         touches_.assign(velocity_.size(), 0);
         for (const ElasticContacts::Contact& c : system_.contacts().contacts())
-            if (c.sides[1].body == kNoIndex)
+            if (!c.is_between_particles() && c.sides[1].body == kNoIndex)
                 for (std::uint32_t k = 0; k < c.points; ++k) touches_[c.particle[k]] = 1;
         // what Newton's method leaves would throw a piece, were it as fast as its contacts push it
         keeper_.leave(touches_);
@@ -47,6 +49,12 @@ public:
         first_row_ = world.particle_row(0);
         keeper_.begin(world);
         system_.begin(world, h, double(pass.stiffness), double(pass.recovery));
+        couples_.clear();
+        for (const ElasticContacts::Contact& c : system_.contacts().contacts())
+            couples_.push_back(
+                c.is_between_particles()
+                    ? TriangleCouple(world.particles, world.surface_contacts[c.source])
+                    : TriangleCouple());
     }
 
     void iterate_positions(const BodyRows<Real>& rows, const PassSettings<Real>&,
@@ -84,9 +92,15 @@ private:
             velocity_[i] = velocity_of(rows, row(i)).v;
         for (ElasticContacts::Body& body : bodies) body.v = velocity_of(rows, body.table_row);
         system_.solve(velocity_);
-        for (ElasticContacts::Contact& c : contacts.contacts()) {
+        for (std::size_t n = 0; n < couples_.size(); ++n) {
+            ElasticContacts::Contact& c = contacts.contacts()[n];
             const Vector3d change = c.q - c.applied;
             c.applied = c.q;
+            if (c.is_between_particles()) {
+                const std::array<Vector3d, 3> turned = couples_[n].changes_by(change);
+                for (std::uint32_t k = 0; k < 3; ++k)
+                    add_change(rows, row(c.particle[k]), turned[k]);
+            }
             for (std::uint32_t k = 0; k < c.points; ++k)
                 add_change(rows, row(c.particle[k]),
                            Vector3d(change * (c.weight[k] * mass_.inverse[c.particle[k]])));
@@ -105,6 +119,12 @@ private:
             const double change = ties.impulses()[i] - ties.applied()[i];
             ties.applied()[i] = ties.impulses()[i];
             for (const RowSide& side : ties.rows()[i].sides()) {
+                const std::uint32_t point = ties.particle(side.body);
+                if (point != kNoIndex) {
+                    add_change(rows, row(point),
+                               Vector3d(change * mass_.inverse[point] * side.on.head<3>()));
+                    continue;
+                }
                 const ElasticContacts::Body& body = bodies[side.body];
                 add_change(rows, body.table_row,
                            ElasticContacts::change_by(body, change * side.on));
@@ -125,8 +145,9 @@ private:
     ElasticSystem system_;
     ParticleMass mass_;
     MomentumKeeper<Real> keeper_;
-    std::vector<Vector3d> velocity_;     ///< [particle] [m/s]
-    std::vector<std::uint8_t> touches_;  ///< [particle] whether it touches what does not move
+    std::vector<Vector3d> velocity_;       ///< [particle] [m/s]
+    std::vector<TriangleCouple> couples_;  ///< [contact], of those between particles
+    std::vector<std::uint8_t> touches_;    ///< [particle] whether it touches what does not move
     std::int32_t first_row_ = 0;
 };
 

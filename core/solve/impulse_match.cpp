@@ -16,6 +16,9 @@ constexpr int kMatches = 3;
 using Matched = std::vector<ElasticContacts::Body>;
 using Side = ElasticContacts::Side;
 
+/// What else is tied are particles, which the elements hold.
+bool is_body(const Matched& bodies, const RowSide& side) { return side.body < bodies.size(); }
+
 /// How the point of a side moves with its body's velocities, of which the angular one is times
 /// `size`.
 Eigen::Matrix<double, 3, 6> motion_of(const Matched& bodies, const Side& side) {
@@ -75,11 +78,13 @@ bool ImpulseMatch::factor(const ElasticContacts& contacts, const ElasticTies& ti
         const TieRow& row = ties.rows()[i];
         if (!ties.yields(i)) continue;
         for (std::uint32_t k = 0; k < row.count; ++k) {
+            if (!is_body(bodies, row.side[k])) continue;
             const Vector6d one = motion_of(bodies, row, row.side[k]);
             most += one.squaredNorm();
             for (std::uint32_t l = k; l < row.count; ++l)
-                reach_.add_product(row.side[k].body, one, row.side[l].body,
-                                   motion_of(bodies, row, row.side[l]));
+                if (is_body(bodies, row.side[l]))
+                    reach_.add_product(row.side[k].body, one, row.side[l].body,
+                                       motion_of(bodies, row, row.side[l]));
         }
     }
     const double apart = kBeyondReach * (most > 0 ? most / double(bodies.size()) : 1);
@@ -104,7 +109,9 @@ void ImpulseMatch::find_missing(const std::vector<Vector3d>& v, const std::vecto
     for (std::size_t i = 0; i < ties.rows().size(); ++i) {
         const TieRow& row = ties.rows()[i];
         for (const RowSide& side : row.sides())
-            missing_[side.body] -= (ties.impulses()[i] * row.length) * motion_of(bodies, row, side);
+            if (is_body(bodies, side))
+                missing_[side.body] -=
+                    (ties.impulses()[i] * row.length) * motion_of(bodies, row, side);
     }
 }
 
@@ -129,7 +136,8 @@ void ImpulseMatch::match(const std::vector<Vector3d>& v, const std::vector<Vecto
             if (!ties.yields(i)) continue;
             double more = 0;
             for (const RowSide& side : row.sides())
-                more += motion_of(bodies, row, side).dot(missing_[side.body]);
+                if (is_body(bodies, side))
+                    more += motion_of(bodies, row, side).dot(missing_[side.body]);
             ties.impulses()[i] += more / row.length;
         }
     }

@@ -10,7 +10,6 @@
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
 #include "solve/contact_iteration.h"
-#include "solve/elastic_contacts.h"
 #include "solve/fill_mass.h"
 
 #include <vector>
@@ -21,8 +20,7 @@ template <class Real, int W>
 class ParticleContactGroup final : public ConstraintGroup<Real> {
 public:
     ParticleContactGroup(const Plan& plan, Workers& workers)
-        : sheets_apart_(has_elastic_contacts(plan)),
-          variant_(plan.runs(Effect::friction) ? ContactVariant::friction
+        : variant_(plan.runs(Effect::friction) ? ContactVariant::friction
                                                : ContactVariant::frictionless),
           kernels_(contact_kernels<Real, W>(variant_)),
           workers_(workers) {}
@@ -35,7 +33,6 @@ public:
         pairs_.clear();
         for (std::uint32_t i = 0; i < c.found.size(); ++i) {
             const Contact& contact = c.found[i];
-            if (sheets_apart_ && has_elastic_contacts(world, contact.a)) continue;
             if (i > 0 && c.found[i - 1].a == contact.a && c.found[i - 1].b == contact.b)
                 ++pairs_.back().count;
             else
@@ -122,7 +119,6 @@ private:
         iterate_batches(kernel, batches_, bodies, pass, workers_, worker);
     }
 
-    bool sheets_apart_;  ///< their contacts are part of the elastic system
     ContactVariant variant_;
     const ContactKernels<Real, W>& kernels_;
     Workers& workers_;

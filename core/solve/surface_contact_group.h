@@ -8,10 +8,8 @@
 #include "effects/plan.h"
 #include "schedule/workers.h"
 #include "solve/constraint_group.h"
-#include "solve/elastic_contacts.h"
 #include "solve/particle_rows.h"
-
-#include <Eigen/LU>
+#include "solve/triangle_couple.h"
 
 #include <array>
 #include <vector>
@@ -22,9 +20,7 @@ template <class Real>
 class SurfaceContactGroup final : public ConstraintGroup<Real> {
 public:
     SurfaceContactGroup(const Plan& plan, Workers& workers)
-        : has_friction_(plan.runs(Effect::friction)),
-          sheets_apart_(has_elastic_contacts(plan)),
-          workers_(workers) {}
+        : has_friction_(plan.runs(Effect::friction)), workers_(workers) {}
 
     Stage stage() const override { return Stage::surface_contacts; }
     bool empty() const override { return rows_.empty(); }
@@ -41,9 +37,6 @@ public:
             const SurfaceContact& c = world.surface_contacts[i];
             Row& row = rows_[i];
             row = Row();
-            if (sheets_apart_ && c.point.particle == kNoIndex &&
-                has_elastic_contacts(world, c.triangle[0]))
-                continue;
             row.normal = c.normal, row.friction = has_friction_ ? c.friction : 0;
             Vector3d place;
             if (c.point.particle != kNoIndex) {
@@ -70,8 +63,7 @@ public:
             row.gap = c.normal.dot(place) - c.distance;
             row.mass = response > 0 ? 1 / response : 0;
             if (c.point.particle == kNoIndex) continue;
-            row.offset = place;
-            prepare_couple(p, c.triangle, row);
+            row.couple = TriangleCouple(p, c);
         }
     }
 
@@ -85,48 +77,17 @@ public:
     }
 
 private:
-    /// Determinant of a triangle's inertia over that of a ball's of the same trace, from which on
-    /// it counts as flat.
-    static constexpr double kLeastExtent = 1e-3;
-
     struct Row {
         std::int32_t point = 0, corner[3] = {0, 0, 0};
         InverseMass<double> inverse{0, {0, 0, 0, 0, 0, 0}};
         Vector3d arm = Vector3d::Zero(), normal = Vector3d::Zero();
         double weight[3] = {0, 0, 0}, corner_mass[3] = {0, 0, 0};
-        Vector3d offset = Vector3d::Zero();  ///< of the point from the triangle's [m]
-        Vector3d lever[3] = {Vector3d::Zero(), Vector3d::Zero(), Vector3d::Zero()};
-        Matrix3d inverse_inertia = Matrix3d::Zero();  ///< of the triangle's particles
+        TriangleCouple couple;
         double gap = 0, mass = 0, friction = 0;
         double push = 0;                               ///< summed along the normal [N s]
         bool is_idle = true;                           ///< it has never pushed
         Vector3d friction_impulse = Vector3d::Zero();  ///< summed across it [N s]
     };
-
-    /// Opposite impulses at two points a thickness apart are a couple. The triangle bears it, as a
-    /// sheet does with friction on one side, so that angular momentum stays.
-    static void prepare_couple(const Particles& p, const std::array<std::uint32_t, 3>& triangle,
-                               Row& row) {
-        double whole = 0;
-        Vector3d centre = Vector3d::Zero();
-        for (int k = 0; k < 3; ++k) {
-            if (row.corner_mass[k] == 0) return;
-            const double m = p.mass[triangle[k]];
-            whole += m, centre += m * (p.position[triangle[k]] - p.position[triangle[0]]);
-        }
-        centre = p.position[triangle[0]] + centre / whole;
-        Matrix3d inertia = Matrix3d::Zero();
-        for (int k = 0; k < 3; ++k) {
-            const Vector3d r = p.position[triangle[k]] - centre;
-            row.lever[k] = r;
-            inertia +=
-                p.mass[triangle[k]] * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose());
-        }
-        // a triangle without extent turns about nothing
-        const double size = inertia.trace() / 3;
-        if (inertia.determinant() > kLeastExtent * size * size * size)
-            row.inverse_inertia = inertia.inverse();
-    }
 
     static void solve(const BodyRows<Real>& rows, const PassSettings<Real>& pass, Row& row) {
         if (row.mass == 0) return;
@@ -150,16 +111,15 @@ private:
         Velocity<double> change{Vector3d::Zero(), Vector3d::Zero()};
         apply_impulse<double>(change, row.inverse, row.arm, impulse);
         add_change(rows, row.point, change);
-        const Vector3d turn = -(row.inverse_inertia * row.offset.cross(impulse));
+        const std::array<Vector3d, 3> turned = row.couple.changes_by(impulse);
         for (int k = 0; k < 3; ++k)
             add_change(rows, row.corner[k],
-                       Velocity<double>{Vector3d(impulse * (-row.weight[k] * row.corner_mass[k]) +
-                                                 turn.cross(row.lever[k])),
-                                        Vector3d::Zero()});
+                       Velocity<double>{
+                           Vector3d(impulse * (-row.weight[k] * row.corner_mass[k]) + turned[k]),
+                           Vector3d::Zero()});
     }
 
     bool has_friction_;
-    bool sheets_apart_;  ///< their contacts with bodies are part of the elastic system
     Workers& workers_;
     std::vector<Row> rows_;
 };

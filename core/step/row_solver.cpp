@@ -267,9 +267,11 @@ private:
             joined = &add<DeformableGroup<Real, W>>(world, workers_)->bodies();
         if (plan.runs(Effect::links))
             add<LinkGroup<Real>>(world, solved_ties_.links, joined, workers_);
-        if (plan.runs(Effect::surface_contacts)) add<SurfaceContactGroup<Real>>(plan, workers_);
+        const bool apart = !plan.runs(Effect::exact_deformables);
+        if (apart && plan.runs(Effect::surface_contacts))
+            add<SurfaceContactGroup<Real>>(plan, workers_);
         contacts_ = add<ContactSolver<Real, W>>(plan, workers_);
-        if (plan.runs(Effect::particle_contacts))
+        if (apart && plan.runs(Effect::particle_contacts))
             particle_contacts_ = add<ParticleContactGroup<Real, W>>(plan, workers_);
         for (const auto& group : groups_) rounds_ = std::max(rounds_, group->rounds());
     }

@@ -70,7 +70,9 @@ double TieRows::open_at_end(const TieRange& range, std::span<const Vector6d> vel
 }
 
 double TieRows::scripted_speed(const TieRange& range) const {
-    return worst_of(range.joints, [&](std::uint32_t i) { return joints_.scripted_speed(i); });
+    return std::max(
+        worst_of(range.joints, [&](std::uint32_t i) { return joints_.scripted_speed(i); }),
+        worst_of(range.links, [&](std::uint32_t i) { return links_.scripted_speed(i); }));
 }
 
 double TieRows::ask_to_close(const TieRange& range, std::span<const Vector6d> velocity,

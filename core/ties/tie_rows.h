@@ -72,7 +72,7 @@ public:
     double open_at_start(const TieRange& range) const;
 
     /// How far it will be open, old errors included, and how fast what is immovable moves the
-    /// points of joints [m/s].
+    /// points of joints and links [m/s].
     double open_at_end(const TieRange& range, std::span<const Vector6d> velocity) const;
     double scripted_speed(const TieRange& range) const;
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// The links (constraints/link.h) between bodies of systems that are solved as a whole. Impulses
-/// act along the line of the start of a substep, and the rows are asked to close what is still open
-/// at the preview poses, as those of joints are.
+/// The links (constraints/link.h) of systems that are solved as a whole, between their bodies and,
+/// where particles are part of the system, these. Impulses act along the line of the start of a
+/// substep, or along all three axes where points are joined, and the rows are asked to close what
+/// is still open at the preview poses, as those of joints are.
 #pragma once
 
 #include "constraints/link.h"
@@ -34,6 +35,9 @@ public:
     double ask(std::uint32_t i, std::span<const Vector6d> velocity, double h,
                std::vector<TieRow>& rows) const;
 
+    /// How fast what is immovable moves the points of a link [m/s].
+    double scripted_speed(std::uint32_t i) const;
+
     /// The impulse of the substep, into the world's table.
     void store_impulses(std::uint32_t i, const std::vector<TieRow>& rows,
                         std::vector<Link>& links) const;
@@ -41,13 +45,21 @@ public:
 private:
     struct Member {
         std::uint32_t link, a, b;  ///< in the world's table; of the system
+        bool joins;
         LinkedPoint at_a, at_b;
         Velocity<double> scripted_a, scripted_b;  ///< of what is immovable
-        Vector3d line;                            ///< out of b towards a, at the start
-        double length, lag;                       ///< at the start [m]; see point_lag
+        Vector3d apart;                           ///< a − b, at the start [m]
+        Vector3d arm_b;                           ///< of what acts on b [m]
+        double lag;                               ///< see point_lag
         std::uint32_t first_row = 0, last_row = 0;
-        double rest[2];  ///< length that a row keeps [m]
+        Vector3d line[3];  ///< [row] along which it acts on a
+        double rest[3];    ///< [row] length that it keeps [m]
     };
+    static void add_row(Member& member, const Link& link, const Vector3d& line, double rest,
+                        double softness, std::vector<TieRow>& rows);
+    static Vector3d apart_at_end(const Member& member, std::span<const Vector6d> velocity,
+                                 double h);
+
     std::vector<Member> links_;
 };
 

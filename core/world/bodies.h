@@ -27,7 +27,7 @@ struct Bodies {
     std::vector<double> mass, inverse_mass;  ///< [kg], [1/kg]; 0 and 0 unless dynamic; what sleeps
                                              ///< keeps its mass
     std::vector<Vector3d> inertia,
-        inverse_inertia;  ///< principal moments, body frame [kg m²]; the same
+        inverse_inertia;                  ///< principal moments, body frame [kg m²]; the same
     std::vector<std::uint8_t> isotropic;  ///< 1: all moments equal, so there is no gyroscopic term
     std::vector<Vector3d> force, torque;  ///< constant, world frame [N], [N m]
 
@@ -43,8 +43,8 @@ struct Bodies {
     std::vector<double>
         lost_to_ground;  ///< what a body lost on fixed ground and may regain (still_ground.h) [J]
 
-    std::vector<double> rest_time;  ///< for how long it has been slower than
-                                    ///< Settings::sleep_speed [s]
+    std::vector<double> rest_time;              ///< for how long it has been slower than
+                                                ///< Settings::sleep_speed [s]
     std::vector<Vector3d> rest_way, rest_turn;  ///< by how much it has moved and turned since it
                                                 ///< was last asked whether it rests [m], [rad]
     std::vector<std::uint32_t> sleeps_with;  ///< while it sleeps, the first of all bodies that fell

@@ -96,7 +96,7 @@ void forget_contacts(World& world, std::uint32_t slot) {
     std::erase_if(world.elastic_impulses,
                   [slot](const ElasticImpulse& x) { return x.body == slot; });
     for (const KeptFactors::Body& body : world.kept_factors.bodies)
-        if (body.index == slot) return world.kept_factors.clear();
+        if (body.index == slot) return world.kept_factors.drop();
 }
 
 std::uint32_t insert_joint(World& world, JointDraft draft) {

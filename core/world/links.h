@@ -29,6 +29,7 @@ struct Link {
     bool is_between_bodies() const {
         return a.particle == kNoIndex && b.particle == kNoIndex && !joins;
     }
+    bool is_between_particles() const { return a.particle != kNoIndex && b.particle != kNoIndex; }
 };
 
 }  // namespace plumb
