@@ -49,6 +49,13 @@ struct AxisAnswer {
     double slope = 0;      ///< else −dλ/drate; 0: the impulse is given
 
     bool is_row() const { return is_step || slope > 0; }
+
+    /// Whether the law is met on the same step or line, up to rounding.
+    bool is_on_piece_of(const AxisAnswer& o) const {
+        if (is_step || o.is_step) return is_step == o.is_step && rate == o.rate;
+        const double here = impulse + slope * rate, there = o.impulse + o.slope * o.rate;
+        return slope == o.slope && std::abs(here - there) <= 1e-9 * std::abs(there);
+    }
 };
 
 /// λ of one row just below (side −1) or above (side 1) a rate.

@@ -43,25 +43,32 @@ void DrivenAxis::begin(const World& world, const SubstepTime& time) {
     h_ = time.h;
     // what it bore before tells best on which piece it is
     constexpr double any = 1e30;
-    answer_ = response_ > 0 ? answer_of(drive_, 0, impulse_, any) : AxisAnswer{};
+    answer_ = next_ = response_ > 0 ? answer_of(drive_, 0, impulse_, any) : AxisAnswer{};
     impulse_ = impulse_before_ = 0;
-    looks_ = 0;
+    looks_ = 0, off_ = 0;
 }
 
-double DrivenAxis::evaluate(const Velocity<double>& a, const Velocity<double>& b, bool settle) {
-    if (!(response_ > 0)) return 0;
-    const double rate = q_.along.dot(a.v - b.v) + q_.turn_a.dot(a.w) - q_.turn_b.dot(b.w);
-    if (++looks_ > 2) learn_response(rate);
+double DrivenAxis::rate_of(const Velocity<double>& a, const Velocity<double>& b) const {
+    return q_.along.dot(a.v - b.v) + q_.turn_a.dot(a.w) - q_.turn_b.dot(b.w);
+}
+
+void DrivenAxis::start_from(const Velocity<double>& a, const Velocity<double>& b) {
+    start_ = rate_of(a, b);
+}
+
+void DrivenAxis::look(const Velocity<double>& a, const Velocity<double>& b, bool same_piece) {
+    off_ = 0;
+    if (!(response_ > 0)) return;
+    const double rate = rate_of(a, b);
+    if (++looks_ > 1) learn_response(rate);
     impulse_before_ = impulse_;
     rate_ = rate;
-    if (looks_ == 1) return 0;
-    const AxisAnswer next = answer_of(drive_, rate_, impulse_, response_);
-    const bool less = std::abs(next.impulse) < std::abs(impulse_);
-    if (!settle || (is_row() && (next.is_row() || less))) answer_ = next;
-    if (is_row()) return h_ * std::abs(wish(false)) * response_ / (response_ + softness());
-    const bool known =
-        std::abs(answer_.impulse - impulse_) <= kImpulseRounding * std::abs(impulse_);
-    return known ? 0 : std::numeric_limits<double>::infinity();
+    next_ = same_piece ? answer_ : answer_of(drive_, rate_, impulse_, response_);
+    if (next_.is_row())
+        off_ = h_ * std::abs(wish(next_, impulse_) - rate_) * response_ /
+               (response_ + softness(next_));
+    else if (std::abs(next_.impulse - impulse_) > kImpulseRounding * std::abs(impulse_))
+        off_ = std::numeric_limits<double>::infinity();
 }
 
 /// All that hangs together moves with the axis, which makes it heavier than its two bodies. How
@@ -74,12 +81,13 @@ void DrivenAxis::learn_response(double rate) {
 
 void DrivenAxis::add_row(RowsElimination<double>& e, double sign, bool balance) const {
     if (is_row())
-        append_row<double>(e, q_.along, q_.turn_a, q_.turn_b, sign, softness(), wish(balance));
+        append_row<double>(e, q_.along, q_.turn_a, q_.turn_b, sign, softness(answer_),
+                           wish(answer_, balance ? 0 : impulse_) - start_);
 }
 
-/// What the row asks its rate to change by.
-double DrivenAxis::wish(bool balance) const {
-    return answer_.rate + softness() * (answer_.impulse - (balance ? 0 : impulse_)) - rate_;
+/// The rate that the row of an answer asks for beside an impulse.
+double DrivenAxis::wish(const AxisAnswer& from, double impulse) {
+    return from.rate + softness(from) * (from.impulse - impulse);
 }
 
 void DrivenAxis::push_child(BodyBlock<double>& child, double sign, bool balance) const {
@@ -99,7 +107,7 @@ void DrivenAxis::take_impulse(const RowsElimination<double>& e, int& row, bool b
 
 void DrivenAxis::store_impulses(JointTable& joints) {
     double shares[AxisDrive::kMostRows] = {};
-    AxisAnswer last = answer_;
+    AxisAnswer last = next_;
     last.impulse = impulse_;
     share_impulse(drive_, last, shares);
     for (std::uint32_t i = first_, row = 0; i < last_; ++i) {

@@ -109,6 +109,17 @@ void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& t
     for (DrivenAxis& axis : node.axes) axis.begin(world, time);
 }
 
+void TreeNodes::keep(std::uint32_t index) {
+    Node& node = nodes_[index_[index]];
+    node.kept_own = node.own;
+    std::copy(std::begin(node.lambda), std::end(node.lambda), node.kept_lambda);
+}
+void TreeNodes::take_back(std::uint32_t index) {
+    Node& node = nodes_[index_[index]];
+    node.own = node.kept_own;
+    std::copy(std::begin(node.kept_lambda), std::end(node.kept_lambda), node.lambda);
+}
+
 void TreeNodes::forget(std::uint32_t index) {
     Node& node = nodes_[index_[index]];
     node.own = {{kZero, kZero}};
@@ -124,7 +135,7 @@ void TreeNodes::turn_levers_to_the_end(std::uint32_t index) {
     if (node.geometry.length > 0) node.geometry.line_share = 1, node.geometry.line_lag = kZero;
 }
 
-double TreeNodes::evaluate(std::uint32_t index, bool settle) {
+double TreeNodes::evaluate(std::uint32_t index, AxisLook look) {
     Node& node = nodes_[index_[index]];
     const Change own = node.start + node.given + node.own;
     put_velocity(tables_.velocity, node.node, own);
@@ -142,8 +153,44 @@ double TreeNodes::evaluate(std::uint32_t index, bool settle) {
     joint_errors<double>(node.now.c, node.geometry, preview);
     for (int k = 0; k < 6; ++k) node.now.c[k] -= node.deferred[k];
     double worst = violation_of(node);
-    for (DrivenAxis& axis : node.axes) worst = greater(worst, axis.evaluate(a, b, settle));
+    for (DrivenAxis& axis : node.axes) {
+        axis.start_from(a, b);
+        if (look != AxisLook::before) axis.look(a, b, look == AxisLook::same_piece);
+        worst = greater(worst, axis.off());
+    }
     return worst;
+}
+
+/// Of a body of the forest, when the step is made.
+Velocity<double> TreeNodes::velocity_after(std::uint32_t node) const {
+    const Velocity<double> x = velocity_of(tables_.velocity, node),
+                           step = velocity_of(tables_.step, node);
+    return {x.v + step.v, x.w + step.w};
+}
+
+std::uint32_t TreeNodes::look_at_axes(std::uint32_t index, double tolerance) {
+    Node& node = nodes_[index_[index]];
+    if (node.axes.empty()) return 0;
+    const Velocity<double> own = velocity_after(node.node);
+    const Velocity<double> other =
+        node.parent == tables_.ground ? Velocity<double>(node.held) : velocity_after(node.parent);
+    std::uint32_t wrong = 0;
+    for (DrivenAxis& axis : node.axes) {
+        axis.look(node.sign > 0 ? own : other, node.sign > 0 ? other : own, false);
+        wrong += axis.is_on_wrong_piece(tolerance);
+    }
+    return wrong;
+}
+
+std::uint32_t TreeNodes::change_pieces(std::uint32_t index, double tolerance, std::uint32_t most) {
+    std::uint32_t changed = 0;
+    for (DrivenAxis& axis : nodes_[index_[index]].axes) {
+        const bool wrong = axis.is_on_wrong_piece(tolerance);
+        if (wrong && changed == most) continue;
+        axis.change_piece();
+        changed += wrong;
+    }
+    return changed;
 }
 
 /// Of what the node's body hangs by.

@@ -31,10 +31,16 @@ public:
 
     // of one body of the forest; what they do is said in step/tree_solver.h
 
-    double evaluate(std::uint32_t node, bool settle);  ///< returns the greatest violation
+    double evaluate(std::uint32_t node, AxisLook look);  ///< returns the greatest violation
+    /// After a step, before poses are evaluated; returns how many are on a wrong piece.
+    std::uint32_t look_at_axes(std::uint32_t node, double tolerance);
+    /// Of `most` axes at the most; returns of how many.
+    std::uint32_t change_pieces(std::uint32_t node, double tolerance, std::uint32_t most);
     void eliminate(std::uint32_t node, bool balance, bool first, bool leaf);
     void substitute(std::uint32_t node, bool balance);
 
+    void keep(std::uint32_t node);
+    void take_back(std::uint32_t node);
     void forget(std::uint32_t node);
     void turn_levers_to_the_end(std::uint32_t node);
     void store_impulses(JointTable& joints);  ///< of those that are not left out
@@ -92,8 +98,10 @@ private:
         JointGeometry<double> geometry;
         JointRows<double> now;
         RowsElimination<double> elimination;
-        double deferred[6];            ///< old error of the rows that is left for later [m], [rad]
-        double lambda[6];              ///< along the joint's rows
+        double deferred[6];  ///< old error of the rows that is left for later [m], [rad]
+        double lambda[6];    ///< along the joint's rows
+        Change kept_own;     ///< where the step begins, as the next
+        double kept_lambda[6];
         std::vector<DrivenAxis> axes;  ///< that the joint leaves free
         int first_axis_row;            ///< of theirs in `elimination`
         BodyBlock<double> block;
@@ -120,6 +128,7 @@ private:
     static void add_axes(const World& world, Node& node);
     void begin_joint(const World& world, Node& node, const SubstepTime& time);
     Velocity<double> velocity_beyond(const Node& node) const;
+    Velocity<double> velocity_after(std::uint32_t node) const;
     void find_rows(Node& node);
     double violation_of(const Node& node) const;
     void load_block(Node& node, bool balance, bool leaf);

@@ -27,6 +27,8 @@ public:
             if (node.parent != kFree && first == kNoIndex) first = node.joint;
         }
         active_.assign(trees, 1), left_out_.assign(trees, 0), ends_.assign(trees, 0);
+        waits_.assign(trees, Waits::no), pieces_.resize(trees);
+        any_driven_ = std::find(driven_.begin(), driven_.end(), 1) != driven_.end();
         violation_.assign(trees, 0), before_ = first_ = violation_;
     }
 
@@ -59,13 +61,63 @@ public:
     bool start() {
         for (std::size_t i = 0; i < active_.size(); ++i) active_[i] = !left_out_[i];
         std::fill(violation_.begin(), violation_.end(), 0.0);
-        return std::find(active_.begin(), active_.end(), 1) != active_.end();
+        return any_active();
     }
     /// What the trees were off before any step.
     void remember_start() { first_ = violation_; }
     void look_again() {
         std::swap(violation_, before_);
         std::fill(violation_.begin(), violation_.end(), 0.0);
+    }
+
+    bool any_driven() const { return any_driven_; }
+
+    /// Before a Newton step, of which nothing has been tried.
+    void begin_step() {
+        for (Pieces& pieces : pieces_) pieces = {};
+    }
+    /// How many axes of a node are on a wrong piece of what drives them.
+    void note_wrong_pieces(std::uint32_t node, std::uint32_t count) {
+        pieces_[tree_[node]].wrong += count;
+    }
+    /// Lets trees wait that have none, and those that were tried often enough, which are stuck.
+    /// Returns whether any other is left. Of those may change: all axes that are wrong, as long as
+    /// that leaves fewer and fewer of them, else the first alone until it does, which goes round in
+    /// no circle (Júdice and Pires, Computers and Operations Research 21, 1994; Murty's rule).
+    bool leave_settled() {
+        for (std::size_t i = 0; i < active_.size(); ++i) {
+            if (!active_[i]) continue;
+            Pieces& pieces = pieces_[i];
+            if (pieces.wrong == 0 || ++pieces.tries > kMostTries) {
+                active_[i] = 0, waits_[i] = pieces.wrong == 0 ? Waits::settled : Waits::stuck;
+                continue;
+            }
+            if (pieces.wrong < pieces.fewest)
+                pieces.fewest = pieces.wrong, pieces.patience = kPatience;
+            else if (pieces.patience > 0)
+                --pieces.patience;
+            pieces.may_change = pieces.patience > 0 ? pieces.wrong : 1;
+            pieces.wrong = 0;
+        }
+        return any_active();
+    }
+    std::uint32_t changes_left(std::uint32_t node) const { return pieces_[tree_[node]].may_change; }
+    void count_changes(std::uint32_t node, std::uint32_t changed) {
+        pieces_[tree_[node]].may_change -= changed;
+    }
+
+    /// Lets trees wait that something drives. Returns whether any other is left.
+    bool leave_driven() {
+        for (std::size_t i = 0; i < active_.size(); ++i)
+            if (active_[i] && driven_[i]) active_[i] = 0, waits_[i] = Waits::stuck;
+        return any_active();
+    }
+    /// Makes those that are settled active again, or all that wait; the same return.
+    bool bring_back(bool all) {
+        for (std::size_t i = 0; i < active_.size(); ++i)
+            if (waits_[i] == Waits::settled || (all && waits_[i] != Waits::no))
+                active_[i] = 1, waits_[i] = Waits::no;
+        return any_active();
     }
 
     /// How far a node is off [m], [rad]; what is not a number is far off.
@@ -77,12 +129,11 @@ public:
 
     /// Returns whether any tree is left.
     bool leave_those_within(double tolerance) {
-        bool left = false;
-        for (std::size_t i = 0; i < active_.size(); ++i) {
-            active_[i] = active_[i] && violation_[i] > tolerance;
-            left |= active_[i] != 0;
-        }
-        return left;
+        return leave([&](std::size_t i) { return !(violation_[i] > tolerance); });
+    }
+    /// But for those that something drives.
+    bool leave_undriven_within(double tolerance) {
+        return leave([&](std::size_t i) { return !driven_[i] && !(violation_[i] > tolerance); });
     }
 
     /// Before a step: finds the trees that it brings well within the tolerance, if it shrinks what
@@ -95,12 +146,7 @@ public:
     }
     /// After it: returns whether any other is left.
     bool leave_those_that_end() {
-        bool left = false;
-        for (std::size_t i = 0; i < active_.size(); ++i) {
-            active_[i] = active_[i] && !ends_[i];
-            left |= active_[i] != 0;
-        }
-        return left;
+        return leave([&](std::size_t i) { return ends_[i] != 0; });
     }
 
     /// Calls visit(joint, how far off [m], [rad]) for each tree that is still to be solved, with
@@ -113,22 +159,45 @@ public:
 
     /// Leaves those that are no worse off than before any step; the same return.
     bool leave_those_no_worse() {
+        return leave([&](std::size_t i) { return !(violation_[i] > first_[i]); });
+    }
+
+private:
+    static constexpr double kNear = 20;
+    /// Tries that all axes at once have to leave fewer wrong, and how often a step is tried.
+    static constexpr int kPatience = 4, kMostTries = 60;
+
+    enum class Waits : std::uint8_t { no, settled, stuck };
+
+    /// How the search for the pieces on which a tree's axes are goes on.
+    struct Pieces {
+        std::uint32_t wrong = 0, may_change = 0;
+        std::uint32_t fewest = std::numeric_limits<std::uint32_t>::max();
+        int patience = 0, tries = 0;
+    };
+
+    bool any_active() const {
+        return std::find(active_.begin(), active_.end(), 1) != active_.end();
+    }
+
+    template <class IsDone>
+    bool leave(IsDone is_done) {
         bool left = false;
         for (std::size_t i = 0; i < active_.size(); ++i) {
-            active_[i] = active_[i] && violation_[i] > first_[i];
+            active_[i] = active_[i] && !is_done(i);
             left |= active_[i] != 0;
         }
         return left;
     }
 
-private:
-    static constexpr double kNear = 20;
-
-    std::vector<std::uint32_t> tree_;                 ///< [node]
-    std::vector<std::uint32_t> joint_;                ///< [tree] its first
-    std::vector<std::uint8_t> active_, hung_;         ///< [tree]
-    std::vector<std::uint8_t> left_out_, driven_;     ///< [tree]
-    std::vector<std::uint8_t> ends_;                  ///< [tree] with the present step
+    std::vector<std::uint32_t> tree_;              ///< [node]
+    std::vector<std::uint32_t> joint_;             ///< [tree] its first
+    std::vector<std::uint8_t> active_, hung_;      ///< [tree]
+    std::vector<std::uint8_t> left_out_, driven_;  ///< [tree]
+    std::vector<std::uint8_t> ends_;               ///< [tree] with the present step
+    std::vector<Waits> waits_;                     ///< [tree]
+    bool any_driven_ = false;
+    std::vector<Pieces> pieces_;                      ///< [tree]
     std::vector<double> violation_, before_, first_;  ///< [tree]
 };
 

@@ -59,6 +59,7 @@ void TreeSolver<W>::add_blocks(const World& world, const JointForest& forest,
             joint_of_.push_back(forest.nodes[node].joint);
         }
     }
+    kept_.resize(balls_.size());
 }
 
 template <int W>
@@ -168,11 +169,11 @@ void TreeSolver<W>::solve() {
     open_.clear();
     levers_of_the_end_ = false;
     if (!progress_.start()) return;
-    if (search()) return;
+    if (find_balance() || close(false)) return;
     levers_of_the_end_ = true;
     turn_levers_to_the_end();
     forget();
-    if (search()) return;
+    if (find_balance() || close(true)) return;
     note_open();
     if (!progress_.leave_those_no_worse()) return;
     mark_active();
@@ -187,27 +188,101 @@ void TreeSolver<W>::note_open() {
     });
 }
 
-/// Newton's steps. Returns whether all trees are closed; the others are left active.
+/// Newton's steps, which find λ anew, so that M (v − v*) = Jᵀ λ holds where they end. Returns
+/// whether all trees are closed; the others are left active.
 template <int W>
-bool TreeSolver<W>::search() {
-    for (int step = 0; step < kMostSteps; ++step) {
-        evaluate(step >= kSettleSteps);
+bool TreeSolver<W>::find_balance() {
+    for (int step = 0;; ++step) {
+        evaluate(step == 0 && !fresh_ ? AxisLook::anew : AxisLook::before);
         if (fresh_) progress_.remember_start();
-        if (!fresh_ && !progress_.leave_those_within(tolerance_)) return true;
+        if (!fresh_ && !progress_.leave_those_within(tolerance_)) break;
         fresh_ = false;
-        mark_active();
-        const bool balance = step < kBalancedSteps;
-        progress_.find_last_steps(tolerance_);
-        if (step == kBalancedSteps) forget();
-        eliminate(balance);
-        substitute(balance);
-        if (!progress_.leave_those_that_end()) return true;
-        mark_active();
+        if (step == kBalancedSteps || !step_on(true)) break;
     }
-    evaluate(true);
-    const bool solved = !progress_.leave_those_within(tolerance_);
+    return bring_back();
+}
+
+/// Steps that only close joints, with the same return. They may add energy. Of trees that nothing
+/// drives that is seen (step/divided_trees.h); those that are driven are closed so only
+/// `with_driven`, and are then told as open all the same.
+template <int W>
+bool TreeSolver<W>::close(bool with_driven) {
+    if (with_driven || progress_.leave_driven()) {
+        mark_active();
+        forget();
+        for (int step = 0; step < kClosingSteps; ++step) {
+            if (!step_on(false)) break;
+            evaluate(AxisLook::same_piece);
+            if (!progress_.leave_undriven_within(tolerance_)) break;
+        }
+    }
+    return bring_back();
+}
+
+/// One step of each tree. Returns whether any is left after it.
+template <int W>
+bool TreeSolver<W>::step_on(bool balance) {
     mark_active();
-    return solved;
+    progress_.find_last_steps(tolerance_);
+    const bool looks = balance && progress_.any_driven();
+    if (looks) keep();
+    eliminate(balance);
+    substitute(balance);
+    if (looks) settle_pieces();
+    const bool left = progress_.leave_those_that_end();
+    mark_active();
+    return left;
+}
+
+/// Takes the step again from where it began until each axis ends on the piece of its force law that
+/// it was taken for: where the poses are is looked at only then, for on the way rates may be any.
+template <int W>
+void TreeSolver<W>::settle_pieces() {
+    progress_.begin_step();
+    for (;;) {
+        each_single([this](std::uint32_t node) {
+            progress_.note_wrong_pieces(node, nodes_.look_at_axes(node, tolerance_));
+        });
+        if (!progress_.leave_settled()) break;
+        mark_active();
+        each_single([this](std::uint32_t node) {
+            progress_.count_changes(
+                node, nodes_.change_pieces(node, tolerance_, progress_.changes_left(node)));
+        });
+        take_back();
+        eliminate(true);
+        substitute(true);
+    }
+    progress_.bring_back(false);
+}
+
+/// Where the step begins.
+template <int W>
+void TreeSolver<W>::keep() {
+    for (std::size_t i = 0; i < balls_.size(); ++i) {
+        std::copy(&balls_[i].own[0][0], &balls_[i].own[0][0] + 6 * N, kept_[i].own);
+        std::copy(&balls_[i].impulse[0][0], &balls_[i].impulse[0][0] + 3 * N, kept_[i].impulse);
+    }
+    each_single([this](std::uint32_t node) { nodes_.keep(node); });
+}
+template <int W>
+void TreeSolver<W>::take_back() {
+    for (std::size_t i = 0; i < balls_.size(); ++i)
+        for (int lane = 0; lane < N; ++lane) {
+            if (!(balls_[i].active[lane] > 0)) continue;
+            for (int k = 0; k < 6; ++k) balls_[i].own[k][lane] = kept_[i].own[k * N + lane];
+            for (int k = 0; k < 3; ++k) balls_[i].impulse[k][lane] = kept_[i].impulse[k * N + lane];
+        }
+    each_single([this](std::uint32_t node) { nodes_.take_back(node); });
+}
+
+/// Trees that waited, as the last step left them. Returns whether there is none to be solved.
+template <int W>
+bool TreeSolver<W>::bring_back() {
+    const bool any = progress_.bring_back(true);
+    mark_active();
+    if (any) evaluate(AxisLook::same_piece);
+    return !any;
 }
 
 /// Levers of the end, with which Newton's matrix is the derivative of what it closes, for trees
@@ -238,17 +313,17 @@ void TreeSolver<W>::forget() {
     for (const Span& span : spans_)
         for (const std::uint32_t node : span.singles)
             if (progress_.is_active(node)) nodes_.forget(node);
-    evaluate(true);
+    evaluate(AxisLook::same_piece);
 }
 
 /// Poses at the preview, how far they are off, and how stiff the joints' impulses make the turns.
 template <int W>
-void TreeSolver<W>::evaluate(bool settle) {
+void TreeSolver<W>::evaluate(AxisLook look) {
     progress_.look_again();
     for (const Span& span : spans_) {
         note(span, kernels_.evaluate(balls_.data() + span.first, span.count, columns(), h_));
         for (const std::uint32_t node : span.singles)
-            if (progress_.is_active(node)) progress_.note(node, nodes_.evaluate(node, settle));
+            if (progress_.is_active(node)) progress_.note(node, nodes_.evaluate(node, look));
     }
 }
 

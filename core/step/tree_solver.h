@@ -11,8 +11,8 @@
 ///
 /// Bodies on plain balls are solved several side by side, level by level; those on other or driven
 /// joints, and roots that hang by nothing, one by one (tree_nodes.h). What drives a joint is part
-/// of the system: each step takes the piece of its force law (constraints/axis_drive.h) on which
-/// the last one ended, which makes the steps a semi-smooth Newton method.
+/// of the system: a step is taken again until each axis ends on that piece of its force law
+/// (constraints/axis_drive.h) that it was taken for.
 #pragma once
 
 #include "effects/report.h"
@@ -93,11 +93,14 @@ public:
 
 private:
     static constexpr int N = kBodyLanes<W>;
-    /// Newton steps at the most; the first of them hold the balance of momentum at the end of the
-    /// substep, and if that does not succeed the others only close the joints.
-    static constexpr int kMostSteps = 20, kBalancedSteps = 10;
-    /// From this step on, a drive that was found at its bounds stays there.
-    static constexpr int kSettleSteps = 7;
+    /// Newton steps at the most that hold the balance of momentum at the end of the substep, and,
+    /// if they do not succeed, that only close the joints.
+    static constexpr int kBalancedSteps = 10, kClosingSteps = 10;
+
+    /// What a step changes of balls.
+    struct Kept {
+        double own[6 * N], impulse[3 * N];
+    };
 
     /// A group of bodies: blocks, or those that are solved one by one.
     struct Span {
@@ -118,15 +121,29 @@ private:
     void give(const BodyRows<Real>& rows);
 
     void rest_left_out();
-    bool search();
+    bool find_balance();
+    bool close(bool with_driven);
+    bool step_on(bool balance);
+    void settle_pieces();
+    void keep();
+    void take_back();
+    bool bring_back();
     void turn_levers_to_the_end();
     void forget();
     void note_open();
-    void evaluate(bool settle);
+    void evaluate(AxisLook look);
     void note(const Span& span, double greatest);
     void mark_active();
     void eliminate(bool balance);
     void substitute(bool balance);
+
+    /// Calls visit(node) for the bodies that are solved one by one and still to be solved.
+    template <class Visit>
+    void each_single(Visit visit) const {
+        for (const Span& span : spans_)
+            for (const std::uint32_t node : span.singles)
+                if (progress_.is_active(node)) visit(node);
+    }
 
     TreeColumns columns() {
         return {tables_.turn.data(), tables_.velocity.data(), tables_.share.data(),
@@ -142,6 +159,7 @@ private:
     TreeProgress progress_;
     TreeNodes nodes_;
     std::vector<TreeBalls<N>> balls_;
+    std::vector<Kept> kept_;               ///< [block of balls_]
     std::vector<std::uint32_t> joint_of_;  ///< [block of balls_ × N + lane]
     std::vector<Span> spans_;              ///< roots first
 };
