@@ -15,7 +15,7 @@
 
 namespace plumb {
 
-inline constexpr std::uint32_t kStateVersion = 18;
+inline constexpr std::uint32_t kStateVersion = 19;
 
 /// Appends all that it is called with to a string of bytes.
 class StateWriter {
