@@ -47,7 +47,7 @@ void each_number_of_joints(Io& io, Table& table) {
         for (auto& x : joint.rows) io(x);
         for (auto& x : joint.rows_before) io(x);
         io(joint.pace.parts), io(joint.pace.before), io(joint.pace.calm);
-        io(joint.island_rest.steps), io(joint.island_rest.misses);
+        io(joint.island_rest.steps), io(joint.island_rest.misses), io(joint.owed);
     }
     for (auto& turn : table.turn) io(turn);
     for (auto& drive : table.drives) {

@@ -4,6 +4,7 @@
 #include "constraints/substep_time.h"
 #include "math/free_rotation.h"
 #include "schedule/joint_trees.h"
+#include "step/energy_loan.h"
 #include "step/stages.h"
 #include "ties/joint_state.h"
 #include "ties/lever_of.h"
@@ -271,6 +272,8 @@ std::vector<DividedTrees::Tree*> DividedTrees::share_out_bodies(const World& wor
         tree_of[body]->bodies.push_back(body);
         (carries_momentum_[body] ? motion.gyroscopic : motion.plain).push_back(body);
     }
+    for (Tree& tree : trees_)
+        tree.pushed.reserve(tree.bodies.size()), tree.turned.reserve(tree.bodies.size());
     for (auto* list : {&rest_.plain, &rest_.gyroscopic, &rest_.scripted})
         list->reserve(world.bodies.size());
     return tree_of;
@@ -339,6 +342,29 @@ double DividedTrees::defect_of(const World& world, const SubstepTime& time, doub
     return energy_defect(world, tree.bodies, time, fall, unclosed);
 }
 
+/// What is not solved keeps such a share of its changes that it gains no more energy than it may.
+void DividedTrees::bound_gain(World& world, double h, Tree& tree) const {
+    Bodies& b = world.bodies;
+    EnergyLoan loan;
+    for (std::size_t k = 0; k < tree.bodies.size(); ++k) {
+        const std::uint32_t i = tree.bodies[k];
+        const Vector3d &v = tree.pushed[k], &w = tree.turned[k];
+        const Vector3d dv = b.velocity[i] - v, dw = b.angular_velocity[i] - w;
+        const Vector3d middle = 0.5 * (b.velocity_now[i] + v);
+        loan.moving += kinetic_energy(b, i, v, w);
+        loan.linear += b.mass[i] * middle.dot(dv) + inertia_product(b, i, w, dw);
+        loan.square += kinetic_energy(b, i, dv, dw);
+    }
+    for (const std::uint32_t joint : tree.joints) loan.add_joint(world, joint, h);
+    const double share = loan.share();
+    for (const std::uint32_t joint : tree.joints)
+        world.joints.joints[joint].owed =
+            loan.owed_after(share) / static_cast<double>(tree.joints.size());
+    if (share == 1) return;
+    tree.solver.keep_share(share);
+    tree.solver.take_velocities(b);
+}
+
 /// From where its bodies began. Returns whether the part can stand as it is, which the `last` try
 /// has to unless it `may_snap`.
 bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& time, double fall,
@@ -349,6 +375,11 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
         b.angular_velocity[body] = b.angular_velocity_now[body];
     }
     integrate_velocities(world, plan, tree.motion, time, fall);
+    tree.pushed.clear(), tree.turned.clear();
+    for (const std::uint32_t body : tree.bodies) {
+        tree.pushed.push_back(b.velocity[body]);
+        tree.turned.push_back(b.angular_velocity[body]);
+    }
     tree.solver.load_impulses(world.joints);
     tree.solver.begin(world, time);
     tree.solver.solve();
@@ -361,6 +392,7 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     if (!followed && may_snap) return false;
     tree.defect = std::max(tree.defect, defect);
     tree.is_coarse |= !followed && (braked || tree.defect > kCoarse);
+    if (!followed || !tree.solver.open().empty()) bound_gain(world, time.h, tree);
     tree.solver.store_impulses(world.joints);
     return last || (time.h * angular_rate(world, tree.joints) <= kTooFar &&
                     time.h * eccentric_spin(world, tree.joints) <= kTooFast &&

@@ -63,6 +63,7 @@ private:
         bool was_open = false;     ///< in this substep, undivided
         bool is_coarse = false;    ///< in this substep: it was faster than its parts can follow
         double defect = 0;         ///< of energy, of a part of this substep at the most [J/J]
+        std::vector<Vector3d> pushed, turned;  ///< [body of `bodies`] velocities with forces alone
         double error = -1;  ///< how far it was left open in this substep [m], [rad]; none: −1
 
         Tree(const World& world, const JointForest& forest);
@@ -74,6 +75,7 @@ private:
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
     static double defect_of(const World& world, const SubstepTime& time, double fall,
                             const Tree& tree);
+    void bound_gain(World& world, double h, Tree& tree) const;
     bool try_part(World& world, const Plan& plan, const SubstepTime& time, double fall, bool last,
                   bool may_snap, Tree& tree) const;
     void turn_as_free(const Bodies& bodies, double h, Tree& tree) const;

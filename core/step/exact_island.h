@@ -57,6 +57,7 @@ struct ExactIsland {
     bool was_torn;  ///< the same, so far that it is torn
     bool solved;
     double open;  ///< the worst tie [m], [rad]
+    double owed;  ///< of the energy lent to it [J]
 
     std::uint32_t body_count() const { return last_body - first_body; }
     std::uint32_t point_count() const { return last_point - first_point; }

@@ -4,6 +4,7 @@
 #include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
 #include "step/island_demands.h"
+#include "step/island_loan.h"
 #include "step/island_substep.h"
 #include "step/large_islands.h"
 
@@ -242,8 +243,10 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
 
 void IslandGroup::solve(const World& world, StepReport& report) {
     workers_.run([&](std::uint32_t worker) {
-        for (std::size_t i = worker; i < count_; i += workers_.count())
+        for (std::size_t i = worker; i < count_; i += workers_.count()) {
             IslandSubstep(world.settings, columns_, solvers_[worker], islands_[i]).solve();
+            bound_gain(world, columns_, islands_[i]);
+        }
     });
     report.costly_islands = costly_;
     for (const ExactIsland& island : taken()) {
@@ -264,8 +267,10 @@ void IslandGroup::open_apart(Bodies& bodies) const { columns_.give_shifts(bodies
 void IslandGroup::add_impulses(ContactSums& sums) const { columns_.add_impulses(sums); }
 
 void IslandGroup::store_tie_impulses(World& world) const {
-    for (const ExactIsland& island : taken())
+    for (const ExactIsland& island : taken()) {
         columns_.ties.store_impulses(island.ties, bodies_in(columns_.velocity, island), world);
+        store_loan(columns_, island, world);
+    }
 }
 
 // ---- after the last substep

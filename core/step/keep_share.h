@@ -16,7 +16,10 @@ void keep_share(double share, const ContactIslands& islands, const ContactIsland
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
         const std::int32_t row = islands.bodies()[i];
         Velocity<Real> change = velocity_in(bodies.change, row);
-        change.v *= static_cast<Real>(share), change.w *= static_cast<Real>(share);
+        if (share > 0)
+            change.v *= static_cast<Real>(share), change.w *= static_cast<Real>(share);
+        else  // also of what is not a number
+            change.v.setZero(), change.w.setZero();
         put_velocity(bodies.change, row, change);
     }
 }

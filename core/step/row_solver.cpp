@@ -165,9 +165,8 @@ public:
         const PushOut push = push_out(settings_, share_of_substep(settings_), h);
         energy_.apply(world, *contacts_, table_.rows(), push, h);
     }
-    void bound_joint_energy(const World& world, double h) override {
-        const PushOut push = push_out(settings_, share_of_substep(settings_), h);
-        joint_energy_->apply(world, *contacts_, table_.rows(), push, h);
+    void bound_joint_energy(World& world, double h) override {
+        joint_energy_->apply(world, *contacts_, table_.rows(), h);
     }
 
     void solve_islands(const World& world, StepReport& report) override {

@@ -38,7 +38,7 @@ public:
     /// Where the iterations above added energy: step/energy_bound.h.
     virtual void bound_energy(const World& world, double h) = 0;
     /// The same of joints: step/joint_energy_bound.h.
-    virtual void bound_joint_energy(const World& world, double h) = 0;
+    virtual void bound_joint_energy(World& world, double h) = 0;
     /// Islands that are solved exactly (step/island_group.h); the same.
     virtual void solve_islands(const World& world, StepReport& report) = 0;
     virtual void propagate_shock() = 0;

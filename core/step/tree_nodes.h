@@ -68,6 +68,12 @@ public:
             bodies.angular_velocity[node.body] = node.start.w + node.own.w;
         }
     }
+    void keep_share(double share) {
+        for (Node& node : nodes_) {
+            node.own = node.own.scaled(share);
+            for (double& x : node.lambda) x = share > 0 ? share * x : 0;
+        }
+    }
     template <class Real>
     void give(const BodyRows<Real>& rows) {
         for (Node& node : nodes_) {
@@ -80,6 +86,11 @@ private:
     struct Change : Velocity<double> {
         Change operator+(const Change& o) const { return {{v + o.v, w + o.w}}; }
         Change operator-(const Change& o) const { return {{v - o.v, w - o.w}}; }
+        /// Nothing is left with a share of 0, also of what is not a number.
+        Change scaled(double share) const {
+            const Vector3d none = Vector3d::Zero();
+            return share > 0 ? Change{{v * share, w * share}} : Change{{none, none}};
+        }
     };
 
     /// A body, and the joint that it hangs by unless it is a free root.

@@ -109,6 +109,17 @@ void TreeSolver<W>::rest_left_out() {
 }
 
 template <int W>
+void TreeSolver<W>::keep_share(double share) {
+    const auto scale = [share](double& x) { x = share > 0 ? share * x : 0; };
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane) {
+            for (auto& own : balls.own) scale(own[lane]);
+            for (auto& impulse : balls.impulse) scale(impulse[lane]);
+        }
+    nodes_.keep_share(share);
+}
+
+template <int W>
 void TreeSolver<W>::take_velocities(Bodies& bodies) const {
     for (const TreeBalls<N>& balls : balls_)
         for (int lane = 0; lane < N; ++lane) {

@@ -82,6 +82,9 @@ public:
         return most;
     }
 
+    /// Keeps a share of what the last solve changed, and of its impulses.
+    void keep_share(double share);
+
     /// The velocities that the last solve has come to, and what it changed of the turns.
     void take_velocities(Bodies& bodies) const;
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+/// How much kinetic energy joints and contacts may give to bodies that joints hold together.
+///
+/// Bodies move along chords of their swings, and have a little more energy in one substep and a
+/// little less in another. What an island gains beyond the work of its drives is therefore a loan,
+/// of a small share of its energy: it counts until as much has been lost again, and while it
+/// counts so much less is lent. So however long an island is hit, or stays unsolved, it never has
+/// more than that share above what it had at any time before. Where it would, only a share of all
+/// that is changed of its velocities is taken: that keeps the sums of momentum, and joints close
+/// later.
+///
+/// Gravity counts by its work on the mean of the velocities at the start and at the end of the
+/// substep, as leapfrog has it.
+#pragma once
+
+#include "step/gaping_joints.h"
+#include "ties/driven_axes.h"
+#include "ties/tie_work.h"
+#include "world/world.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plumb {
+
+/// The energy of two bodies at the speed at which what is off by so much closes [J]; `off`: [m].
+inline double closing_energy(const World& world, std::uint32_t a, std::uint32_t b, double off,
+                             double h) {
+    const double speed = std::min(off / h, world.settings.recovery_speed);
+    double mass = 0;
+    for (const std::uint32_t body : {a, b})
+        if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
+            mass += world.bodies.mass[body];
+    return 0.5 * mass * speed * speed;
+}
+
+/// How far a joint is open or past a limit, at the rims of its bodies [m].
+inline double opening_of(const World& world, std::uint32_t index) {
+    const Bodies& b = world.bodies;
+    const Joint& joint = world.joints.joints[index];
+    double along = joint_gap(b, joint), about = joint_turn_gap(b, joint), radius = 0;
+    each_driven_axis(world.joints, index, [&](std::uint32_t first, std::uint32_t last) {
+        const JointPose pose = joint_pose(b, joint);
+        for (std::uint32_t i = first; i < last; ++i) {
+            const JointError error = limit_error(world, world.joints.drives[i], pose);
+            along = std::max(along, error.along), about = std::max(about, error.about);
+        }
+    });
+    for (const std::uint32_t body : {joint.a, joint.b})
+        if (body != kNoIndex && b.motion[body] == Motion::dynamic)
+            radius = std::max(radius, b.bounding_radius[body]);
+    return std::max(along, about * radius);
+}
+
+struct EnergyLoan {
+    /// The share of its kinetic energy that is lent to an island.
+    static constexpr double kLent = 0.01;
+
+    double moving = 0;   ///< kinetic energy before the changes [J]
+    double linear = 0;   ///< with a share s of the changes it gains
+    double square = 0;   ///< linear s + square s² [J]
+    double granted = 0;  ///< the most that its drives give [J]
+    double closing = 0;  ///< energy at the speeds at which old errors close [J]
+    double owed = 0;     ///< of loans before [J]
+
+    /// The greatest share of all changes with which it gains no more than it may.
+    double share() const {
+        if (linear + square <= most()) return 1;
+        if (!std::isfinite(linear) || !(square > 0)) return 0;
+        const double root = std::sqrt(linear * linear + 4 * square * most());
+        return std::clamp((root - linear) / (2 * square), 0.0, 1.0);
+    }
+
+    /// What is owed once that share has been taken [J].
+    double owed_after(double share) const {
+        const double gained = share > 0 ? (linear + square * share) * share : 0;
+        return std::max(0.0, owed + (gained > 0 ? std::max(0.0, gained - granted) : gained));
+    }
+
+    /// What overlaps by so much [m] may part.
+    void add_overlap(const World& world, const Contact& c, double overlap, double h) {
+        closing += closing_energy(world, c.a, c.b, std::max(0.0, overlap), h);
+    }
+    /// What a joint owes, and what it may give by closing and by what drives it.
+    void add_joint(const World& world, std::uint32_t index, double h) {
+        const Joint& joint = world.joints.joints[index];
+        owed += joint.owed;
+        granted += most_work(world, index, h);
+        closing += closing_energy(world, joint.a, joint.b, opening_of(world, index), h);
+    }
+
+private:
+    double most() const {
+        return std::max({0.0, granted + kLent * moving - owed, granted + closing - moving});
+    }
+};
+
+}  // namespace plumb
