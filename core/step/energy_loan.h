@@ -56,7 +56,8 @@ struct EnergyLoan {
     /// The share of its kinetic energy that is lent to an island.
     static constexpr double kLent = 0.01;
 
-    double moving = 0;   ///< kinetic energy at the mean velocity before the changes [J]
+    double moving = 0;   ///< kinetic energy before the changes [J]
+    double began = 0;    ///< that at the start of the substep, before gravity [J]
     double linear = 0;   ///< with a share s of the changes it gains
     double square = 0;   ///< linear s + square s² [J]
     double granted = 0;  ///< the most that its drives give [J]
@@ -91,7 +92,7 @@ struct EnergyLoan {
 
 private:
     double most() const {
-        return std::max({0.0, granted + kLent * moving - owed, granted + closing - moving});
+        return std::max({0.0, granted + kLent * moving - owed, granted + closing - began});
     }
 };
 
