@@ -23,15 +23,19 @@
 
 namespace plumb {
 
-/// The energy of two bodies at the speed at which what is off by so much closes [J]; `off`: [m].
-inline double closing_energy(const World& world, std::uint32_t a, std::uint32_t b, double off,
-                             double h) {
-    const double speed = std::min(off / h, world.settings.recovery_speed);
+inline double moving_mass(const World& world, std::uint32_t a, std::uint32_t b) {
     double mass = 0;
     for (const std::uint32_t body : {a, b})
         if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
             mass += world.bodies.mass[body];
-    return 0.5 * mass * speed * speed;
+    return mass;
+}
+
+/// The energy of two bodies at the speed at which what is off by so much closes [J]; `off`: [m].
+inline double closing_energy(const World& world, std::uint32_t a, std::uint32_t b, double off,
+                             double h) {
+    const double speed = std::min(off / h, world.settings.recovery_speed);
+    return 0.5 * moving_mass(world, a, b) * speed * speed;
 }
 
 /// How far a joint is open or past a limit, at the rims of its bodies [m].
@@ -57,7 +61,6 @@ struct EnergyLoan {
     static constexpr double kLent = 0.01;
 
     double moving = 0;   ///< kinetic energy before the changes [J]
-    double began = 0;    ///< that at the start of the substep, before gravity [J]
     double linear = 0;   ///< with a share s of the changes it gains
     double square = 0;   ///< linear s + square s² [J]
     double granted = 0;  ///< the most that its drives give [J]
@@ -78,9 +81,11 @@ struct EnergyLoan {
         return std::max(0.0, owed + (gained > 0 ? std::max(0.0, gained - granted) : gained));
     }
 
-    /// What overlaps by so much [m] may part.
+    /// What overlaps by so much [m] may part, and is lifted by it.
     void add_overlap(const World& world, const Contact& c, double overlap, double h) {
-        closing += closing_energy(world, c.a, c.b, std::max(0.0, overlap), h);
+        const double off = std::max(0.0, overlap);
+        closing += closing_energy(world, c.a, c.b, off, h) +
+                   moving_mass(world, c.a, c.b) * world.settings.gravity.norm() * off;
     }
     /// What a joint owes, and what it may give by closing and by what drives it.
     void add_joint(const World& world, std::uint32_t index, double h) {
@@ -92,7 +97,7 @@ struct EnergyLoan {
 
 private:
     double most() const {
-        return std::max({0.0, granted + kLent * moving - owed, granted + closing - began});
+        return std::max({0.0, granted + kLent * moving - owed, granted + closing - moving});
     }
 };
 

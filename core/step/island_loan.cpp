@@ -20,7 +20,6 @@ void add_changes(EnergyLoan& loan, const World& world, const IslandColumns& colu
         const Vector3d dv = change.head<3>(), dw = change.tail<3>();
         const Vector3d v = 0.5 * (b.velocity_now[i] + b.velocity[i]);
         loan.moving += kinetic_energy(b, i);
-        loan.began += kinetic_energy(b, i, b.velocity_now[i], b.angular_velocity_now[i]);
         loan.linear += b.mass[i] * v.dot(dv) + inertia_product(b, i, b.angular_velocity[i], dw);
         loan.square += kinetic_energy(b, i, dv, dw);
     }

@@ -97,7 +97,6 @@ private:
             const Vector3d v = 0.5 * (b.velocity_now[i] + b.velocity[i]);
             EnergyLoan& loan = loans_[islands_.island_of()[static_cast<std::size_t>(row)]].loan;
             loan.moving += kinetic_energy(b, i);
-            loan.began += kinetic_energy(b, i, b.velocity_now[i], b.angular_velocity_now[i]);
             loan.linear +=
                 b.mass[i] * v.dot(x.v) + inertia_product(b, i, b.angular_velocity[i], x.w);
             loan.square += kinetic_energy(b, i, x.v, x.w);
