@@ -29,12 +29,6 @@ public:
 
     void rest_left_out();
 
-    /// Calls visit(node, mass [kg], its speed at the start squared [m²/s²]).
-    template <class Visit>
-    void each_fall(Visit visit) const {
-        for (const Node& node : nodes_) visit(node.node, node.mass, node.start.v.squaredNorm());
-    }
-
     // of one body of the forest; what they do is said in step/tree_solver.h
 
     double evaluate(std::uint32_t node, AxisLook look);  ///< returns the greatest violation

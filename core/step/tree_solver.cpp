@@ -3,8 +3,6 @@
 
 #include "ties/lever_of.h"
 
-#include <limits>
-
 namespace plumb {
 namespace {
 
@@ -110,24 +108,6 @@ void TreeSolver<W>::rest_left_out() {
     nodes_.rest_left_out();
 }
 
-/// Of all bodies, as forces leave them; without gravity [m/s²] nothing falls, and all is high.
-template <int W>
-void TreeSolver<W>::note_falls(double gravity) {
-    progress_.forget_falls();
-    const auto note = [&](std::uint32_t node, double mass, double squared) {
-        constexpr double high = std::numeric_limits<double>::infinity();
-        progress_.note_fall(node, mass, gravity > 0 ? 0.5 * squared / gravity : high);
-    };
-    for (const TreeBalls<N>& balls : balls_)
-        for (int lane = 0; lane < N; ++lane) {
-            if (!(balls.used[lane] > 0)) continue;
-            double squared = 0;
-            for (int k = 0; k < 3; ++k) squared += balls.start[k][lane] * balls.start[k][lane];
-            note(balls.node[lane], balls.mass[lane], squared);
-        }
-    nodes_.each_fall(note);
-}
-
 template <int W>
 void TreeSolver<W>::keep_share(double share) {
     const auto scale = [share](double& x) { x = share > 0 ? share * x : 0; };
@@ -226,10 +206,7 @@ bool TreeSolver<W>::find_balance() {
     for (int step = 0;; ++step) {
         evaluate(step == 0 && !fresh_ ? AxisLook::anew : AxisLook::before);
         if (fresh_) progress_.remember_start();
-        const bool fine = step < kFineSteps;
-        if (!fresh_ && !(fine ? progress_.leave_those_closed(tolerance_)
-                              : progress_.leave_those_within(tolerance_)))
-            break;
+        if (!fresh_ && !progress_.leave_those_within(tolerance_)) break;
         fresh_ = false;
         if (step == kBalancedSteps || !step_on(true)) break;
     }

@@ -41,7 +41,6 @@ public:
         kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h_,
                        {lift[0], lift[1], lift[2]}, h_ * world.settings.recovery_speed);
         nodes_.begin(world, time, lift);
-        note_falls(world.settings.gravity.norm());
         if (progress_.leaves_any_out()) rest_left_out();
     }
 
@@ -100,8 +99,6 @@ private:
     /// Newton steps at the most that hold the balance of momentum at the end of the substep, and,
     /// if they do not succeed, that only close the joints.
     static constexpr int kBalancedSteps = 10, kClosingSteps = 10;
-    /// So many of the former are made for the sake of what a swing gains or loses.
-    static constexpr int kFineSteps = 6;
 
     /// What a step changes of balls.
     struct Kept {
@@ -127,7 +124,6 @@ private:
     void give(const BodyRows<Real>& rows);
 
     void rest_left_out();
-    void note_falls(double gravity);
     bool find_balance();
     bool close(bool with_driven);
     bool step_on(bool balance);
