@@ -103,7 +103,7 @@ i=0
 seen=0
 while name=$("$json_has" "$work/ablation.json" --print "/effects/$i/name" 2>/dev/null); do
   case "$name" in
-    *deformables* | *links* | *particle_contacts*)
+    *deformables* | *links*)
       if [ "$("$json_has" "$work/ablation.json" --print "/effects/$i/ran")" = true ]; then
         "$json_has" "$work/ablation.json" --print "/effects/$i/ablation/error_m" | awk '{ exit !($1 > 0.003) }'
         seen=$((seen + 1))
@@ -112,7 +112,7 @@ while name=$("$json_has" "$work/ablation.json" --print "/effects/$i/name" 2>/dev
   esac
   i=$((i + 1))
 done
-[ $seen -eq 3 ]
+[ $seen -eq 2 ]
 
 # a run that diverges without an effect is told of in that effect's row
 "$plumb" effects "$2/tests/app/scenes/held_spinner.json" --ablate | grep "^joints .* without it the run is no longer finite after step"
