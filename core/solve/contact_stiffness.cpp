@@ -9,8 +9,9 @@
 namespace plumb {
 namespace {
 
+/// A saved state may name pairs that have no block: factors are only near without them.
 void add_between(std::uint32_t i, std::uint32_t j, const Matrix3d& block, SparseLdlt& system) {
-    system.add(system.slot(i, j), block);
+    if (const auto slot = system.find_slot(i, j)) system.add(*slot, block);
 }
 
 /// What d holds between two points, each of which moves with v − r × ω of its body.

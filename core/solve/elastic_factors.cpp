@@ -51,9 +51,10 @@ void ElasticFactors::take_near(const ElasticParts& parts) {
                 near_now_.emplace_back(low, high);
             }
     if (known) return;
-    const std::size_t many = kKeepNear * near_now_.size();
-    if (made_of_.near.size() <= many)
+    if (made_of_.near.size() <= kKeepNear * near_now_.size())
         near_now_.insert(near_now_.end(), made_of_.near.begin(), made_of_.near.end());
+    else
+        drop();  // they are of pairs that have no blocks any more
     std::sort(near_now_.begin(), near_now_.end());
     near_now_.erase(std::unique(near_now_.begin(), near_now_.end()), near_now_.end());
     made_of_.near = near_now_;
