@@ -74,6 +74,7 @@ struct Kind {
 
 /// Joints of what lies on a sheet are solved with it, where sheets are not iterated.
 constexpr const char* kSolveSheets = " or \"exact_deformables\" where bodies lie on sheets,";
+
 std::array<Kind, 4> kinds_of(const JointWatch& watch) {
     constexpr const char* kSolveBetter = "more iterations or substeps, or \"joints\": \"tree\",";
     return {{{"apart", watch.apart(), "joints were open, or past a limit,", kSolveBetter, joint_of,

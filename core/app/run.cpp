@@ -154,8 +154,7 @@ std::vector<std::string> warnings_of(const Scene& scene, const Simulation& simul
     if (statistics.stretched_links > 0)
         warnings.push_back(fmt::format(
             "links were more than 1 % too long or too short, or attached points apart, at the end "
-            "of "
-            "{} of their steps, by {:.3g} m at the most; more substeps{} may help",
+            "of {} of their steps, by {:.3g} m at the most; more substeps{} may help",
             statistics.stretched_links, statistics.link_error,
             sweeps_deformables(simulation.world()) ? ", or \"exact_deformables\"," : ""));
     return warnings;

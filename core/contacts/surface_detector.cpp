@@ -225,8 +225,9 @@ bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Tri
         (t.corners[0] == probe.point.particle || t.corners[1] == probe.point.particle ||
          t.corners[2] == probe.point.particle))
         return false;
-    for (const std::uint32_t corner : t.corners)
-        if (probe.point.body != kNoIndex && joined_.has(corner, probe.point.body)) return false;
+    if (probe.point.body != kNoIndex)
+        for (const std::uint32_t corner : t.corners)
+            if (joined_.has(corner, probe.point.body)) return false;
     const Filter& surface = filters_[t.deformable];
     const Filter other = probe.deformable != kNoIndex ? filters_[probe.deformable]
                                                       : Filter{world.bodies.group[probe.point.body],

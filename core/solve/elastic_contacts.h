@@ -39,6 +39,7 @@ inline bool has_elastic_contacts(const Plan& plan) {
     return plan.runs(Effect::exact_deformables) &&
            (plan.runs(Effect::particle_contacts) || plan.runs(Effect::surface_contacts));
 }
+
 class ElasticContacts {
 public:
     /// Of what a side's point moves by, in u, and of q on it.

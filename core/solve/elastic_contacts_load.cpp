@@ -192,7 +192,6 @@ void ElasticContacts::find_members(const World& world, const std::vector<BodyPai
     }
     for (const Tie& tie : ties) unite_bodies(world, tie, groups_);
     for (std::uint32_t i = 0; i < n; ++i) ++members_[groups_.lowest(i)];
-    is_member_.assign(n, 0);
     const std::uint32_t most = std::min(kMostBodies, world.settings.exact_islands);
     for (const Body& body : bodies_) is_member_[groups_.lowest(body.index)] = 1;
     for (std::uint32_t i = 0; i < n; ++i) {

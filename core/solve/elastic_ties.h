@@ -76,7 +76,7 @@ public:
     double take_forces();
     /// What ties can give by themselves, about [J]: drives do work, and what is open closes.
     double driven_energy() const { return driven_energy_; }
-    /// How fast scripts move the points of joints [m/s].
+    /// How fast scripts move the points of joints and links [m/s].
     double scripted_speed() const { return rows_.scripted_speed(range_); }
     /// Whether the row's impulse can change: it is not at a bound.
     bool yields(std::size_t row) const { return slope_[row] != 0; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-/// All that holds deformables together, contacts of sheets with bodies and of these with each
-/// other, their ties, and links of particles, solved as one system. Other contacts stay with the
-/// iterations, in turn with it.
+/// All that holds deformables together, their contacts and links, and contacts and ties of the
+/// bodies that touch them, solved as one system. Other bodies stay with the iterations, in turn
+/// with it.
 #pragma once
 
 #include "contacts/contact_sums.h"

@@ -349,11 +349,7 @@ void DividedTrees::bound_gain(World& world, double h, Tree& tree) const {
     for (std::size_t k = 0; k < tree.bodies.size(); ++k) {
         const std::uint32_t i = tree.bodies[k];
         const Vector3d &v = tree.pushed[k], &w = tree.turned[k];
-        const Vector3d dv = b.velocity[i] - v, dw = b.angular_velocity[i] - w;
-        const Vector3d middle = 0.5 * (b.velocity_now[i] + v);
-        loan.moving += kinetic_energy(b, i, v, w);
-        loan.linear += b.mass[i] * middle.dot(dv) + inertia_product(b, i, w, dw);
-        loan.square += kinetic_energy(b, i, dv, dw);
+        loan.add_change(b, i, v, w, b.velocity[i] - v, b.angular_velocity[i] - w);
     }
     for (const std::uint32_t joint : tree.joints) loan.add_joint(world, joint, h);
     const double share = loan.share();

@@ -16,6 +16,7 @@
 #include "step/gaping_joints.h"
 #include "ties/driven_axes.h"
 #include "ties/tie_work.h"
+#include "world/body_momentum.h"
 #include "world/world.h"
 
 #include <algorithm>
@@ -23,6 +24,7 @@
 
 namespace plumb {
 
+/// Of two bodies, as far as they are dynamic [kg].
 inline double moving_mass(const World& world, std::uint32_t a, std::uint32_t b) {
     double mass = 0;
     for (const std::uint32_t body : {a, b})
@@ -81,6 +83,14 @@ struct EnergyLoan {
         return std::max(0.0, owed + (gained > 0 ? std::max(0.0, gained - granted) : gained));
     }
 
+    /// What a body gains whose velocities change by (dv, dw), from v and w on [m/s], [rad/s].
+    void add_change(const Bodies& b, std::uint32_t i, const Vector3d& v, const Vector3d& w,
+                    const Vector3d& dv, const Vector3d& dw) {
+        const Vector3d middle = 0.5 * (b.velocity_now[i] + v);
+        moving += kinetic_energy(b, i, v, w);
+        linear += b.mass[i] * middle.dot(dv) + inertia_product(b, i, w, dw);
+        square += kinetic_energy(b, i, dv, dw);
+    }
     /// What overlaps by so much [m] may part, and is lifted by it.
     void add_overlap(const World& world, const Contact& c, double overlap, double h) {
         const double off = std::max(0.0, overlap);

@@ -3,7 +3,6 @@
 
 #include "step/energy_loan.h"
 #include "ties/tie_work.h"
-#include "world/body_momentum.h"
 
 #include <limits>
 
@@ -17,11 +16,8 @@ void add_changes(EnergyLoan& loan, const World& world, const IslandColumns& colu
     for (std::uint32_t k = island.first_body; k < island.last_body; ++k) {
         const std::uint32_t i = columns.bodies[k].body;
         const Vector6d change = columns.velocity[k] - columns.start[k];
-        const Vector3d dv = change.head<3>(), dw = change.tail<3>();
-        const Vector3d v = 0.5 * (b.velocity_now[i] + b.velocity[i]);
-        loan.moving += kinetic_energy(b, i);
-        loan.linear += b.mass[i] * v.dot(dv) + inertia_product(b, i, b.angular_velocity[i], dw);
-        loan.square += kinetic_energy(b, i, dv, dw);
+        loan.add_change(b, i, b.velocity[i], b.angular_velocity[i], change.head<3>(),
+                        change.tail<3>());
     }
 }
 

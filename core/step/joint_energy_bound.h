@@ -11,7 +11,6 @@
 #include "step/contact_solver.h"
 #include "step/energy_loan.h"
 #include "step/keep_share.h"
-#include "world/body_momentum.h"
 #include "world/tie.h"
 
 #include <algorithm>
@@ -94,12 +93,8 @@ private:
         for (const std::int32_t row : islands_.bodies()) {
             const std::uint32_t i = body_of_[static_cast<std::size_t>(row)];
             const Velocity<double> x = change_of(b, rows, i);
-            const Vector3d v = 0.5 * (b.velocity_now[i] + b.velocity[i]);
             EnergyLoan& loan = loans_[islands_.island_of()[static_cast<std::size_t>(row)]].loan;
-            loan.moving += kinetic_energy(b, i);
-            loan.linear +=
-                b.mass[i] * v.dot(x.v) + inertia_product(b, i, b.angular_velocity[i], x.w);
-            loan.square += kinetic_energy(b, i, x.v, x.w);
+            loan.add_change(b, i, b.velocity[i], b.angular_velocity[i], x.v, x.w);
         }
         for (const BodyPair& pair : pairs) {
             const Contact& first = world.contacts.found[pair.first];
