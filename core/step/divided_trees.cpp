@@ -45,7 +45,7 @@ constexpr double kCalmTime = 5, kDampedCalmTime = 0.05;
 
 /// How much of what moves a part may gain or lose, and how much is told where no more parts may be
 /// taken [J/J]; and how many times as much a part of twice the length does.
-constexpr double kDefect = 2e-5, kCoarse = 2e-4, kDefectOfHalf = 4;
+constexpr double kDefect = 5e-6, kCoarse = 2e-4, kDefectOfHalf = 4;
 
 /// How many times tree_parts there may be while something snaps, and how long they are kept [s].
 constexpr std::uint32_t kSnap = 8;

@@ -29,6 +29,12 @@ public:
 
     void rest_left_out();
 
+    /// Calls visit(node, body, its velocity at the start [m/s]).
+    template <class Visit>
+    void each_body(Visit visit) const {
+        for (const Node& node : nodes_) visit(node.node, node.body, node.start.v);
+    }
+
     // of one body of the forest; what they do is said in step/tree_solver.h
 
     double evaluate(std::uint32_t node, AxisLook look);  ///< returns the greatest violation

@@ -30,6 +30,7 @@ public:
         waits_.assign(trees, Waits::no), pieces_.resize(trees);
         any_driven_ = std::find(driven_.begin(), driven_.end(), 1) != driven_.end();
         violation_.assign(trees, 0), before_ = first_ = violation_;
+        falls_.resize(trees);
     }
 
     std::size_t trees() const { return active_.size(); }
@@ -127,9 +128,35 @@ public:
         worst = std::max(worst, std::isnan(violation) ? far_off : violation);
     }
 
+    /// Once: the mass of a body [kg].
+    void note_mass(std::uint32_t node, double mass) {
+        Falls& falls = falls_[tree_[node]];
+        falls.heaviest = std::max(falls.heaviest, mass);
+        falls.mass += mass;
+    }
+    bool any_loaded() const {
+        for (std::size_t i = 0; i < falls_.size(); ++i)
+            if (is_loaded(i)) return true;
+        return false;
+    }
+
+    /// Before any step: the mass of a body [kg], and the height from which it would fall to its
+    /// speed [m]. That of the tree is the mean by mass: a light rod that trembles counts for
+    /// little.
+    void forget_falls() {
+        for (Falls& falls : falls_) falls.moment = 0;
+    }
+    void note_fall(std::uint32_t node, double mass, double height) {
+        falls_[tree_[node]].moment += mass * height;
+    }
+
     /// Returns whether any tree is left.
     bool leave_those_within(double tolerance) {
         return leave([&](std::size_t i) { return !(violation_[i] > tolerance); });
+    }
+    /// The same; loaded ones go on until they are open by little against their fall.
+    bool leave_those_closed(double tolerance) {
+        return leave([&](std::size_t i) { return !(violation_[i] > fine(i, tolerance)); });
     }
     /// But for those that something drives.
     bool leave_undriven_within(double tolerance) {
@@ -141,8 +168,8 @@ public:
     /// those that are far off come to is to be seen.
     void find_last_steps(double tolerance) {
         for (std::size_t i = 0; i < active_.size(); ++i)
-            ends_[i] = active_[i] && !driven_[i] && violation_[i] <= kNear * tolerance &&
-                       violation_[i] * violation_[i] < 0.1 * tolerance * before_[i];
+            ends_[i] = active_[i] && !driven_[i] && violation_[i] <= kNear * fine(i, tolerance) &&
+                       violation_[i] * violation_[i] < 0.1 * fine(i, tolerance) * before_[i];
     }
     /// After it: returns whether any other is left.
     bool leave_those_that_end() {
@@ -164,6 +191,10 @@ public:
 
 private:
     static constexpr double kNear = 20;
+    /// By which share of its fall a loaded tree may be open, one of whose bodies is heavier than
+    /// all others. What Newton's last step leaves of a joint's error has always the same sign: a
+    /// load that goes down with it in each substep feeds or brakes what swings.
+    static constexpr double kOpenOfFall = 1e-5;
     /// Tries that all axes at once have to leave fewer wrong, and how often a step is tried.
     static constexpr int kPatience = 4, kMostTries = 60;
 
@@ -178,6 +209,19 @@ private:
 
     bool any_active() const {
         return std::find(active_.begin(), active_.end(), 1) != active_.end();
+    }
+
+    struct Falls {
+        double heaviest = 0, mass = 0;  ///< [kg]
+        double moment = 0;              ///< Σ m × height [kg m]
+    };
+
+    bool is_loaded(std::size_t tree) const {
+        return !driven_[tree] && 2 * falls_[tree].heaviest >= falls_[tree].mass;
+    }
+    double fine(std::size_t tree, double tolerance) const {
+        if (!is_loaded(tree)) return tolerance;
+        return std::min(tolerance, kOpenOfFall * falls_[tree].moment / falls_[tree].mass);
     }
 
     template <class IsDone>
@@ -199,6 +243,7 @@ private:
     bool any_driven_ = false;
     std::vector<Pieces> pieces_;                      ///< [tree]
     std::vector<double> violation_, before_, first_;  ///< [tree]
+    std::vector<Falls> falls_;                        ///< [tree]
 };
 
 }  // namespace plumb

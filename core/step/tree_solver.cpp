@@ -3,6 +3,8 @@
 
 #include "ties/lever_of.h"
 
+#include <limits>
+
 namespace plumb {
 namespace {
 
@@ -32,6 +34,10 @@ TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest, double 
     lay_out(world, forest, undriven_balls(world, forest));
     load_impulses(world.joints);
     open_.reserve(progress_.trees());
+    each_body([&](std::uint32_t node, std::uint32_t body, const Vector3d&) {
+        progress_.note_mass(node, world.bodies.mass[body]);
+    });
+    any_loaded_ = progress_.any_loaded();
 }
 
 template <int W>
@@ -106,6 +112,30 @@ void TreeSolver<W>::rest_left_out() {
             if (balls.used[lane] > 0 && progress_.is_left_out(balls.node[lane]))
                 for (auto& own : balls.own) own[lane] = 0;
     nodes_.rest_left_out();
+}
+
+/// Calls visit(node, body, its velocity as forces leave it [m/s]).
+template <int W>
+template <class Visit>
+void TreeSolver<W>::each_body(Visit visit) const {
+    for (const TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane)
+            if (balls.used[lane] > 0)
+                visit(balls.node[lane], balls.body[lane],
+                      Vector3d(balls.start[0][lane], balls.start[1][lane], balls.start[2][lane]));
+    nodes_.each_body(visit);
+}
+
+/// Without gravity nothing falls, and all is high.
+template <int W>
+void TreeSolver<W>::note_falls(const World& world) {
+    constexpr double high = std::numeric_limits<double>::infinity();
+    const double gravity = world.settings.gravity.norm();
+    progress_.forget_falls();
+    each_body([&](std::uint32_t node, std::uint32_t body, const Vector3d& v) {
+        const double height = gravity > 0 ? 0.5 * v.squaredNorm() / gravity : high;
+        progress_.note_fall(node, world.bodies.mass[body], height);
+    });
 }
 
 template <int W>
@@ -206,7 +236,10 @@ bool TreeSolver<W>::find_balance() {
     for (int step = 0;; ++step) {
         evaluate(step == 0 && !fresh_ ? AxisLook::anew : AxisLook::before);
         if (fresh_) progress_.remember_start();
-        if (!fresh_ && !progress_.leave_those_within(tolerance_)) break;
+        const bool fine = step < kFineSteps;
+        if (!fresh_ && !(fine ? progress_.leave_those_closed(tolerance_)
+                              : progress_.leave_those_within(tolerance_)))
+            break;
         fresh_ = false;
         if (step == kBalancedSteps || !step_on(true)) break;
     }

@@ -41,6 +41,7 @@ public:
         kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h_,
                        {lift[0], lift[1], lift[2]}, h_ * world.settings.recovery_speed);
         nodes_.begin(world, time, lift);
+        if (any_loaded_) note_falls(world);
         if (progress_.leaves_any_out()) rest_left_out();
     }
 
@@ -99,6 +100,8 @@ private:
     /// Newton steps at the most that hold the balance of momentum at the end of the substep, and,
     /// if they do not succeed, that only close the joints.
     static constexpr int kBalancedSteps = 10, kClosingSteps = 10;
+    /// So many of the former are made for the sake of what a swing gains or loses.
+    static constexpr int kFineSteps = 6;
 
     /// What a step changes of balls.
     struct Kept {
@@ -124,6 +127,9 @@ private:
     void give(const BodyRows<Real>& rows);
 
     void rest_left_out();
+    template <class Visit>
+    void each_body(Visit visit) const;
+    void note_falls(const World& world);
     bool find_balance();
     bool close(bool with_driven);
     bool step_on(bool balance);
@@ -158,6 +164,7 @@ private:
     std::vector<OpenTree> open_;
     bool fresh_ = true;  ///< no step was made in this substep
     bool levers_of_the_end_ = false;
+    bool any_loaded_ = false;  ///< whether falls are to be noted
     TreeTables tables_;
     TreeProgress progress_;
     TreeNodes nodes_;
