@@ -6,7 +6,7 @@ plumb_add_tests(plumb_unit_tests unit
   constraints/air_drag_test.cpp constraints/axis_drive_test.cpp constraints/bending_test.cpp constraints/contact_cone_test.cpp constraints/connector_test.cpp
   constraints/elasticity_test.cpp constraints/formulas_test.cpp constraints/joint_rows_test.cpp constraints/rolling_test.cpp constraints/strain_test.cpp
   constraints/tree_block_test.cpp constraints/volume_test.cpp schedule/joint_forest_test.cpp schedule/tree_levels_test.cpp world/slot_map_test.cpp
-  geometry/hull_test.cpp geometry/overlap_test.cpp step/island_solver_test.cpp step/island_account_test.cpp step/island_effort_test.cpp
+  geometry/hull_test.cpp geometry/overlap_test.cpp step/island_solver_test.cpp step/island_account_test.cpp step/island_effort_test.cpp step/island_system_test.cpp
   effects/filter_reachability_test.cpp effects/plan_test.cpp
   schedule/colouring_test.cpp schedule/contact_batches_test.cpp schedule/contact_islands_test.cpp schedule/workers_test.cpp
   measure/contact_comparison_test.cpp measure/deformation_test.cpp measure/mesh_resolution_test.cpp host/choose_collider_test.cpp host/remote_source_test.cpp

@@ -3,9 +3,9 @@
 /// what is known of it. Its system is kept from step to step, for as long as its pattern stays.
 #pragma once
 
-#include "math/block_cholesky.h"
 #include "step/island_account.h"
 #include "step/island_effort.h"
+#include "step/island_system.h"
 #include "ties/tie_rows.h"
 
 #include <cstdint>
@@ -20,8 +20,8 @@ struct ExactIsland {
     std::uint32_t first_body, last_body, first_point, last_point;
     TieRange ties;
 
-    BlockCholesky::Pattern pattern;
-    BlockCholesky system;
+    IslandSystem::Pattern pattern;
+    IslandSystem system;
 
     // once a step: what it is
     bool is_large;         ///< beyond Settings::exact_islands

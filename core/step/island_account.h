@@ -23,12 +23,16 @@ namespace plumb {
 inline constexpr std::uint64_t kAnyProducts = std::numeric_limits<std::uint64_t>::max();
 
 /// What the factorisations of a large island in a substep may take, in products of two 6 × 6
-/// blocks: up to ten seconds. One that could not have kFewest of them is left to sweeps; a wall of
-/// 3600 bricks can.
-inline constexpr std::uint64_t kMostProducts = 100'000'000, kFewest = 30;
+/// blocks: some two seconds, or a millisecond for each of its bodies. One that could not have
+/// kFewest of them is left to sweeps: a wall of 10,000 bricks can, a heap of as many is far from
+/// it, for a body of that has more neighbours.
+inline constexpr std::uint64_t kFewest = 30;
+inline std::uint64_t most_products(std::uint32_t bodies) {
+    return std::max<std::uint64_t>(100'000'000, std::uint64_t{50'000} * bodies);
+}
 
-/// A unit of large islands [products]; how many of them are free in a step, and how many they may
-/// take in vain.
+/// The least unit of large islands [products], which is one factorisation if that takes more; how
+/// many of them are free in a step, and how many they may take in vain.
 inline constexpr std::uint64_t kLargeUnit = 2'500'000, kFreeUnits = 4;
 inline constexpr std::uint8_t kMostInVain = 60;
 
@@ -58,11 +62,14 @@ public:
     /// Of an island that takes what it needs, and is never given up.
     IslandAccount() = default;
 
-    static IslandAccount of_large() {
-        return {kLargeUnit, kFreeUnits, kMostInVain, kInVain, kMostProducts};
+    // `products`: of one factorisation
+
+    static IslandAccount of_large(std::uint32_t bodies, std::uint64_t products) {
+        return {std::max(kLargeUnit, products), kFreeUnits, kMostInVain, kInVain,
+                most_products(bodies)};
     }
 
-    /// Of a smaller heap; `products`: of one of its factorisations.
+    /// Of a smaller heap.
     static IslandAccount of_heap(std::uint64_t products) {
         return {kHeapUnit * products, 0, kMostOfHeap, kHeapInVain, kAnyProducts};
     }

@@ -98,8 +98,9 @@ bool IslandGroup::find_system(const World& world, ExactIsland& island, const Con
     const std::uint32_t n = from.last_body - from.first_body;
     if (island.system.rows() == n && island.pattern == pattern_) return true;
     island.pattern = pattern_;
-    return island.system.analyse(
-        n, pattern_, is_large(world.settings, n) ? kMostProducts / kFewest : kAnyProducts);
+    const bool large = is_large(world.settings, n);
+    return island.system.analyse(n, pattern_, large,
+                                 large ? most_products(n) / kFewest : kAnyProducts);
 }
 
 /// What it is, which decides how it is treated.
@@ -158,7 +159,7 @@ void IslandGroup::fill_columns(const World& world, ExactIsland& island, const Co
 IslandAccount IslandGroup::account_of(const World& world, const ExactIsland& island) const {
     IslandAccount account;
     if (island.is_large)
-        account = IslandAccount::of_large();
+        account = IslandAccount::of_large(island.system.rows(), island.system.block_products());
     else if (island.moves && !island.moved_on)
         account = IslandAccount::of_heap(island.system.block_products());
     if (!account.is_kept()) return account;

@@ -87,7 +87,7 @@ private:
     std::vector<std::uint8_t> is_taken_;  // [pair]
     std::vector<BodyPair> set_aside_;     // whose islands would take too much
     std::uint32_t costly_ = 0;            // of those islands
-    BlockCholesky::Pattern pattern_;      // memory of find_system, as the next
+    IslandSystem::Pattern pattern_;       // memory of find_system, as the next
     std::vector<std::uint32_t> tied_;     // bodies of one tie
 
     std::vector<ExactIsland> islands_;  // the first count_ are in use

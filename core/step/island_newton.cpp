@@ -93,7 +93,7 @@ public:
         about_both_ += about(p.arm_a, upper_b, p.arm_b);
     }
 
-    void add_to(BlockCholesky& system) const {
+    void add_to(IslandSystem& system) const {
         const auto block = [&](const Matrix3d& left, const Matrix3d& right, const Matrix3d& about) {
             Matrix6d m;
             m << along_, right, left.transpose(), about;
@@ -140,7 +140,7 @@ void IslandNewton<N>::begin(const Island& island, double softness, double error,
 }
 
 template <int N>
-bool IslandNewton<N>::minimise(BlockCholesky& system, double enough, int steps,
+bool IslandNewton<N>::minimise(IslandSystem& system, double enough, int steps,
                                std::uint32_t& factorisations, std::uint64_t most) {
     for (int i = 0; i < steps && factorisations < most; ++i) {
         const double off = find_downhill();
@@ -198,7 +198,7 @@ double IslandNewton<N>::find_downhill() {
 
 /// Second derivatives, block by block: M, those of the points, and of each row on k onᵀ.
 template <int N>
-void IslandNewton<N>::assemble(BlockCholesky& system) const {
+void IslandNewton<N>::assemble(IslandSystem& system) const {
     system.clear();
     for (std::size_t b = 0; b < island_.bodies.size(); ++b)
         system.add(static_cast<std::uint32_t>(b), mass_matrix(island_.bodies[b]));

@@ -3,8 +3,8 @@
 /// (step/island_solver.h), by Newton's method with an exact line search.
 #pragma once
 
-#include "math/block_cholesky.h"
 #include "step/island.h"
+#include "step/island_system.h"
 
 #include <vector>
 
@@ -22,7 +22,7 @@ public:
 
     /// Newton's steps, until no body's momentum is off by more than `enough` of velocity [m/s].
     /// Returns whether that is found; `factorisations` counts on up to `most`.
-    bool minimise(BlockCholesky& system, double enough, int steps, std::uint32_t& factorisations,
+    bool minimise(IslandSystem& system, double enough, int steps, std::uint32_t& factorisations,
                   std::uint64_t most);
 
     /// The impulses of the minimum, to the points and rows, by push(point or row, what is more).
@@ -60,7 +60,7 @@ private:
     };
 
     [[gnu::flatten]] double find_downhill();
-    [[gnu::flatten]] void assemble(BlockCholesky& system) const;
+    [[gnu::flatten]] void assemble(IslandSystem& system) const;
     [[gnu::flatten]] double slope(double step) const;
     double step_length(double decrease) const;
 

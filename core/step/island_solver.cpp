@@ -114,7 +114,7 @@ void IslandSolver::open_apart(const Island& island, std::span<const double> open
     push(p, more);
 }
 
-IslandReport IslandSolver::solve(const Island& island, BlockCholesky& system, double speed,
+IslandReport IslandSolver::solve(const Island& island, IslandSystem& system, double speed,
                                  IslandEffort effort, bool settles, std::uint64_t most_products) {
     take(island);
     system_ = &system;

@@ -18,7 +18,6 @@
 /// Rockafellar (1976), the shift as a fixed point after Acary and Cadoux (2013).
 #pragma once
 
-#include "math/block_cholesky.h"
 #include "step/island.h"
 #include "step/island_account.h"
 #include "step/island_effort.h"
@@ -43,7 +42,7 @@ public:
     /// the island's pairs; `speed` [m/s], at which its contacts would approach, is the measure of
     /// what may be missed. `settles`: whether to a finer tolerance (step/island_effort.h).
     /// `most_products`: of blocks, what all factorisations may take.
-    IslandReport solve(const Island& island, BlockCholesky& system, double speed,
+    IslandReport solve(const Island& island, IslandSystem& system, double speed,
                        IslandEffort effort = IslandEffort::full, bool settles = false,
                        std::uint64_t most_products = kAnyProducts);
 
@@ -115,7 +114,7 @@ private:
     bool turns_ = false;  ///< whether anything resists turning at a point
     IslandNewton<3> plain_;
     IslandNewton<6> turning_;
-    BlockCholesky* system_ = nullptr;
+    IslandSystem* system_ = nullptr;
     double creep_ = 0;  ///< slip that is not shifted away [m/s]
     IslandEffort effort_ = IslandEffort::full;
     double enough_ = 0;  ///< up to which rounds go on [m/s]

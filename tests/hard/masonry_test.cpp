@@ -298,5 +298,14 @@ TEST_P(Boards, AWallBeyondExactIslandsStands) {
     EXPECT_GT(farthest_after(s, collider(), seconds), 0.01 * size);
 }
 
+/// 10,040 bricks, in 80 courses.
+TEST_P(Boards, AWallOfTenThousandBricksStands) {
+    Scene s = with_friction(scene(), 0.6);
+    add_ground(s);
+    add_structure(s, wall(125, 80, {0.25, 0.125, 0.125}, 0.005));
+    s.settings.dt = s.settings.precision == Precision::single ? 0.01 : 1.0 / 60;
+    EXPECT_LT(farthest_after(s, collider(), kSeconds / 12), kSag * 20);
+}
+
 }  // namespace
 }  // namespace plumb::test

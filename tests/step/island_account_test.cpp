@@ -6,8 +6,10 @@
 namespace plumb {
 namespace {
 
-/// Products of a factorisation of a heap.
+/// Products of a factorisation of a heap; bodies of a large one, and what they take in a substep.
 constexpr std::uint64_t kProducts = 1000;
+constexpr std::uint32_t kBodies = 1000;
+const std::uint64_t kMostProducts = most_products(kBodies);
 
 /// The same account in the next step, as contacts remember it.
 IslandAccount next_step(const IslandAccount& account, IslandAccount fresh) {
@@ -37,12 +39,22 @@ TEST(IslandAccount, IsNotKeptOfWhatTakesWhatItNeeds) {
 }
 
 TEST(IslandAccount, GivesUpALargeIslandAfterSixtyUnitsInVain) {
-    IslandAccount account = IslandAccount::of_large();
+    IslandAccount account = IslandAccount::of_large(kBodies, kProducts);
     for (int i = 0; i < kMostInVain; ++i)
         EXPECT_FALSE(is_given_up_after(account, kLargeUnit, false)) << "substep " << i;
     EXPECT_TRUE(is_given_up_after(account, kLargeUnit, false));
     EXPECT_TRUE(account.is_given_up());
     EXPECT_EQ(account.missed(), kInVain);
+}
+
+/// Sixty of its own factorisations, where one takes more than a unit.
+TEST(IslandAccount, GivesUpAVeryLargeIslandAfterSixtyFactorisationsInVain) {
+    constexpr std::uint64_t kGreat = 4 * kLargeUnit;
+    IslandAccount account = IslandAccount::of_large(10'000, kGreat);
+    EXPECT_EQ(most_products(10'000), 500'000'000u);
+    for (int i = 0; i < kMostInVain; ++i)
+        EXPECT_FALSE(is_given_up_after(account, kGreat, false)) << "substep " << i;
+    EXPECT_TRUE(is_given_up_after(account, kGreat, false));
 }
 
 TEST(IslandAccount, GivesUpAHeapAfter160FactorisationsInVain) {
@@ -61,7 +73,7 @@ TEST(IslandAccount, BeginsAnewOnceTheIslandIsSolved) {
 }
 
 TEST(IslandAccount, OfALargeIslandBoundsASubstep) {
-    IslandAccount account = IslandAccount::of_large();
+    IslandAccount account = IslandAccount::of_large(kBodies, kProducts);
     account.begin_substep();
     EXPECT_EQ(account.left(), kMostProducts);
     account.take(2 * kMostProducts);
@@ -81,16 +93,16 @@ TEST(IslandAccount, GoesOnFromStepToStep) {
 }
 
 TEST(IslandAccount, ForgetsWhatAStepMayTakeFreely) {
-    IslandAccount account = IslandAccount::of_large();
+    IslandAccount account = IslandAccount::of_large(kBodies, kProducts);
     for (int i = 0; i < 1000; ++i) {
         ASSERT_FALSE(is_given_up_after(account, kFreeUnits * kLargeUnit, false)) << "step " << i;
         EXPECT_EQ(account.missed(), kMissed);
-        account = next_step(account, IslandAccount::of_large());
+        account = next_step(account, IslandAccount::of_large(kBodies, kProducts));
     }
 }
 
 TEST(IslandAccount, RecallsTheWorstOfItsContactsButNotWhatWaits) {
-    IslandAccount account = IslandAccount::of_large();
+    IslandAccount account = IslandAccount::of_large(kBodies, kProducts);
     for (const int units : {3, 20, 7}) account.recall(static_cast<std::uint8_t>(kMissed + units));
     for (const std::uint8_t missed : {kTriesAgain, kHeapInVain, kInVain}) account.recall(missed);
     account.begin_substep();

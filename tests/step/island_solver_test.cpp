@@ -26,10 +26,10 @@ struct RodPile {
     std::vector<SolvedBody> bodies;
     std::vector<IslandPoint> points;
     std::vector<Vector6d> velocity;
-    BlockCholesky system;
+    IslandSystem system;
 
     RodPile(int width, int rows) {
-        BlockCholesky::Pattern pairs;
+        IslandSystem::Pattern pairs;
         const double rise = std::sqrt(4 - kGap * kGap) * kRadius;
         std::vector<std::uint32_t> below, row;
         for (int j = 0; j < rows; ++j, below.swap(row)) {
@@ -51,7 +51,7 @@ struct RodPile {
                 }
             }
         }
-        system.analyse(static_cast<std::uint32_t>(bodies.size()), pairs);
+        system.analyse(static_cast<std::uint32_t>(bodies.size()), pairs, false, kAnyProducts);
         velocity.resize(bodies.size());
     }
 
@@ -138,10 +138,10 @@ struct Train {
     std::vector<IslandPoint> points;
     std::vector<Vector6d> velocity;
     AxisDrive drive;
-    BlockCholesky system;
+    IslandSystem system;
 
     explicit Train(std::uint32_t count) : velocity(count, Vector6d::Zero()) {
-        BlockCholesky::Pattern pairs;
+        IslandSystem::Pattern pairs;
         for (std::uint32_t i = 0; i < count; ++i) {
             SolvedBody& body = bodies.emplace_back();
             body.body = i, body.mass = i + 1.0;
@@ -150,7 +150,7 @@ struct Train {
         }
         add_row(count - 1, kImmovable);
         rows.back().drive = &drive;
-        system.analyse(count, pairs);
+        system.analyse(count, pairs, false, kAnyProducts);
     }
     double mass() const { return 0.5 * double(bodies.size() * (bodies.size() + 1)); }
     Island island() { return {bodies, velocity, points, rows}; }
@@ -222,10 +222,10 @@ TEST(IslandSolver, ARowHasUpToFourBodies) {
         row.mass += 1 / train.bodies[i].mass;
     }
     row.mass = 1 / row.mass;
-    BlockCholesky::Pattern all;
+    IslandSystem::Pattern all;
     for (std::uint32_t i = 0; i < 4; ++i)
         for (std::uint32_t j = 0; j < i; ++j) all.emplace_back(i, j);
-    train.system.analyse(4, all);
+    train.system.analyse(4, all, false, kAnyProducts);
     train.velocity[0][0] = 3;
     IslandSolver solver;
     EXPECT_TRUE(solver.solve(train.island(), train.system, 3).solved);
