@@ -184,9 +184,15 @@ public:
             if (active_[i]) visit(joint_[i], violation_[i]);
     }
 
-    /// Leaves those that are no worse off than before any step; the same return.
-    bool leave_those_no_worse() {
-        return leave([&](std::size_t i) { return !(violation_[i] > first_[i]); });
+    /// Leaves those that are no worse off than before any step, which are visited as above; the
+    /// same return.
+    template <class Visit>
+    bool leave_those_no_worse(Visit visit) {
+        return leave([&](std::size_t i) {
+            if (violation_[i] > first_[i]) return false;
+            visit(joint_[i], violation_[i]);
+            return true;
+        });
     }
 
 private:

@@ -215,18 +215,13 @@ void TreeSolver<W>::solve() {
     turn_levers_to_the_end();
     forget();
     if (find_balance() || close(true)) return;
-    note_open();
-    if (!progress_.leave_those_no_worse()) return;
+    const auto note_open = [this](std::uint32_t joint, double error) {
+        note_open_tree(open_, {joint, error});
+    };
+    if (!progress_.leave_those_no_worse(note_open)) return;
     mark_active();
     forget();
-    note_open();
-}
-
-template <int W>
-void TreeSolver<W>::note_open() {
-    progress_.each_open([this](std::uint32_t joint, double error) {
-        note_open_tree(open_, {joint, error});
-    });
+    progress_.each_open(note_open);
 }
 
 /// Newton's steps, which find λ anew, so that M (v − v*) = Jᵀ λ holds where they end. Returns

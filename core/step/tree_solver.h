@@ -139,7 +139,6 @@ private:
     bool bring_back();
     void turn_levers_to_the_end();
     void forget();
-    void note_open();
     void evaluate(AxisLook look);
     void note(const Span& span, double greatest);
     void mark_active();
