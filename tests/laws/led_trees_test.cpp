@@ -109,7 +109,7 @@ double energy_seen(const Simulation& simulation, double hand_height, const Rods&
     return energy;
 }
 
-/// What is seen changes little in 20 s, against the greatest energy of motion [J/J], or the step
+/// What is seen changes little in 12 s, against the greatest energy of motion [J/J], or the step
 /// says that it could not follow; and by no means much.
 void expect_kept(const Scene& s, const Rods& rods, const Vector& velocity, double rate) {
     Simulation simulation(s, colliders(), "reference");
@@ -117,7 +117,7 @@ void expect_kept(const Scene& s, const Rods& rods, const Vector& velocity, doubl
     double first = 0, last = 0, moving = 0;
     int of_first = 0, of_last = 0;
     std::uint32_t coarse = 0, open = 0;
-    while (simulation.time() < 20) {
+    while (simulation.time() < 12) {
         const StepReport report = simulation.step();
         ASSERT_TRUE(report.finite);
         coarse += report.coarse_trees, open += report.unsolved_trees;
@@ -129,7 +129,7 @@ void expect_kept(const Scene& s, const Rods& rods, const Vector& velocity, doubl
             now += kinetic_energy(b, i, b.velocity[i] - velocity, b.angular_velocity[i]);
         moving = std::max(moving, now);
         if (simulation.time() < 2) first += energy, ++of_first;
-        if (simulation.time() > 18) last += energy, ++of_last;
+        if (simulation.time() > 10) last += energy, ++of_last;
     }
     EXPECT_EQ(open, 0u);
     const double gained = (last / of_last - first / of_first) / moving;
@@ -142,7 +142,7 @@ TEST_P(LedTrees, SwingOnAHandThatMovesEvenly) {
     for (int draw = 0; draw < 12; ++draw) {
         const Vector velocity = random.number(0.5, 3) * random.direction();
         Scene s = led_hand(
-            GetParam(), [&](double time) -> Vector { return time * velocity; }, 21, 21);
+            GetParam(), [&](double time) -> Vector { return time * velocity; }, 13, 13);
         draw_steps(s.settings, draw, random);
         const Rods rods = drawn_rods(random);
         hang(s, rods, Vector::Zero(), velocity);
@@ -161,7 +161,7 @@ TEST_P(LedTrees, SwingOnAHandThatTurnsEvenly) {
         const auto way = [&](double time) {
             return Placement{Vector::Zero(), exponential_map(rate * time * Vector::UnitY())};
         };
-        Scene s = led_hand(GetParam(), way, 21, 0.1);
+        Scene s = led_hand(GetParam(), way, 13, 0.1);
         draw_steps(s.settings, draw, random);
         const Rods rods = drawn_rods(random);
         hang(s, rods, at, Vector::Zero(), rate * Vector::UnitY());
@@ -282,7 +282,7 @@ TEST_P(LedTrees, FollowAHandThatShakes) {
     Random random(GetParam() == Precision::single ? 57 : 58);
     for (int draw = 0; draw < 12; ++draw) {
         const std::function<Vector(double)> way = drawn_way(random);
-        Scene s = led_hand(GetParam(), way, 10, 0.005);
+        Scene s = led_hand(GetParam(), way, 4, 0.005);
         draw_steps(s.settings, draw, random);
         Rods rods = drawn_rods(random);
         s.settings.leapfrog_start = true;  // else coarse steps are ahead by half of one
