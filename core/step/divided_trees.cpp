@@ -149,10 +149,11 @@ bool brakes(const JointDrive& drive) {
            (drive.kind == DriveKind::spring && drive.spec.damping > 0);
 }
 
-bool stands_still(const Bodies& b, const std::vector<std::uint32_t>& bodies) {
-    return std::all_of(bodies.begin(), bodies.end(), [&](std::uint32_t i) {
-        return b.velocity[i].isZero(0) && b.angular_velocity[i].isZero(0);
-    });
+std::vector<std::uint32_t> joints_of(const JointForest& tree) {
+    std::vector<std::uint32_t> joints;
+    for (const ForestNode& node : tree.nodes)
+        if (node.parent != kFree) joints.push_back(node.joint);
+    return joints;
 }
 
 /// The least power of two that is no less than x, at most `most`.
@@ -166,27 +167,6 @@ std::uint32_t parts_for(double x, std::uint32_t most) {
 /// whole substep again.
 void take_back(World& world, const std::vector<std::uint32_t>& bodies, double late) {
     for (const std::uint32_t i : bodies) world.bodies.velocity[i] -= late * world.settings.gravity;
-}
-
-/// What a part gained or lost that no force accounts for, against what moves [J/J]; `fall`: for how
-/// long gravity pushed [s]; `unclosed`: by how much joints may be open, whose pull does work on
-/// that [m]. Velocities are those of the middles of parts of one length.
-double energy_defect(const World& world, const std::vector<std::uint32_t>& bodies,
-                     const SubstepTime& time, double fall, double unclosed) {
-    const Bodies& b = world.bodies;
-    const Vector3d& g = world.settings.gravity;
-    double defect = 0, moving = 0, known = 0;
-    for (const std::uint32_t i : bodies) {
-        const Vector3d &v = b.velocity[i], &w = b.angular_velocity[i];
-        const Vector3d &v0 = b.velocity_now[i], &w0 = b.angular_velocity_now[i];
-        const double now = kinetic_energy(b, i), then = kinetic_energy(b, i, v0, w0);
-        const Vector3d push = fall * b.mass[i] * g + time.push() * b.force[i];
-        const Vector3d twist = time.push() * b.torque[i];
-        defect += now - then - 0.5 * (push.dot(v + v0) + twist.dot(w + w0));
-        moving += now + then;
-        known += b.mass[i] * g.norm() * (g.norm() * fall * fall + unclosed);
-    }
-    return moving + known > 0 ? std::max(0.0, std::abs(defect) - known) / (moving + known) : 0;
 }
 
 void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
@@ -203,18 +183,25 @@ void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
 }  // namespace
 
 DividedTrees::Tree::Tree(const World& world, const JointForest& forest)
-    : solver(world, forest, kFiner * world.settings.joint_tolerance) {}
+    : joints(joints_of(forest)),
+      first(joints.front()),
+      holder(world, first),
+      solver(world, forest, kFiner * world.settings.joint_tolerance) {}
 
 DividedTrees::DividedTrees(const World& world, const Plan& plan)
     : touches_(world.bodies.size(), 0), moved_(world.bodies.size(), 0) {
     const JointForest forest = find_forest(world);
     const auto roots = std::count_if(forest.nodes.begin(), forest.nodes.end(),
                                      [](const ForestNode& node) { return node.parent < 0; });
-    for (const JointForest& tree : share_out_trees(forest, static_cast<std::uint32_t>(roots))) {
-        trees_.emplace_back(world, tree);
-        for (const ForestNode& node : tree.nodes)
-            if (node.parent != kFree) trees_.back().joints.push_back(node.joint);
-        trees_.back().first = trees_.back().joints.front();
+    std::vector<std::uint32_t> first_on(world.bodies.size(), kNoIndex);
+    for (const JointForest& of : share_out_trees(forest, static_cast<std::uint32_t>(roots))) {
+        const auto index = static_cast<std::uint32_t>(trees_.size());
+        Tree& tree = trees_.emplace_back(world, of);
+        const std::uint32_t holder = tree.holder.body();
+        tree.first_of_holder = index;
+        if (holder == kNoIndex) continue;
+        if (first_on[holder] == kNoIndex) first_on[holder] = index;
+        tree.first_of_holder = first_on[holder];
     }
     const std::vector<Tree*> tree_of = share_out_bodies(world, plan);
     const auto tree_at = [&](std::uint32_t body) {
@@ -231,9 +218,6 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
         tree_with[i] = &tree;
         tree.has_lines |= joint.length > 0;
         tree.keeps_energy &= !gives_way;
-        for (const std::uint32_t body : {joint.a, joint.b})
-            if (body != kNoIndex && world.bodies.motion[body] == Motion::kinematic)
-                tree.holders.push_back(body);
     }
     for (const JointCoupling& c : world.joints.couplings)
         for (const std::uint32_t joint : {c.joint_a, c.joint_b})
@@ -315,7 +299,6 @@ void DividedTrees::choose(World& world, double h) {
     for (Tree& tree : trees_) {
         TreePace& pace = world.joints.joints[tree.first].pace;
         const std::uint32_t before = pace.parts;
-        tree.is_free &= stands_still(world.bodies, tree.holders);
         if (!tree.is_free) {
             if (before > 1) take_back(world, tree.bodies, 0.5 * (h - h / before));
             pace = {};
@@ -339,13 +322,18 @@ double DividedTrees::defect_of(const World& world, const SubstepTime& time, doub
                                const Tree& tree) {
     if (!tree.keeps_energy || fall != time.h) return 0;
     const double unclosed = kFiner * world.settings.joint_tolerance * tree.joints.size();
-    return energy_defect(world, tree.bodies, time, fall, unclosed);
+    const TreeHold& hold = tree.holder.hold();
+    return energy_defect(world, tree.bodies, time, fall, unclosed, hold,
+                         turning_work(world, tree.bodies, tree.pushed, hold));
 }
 
 /// What is not solved keeps such a share of its changes that it gains no more energy than it may.
 void DividedTrees::bound_gain(World& world, double h, Tree& tree) const {
     Bodies& b = world.bodies;
+    const TreeHold& hold = tree.holder.hold();
     EnergyLoan loan;
+    loan.frame = hold.velocity;
+    loan.granted = std::max(0.0, turning_work(world, tree.bodies, tree.pushed, hold));
     for (std::size_t k = 0; k < tree.bodies.size(); ++k) {
         const std::uint32_t i = tree.bodies[k];
         const Vector3d &v = tree.pushed[k], &w = tree.turned[k];
@@ -427,6 +415,10 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
             // the tables hold impulses of whole substeps
             scale_impulses(world.joints, tree.joints, tree.drives, fall / h);
             const std::uint32_t most = world.settings.tree_parts;
+            if (tree.holder.moves()) {
+                const double from = done * time.h;
+                tree.holder.place(world.bodies, from, from + time.h, before);
+            }
             const bool last = 2 * parts > most, may_snap = 2 * parts <= kSnap * most;
             const bool stands = try_part(world, plan, time, fall, last, may_snap, tree);
             scale_impulses(world.joints, tree.joints, tree.drives, h / fall);
@@ -437,6 +429,7 @@ void DividedTrees::advance(World& world, const Plan& plan, double h, Tree& tree)
         for (const OpenTree& open : tree.solver.open())
             tree.error = std::max(tree.error, open.error);
     }
+    if (tree.holder.moves()) tree.holder.take_back(world.bodies);
     if (parts > std::max(pace.parts, 1u)) pace = {parts, pace.before, 0};
     if (kDefectOfHalf * tree.defect > kDefect) pace.calm = 0;
 }
@@ -458,12 +451,17 @@ const MotionLists& DividedTrees::advance(World& world, const Plan& plan, Workers
     }
     if (!any) return all;
     std::fill(moved_.begin(), moved_.end(), 0);
-    for (const Tree& tree : trees_)
-        if (is_apart(tree))
-            for (const std::uint32_t body : tree.bodies) moved_[body] = 1;
+    for (Tree& tree : trees_) {
+        if (!is_apart(tree)) continue;
+        for (const std::uint32_t body : tree.bodies) moved_[body] = 1;
+        tree.holder.begin(world, plan, h);
+    }
     workers.run([&](std::uint32_t worker) {
-        for (std::size_t i = worker; i < trees_.size(); i += workers.count())
-            if (is_apart(trees_[i])) advance(world, plan, h, trees_[i]);
+        for (std::size_t i = 0; i < trees_.size(); ++i) {
+            Tree& tree = trees_[i];
+            const std::size_t turn = tree.holder.moves() ? tree.first_of_holder : i;
+            if (turn % workers.count() == worker && is_apart(tree)) advance(world, plan, h, tree);
+        }
     });
     for (const Tree& tree : trees_) {
         if (!is_apart(tree)) continue;

@@ -8,6 +8,9 @@
 /// So does one that Newton's steps did not close, and one that turned out to turn further than it
 /// began.
 ///
+/// Where a tree hangs by a body that a script moves, parts see that where it is in each of them
+/// (step/holder_path.h), and energies are those in its frame (step/tree_energy.h).
+///
 /// A part is a substep, in which bodies also turn with the momentum that the joint leaves them
 /// (math/free_rotation.h), and not with that of the start. As many parts as were needed are kept
 /// for a while, since steps of one length are what keeps energy for good (Hairer, Lubich, Wanner,
@@ -24,6 +27,7 @@
 #include "effects/report.h"
 #include "schedule/motion_lists.h"
 #include "schedule/workers.h"
+#include "step/tree_holder.h"
 #include "step/tree_solver.h"
 
 #include <deque>
@@ -49,9 +53,11 @@ public:
 
 private:
     struct Tree {
-        std::uint32_t first = kNoIndex;  ///< joint, which keeps the pace
-        std::vector<std::uint32_t> joints, bodies, drives;
-        std::vector<std::uint32_t> holders;   ///< kinematic bodies that it hangs by
+        std::vector<std::uint32_t> joints;
+        std::uint32_t first;  ///< joint, which keeps the pace
+        TreeHolder holder;
+        std::uint32_t first_of_holder = 0;  ///< tree that hangs by the same, or this one
+        std::vector<std::uint32_t> bodies, drives;
         std::vector<std::uint32_t> revolute;  ///< joints whose turns are counted
         MotionLists motion;                   ///< of its bodies
         TreeSolver<1> solver;

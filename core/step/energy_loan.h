@@ -68,6 +68,8 @@ struct EnergyLoan {
     double granted = 0;  ///< the most that its drives give [J]
     double closing = 0;  ///< energy at the speeds at which old errors close [J]
     double owed = 0;     ///< of loans before [J]
+    /// Velocity of who sees the energies: what a script moves so does no work [m/s].
+    Vector3d frame = Vector3d::Zero();
 
     /// The greatest share of all changes with which it gains no more than it may.
     double share() const {
@@ -86,8 +88,8 @@ struct EnergyLoan {
     /// What a body gains whose velocities change by (dv, dw), from v and w on [m/s], [rad/s].
     void add_change(const Bodies& b, std::uint32_t i, const Vector3d& v, const Vector3d& w,
                     const Vector3d& dv, const Vector3d& dw) {
-        const Vector3d middle = 0.5 * (b.velocity_now[i] + v);
-        moving += kinetic_energy(b, i, v, w);
+        const Vector3d middle = 0.5 * (b.velocity_now[i] + v) - frame;
+        moving += kinetic_energy(b, i, v - frame, w);
         linear += b.mass[i] * middle.dot(dv) + inertia_product(b, i, w, dw);
         square += kinetic_energy(b, i, dv, dw);
     }

@@ -3,6 +3,7 @@
 /// no tree feels another, and rests while others go on.
 #pragma once
 
+#include "math/types.h"
 #include "scene/joint.h"
 #include "schedule/joint_forest.h"
 
@@ -142,10 +143,14 @@ public:
 
     /// Before any step: the mass of a body [kg], and the height from which it would fall to its
     /// speed [m]. That of the tree is the mean by mass: a light rod that trembles counts for
-    /// little.
-    void forget_falls() {
-        for (Falls& falls : falls_) falls.moment = 0;
+    /// little. Speeds are against what the tree hangs by; `velocity_of(joint)`: of the holder of
+    /// the tree that begins with it [m/s].
+    template <class VelocityOf>
+    void forget_falls(VelocityOf velocity_of) {
+        for (std::size_t i = 0; i < falls_.size(); ++i)
+            falls_[i].moment = 0, falls_[i].holder = velocity_of(joint_[i]);
     }
+    const Vector3d& holder_velocity(std::uint32_t node) const { return falls_[tree_[node]].holder; }
     void note_fall(std::uint32_t node, double mass, double height) {
         falls_[tree_[node]].moment += mass * height;
     }
@@ -218,8 +223,9 @@ private:
     }
 
     struct Falls {
-        double heaviest = 0, mass = 0;  ///< [kg]
-        double moment = 0;              ///< Σ m × height [kg m]
+        Vector3d holder = Vector3d::Zero();  ///< velocity [m/s]
+        double heaviest = 0, mass = 0;       ///< [kg]
+        double moment = 0;                   ///< Σ m × height [kg m]
     };
 
     bool is_loaded(std::size_t tree) const {

@@ -23,6 +23,17 @@ std::vector<std::uint8_t> undriven_balls(const World& world, const JointForest& 
     return plain;
 }
 
+/// Of the point by which a tree hangs from what a script moves, else none [m/s].
+Vector3d holder_velocity(const World& world, const Joint& joint) {
+    const Bodies& b = world.bodies;
+    const auto velocity = [&](std::uint32_t body, const Placement& frame) -> Vector3d {
+        if (body == kNoIndex || b.motion[body] != Motion::kinematic) return Vector3d::Zero();
+        return b.velocity[body] +
+               b.angular_velocity[body].cross(b.orientation[body] * frame.position);
+    };
+    return velocity(joint.a, joint.frame_a) + velocity(joint.b, joint.frame_b);
+}
+
 }  // namespace
 
 template <int W>
@@ -131,9 +142,11 @@ template <int W>
 void TreeSolver<W>::note_falls(const World& world) {
     constexpr double high = std::numeric_limits<double>::infinity();
     const double gravity = world.settings.gravity.norm();
-    progress_.forget_falls();
+    progress_.forget_falls(
+        [&](std::uint32_t joint) { return holder_velocity(world, world.joints.joints[joint]); });
     each_body([&](std::uint32_t node, std::uint32_t body, const Vector3d& v) {
-        const double height = gravity > 0 ? 0.5 * v.squaredNorm() / gravity : high;
+        const double squared = (v - progress_.holder_velocity(node)).squaredNorm();
+        const double height = gravity > 0 ? 0.5 * squared / gravity : high;
         progress_.note_fall(node, world.bodies.mass[body], height);
     });
 }
