@@ -72,12 +72,14 @@ ElasticSystem::ElasticSystem(const World& world, const Plan& plan)
 }
 
 void ElasticSystem::load(const World& world, std::vector<BodyPair>& pairs) {
-    if (parts_.may_have_bodies) {
+    if (parts_.may_have_bodies)
         parts_.contacts.load(world, parts_.first_body_row(), pairs, parts_.ties);
-        match_.load(parts_.contacts, parts_.ties);
-    }
     size_rows();
     factors_.begin_step(world, parts_, h_);
+}
+
+void ElasticSystem::load_pieces(const FreePieces& pieces) {
+    match_.load(parts_.contacts, parts_.ties, pieces);
 }
 
 void ElasticSystem::store(World& world) {
@@ -392,7 +394,7 @@ bool ElasticSystem::gains_energy() const {
                      parts_.ties.driven_energy() + kPulled * mass * pull;
 }
 
-void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
+void ElasticSystem::solve(std::vector<Vector3d>& velocity, const FreePieces& pieces) {
     if (is_settled_ && !has_moved(velocity)) return;
     for (std::size_t i = 0; i < x_.size(); ++i) {
         v_[i] = target_[i] = velocity[i];
@@ -419,7 +421,8 @@ void ElasticSystem::solve(std::vector<Vector3d>& velocity) {
             }
         }
     }
-    match_.match(v_, target_, parts_.contacts, parts_.ties);
+    if (!parts_.are_alone())
+        match_.match(v_, target_, parts_.mass, start_, pieces, parts_.contacts, parts_.ties);
     for (std::size_t i = 0; i < x_.size(); ++i) {
         own_[i] = parts_.mass[i] * (v_[i] - target_[i]);
         velocity[i] = v_[i];

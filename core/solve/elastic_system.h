@@ -27,6 +27,8 @@ public:
 
     /// Once a step, and after it; removes from `pairs` (of bodies) those that are solved here.
     void load(const World& world, std::vector<BodyPair>& pairs);
+    /// After that, with those of all particles whose momentum is kept.
+    void load_pieces(const FreePieces& pieces);
     void store(World& world);
 
     /// Once a substep, after it: impulses of ties, into the world's tables.
@@ -38,7 +40,7 @@ public:
 
     /// Improves the velocities of all particles [m/s], and of the contacts' bodies. What the system
     /// gave them in earlier calls of this substep is in them, and is weighed anew.
-    void solve(std::vector<Vector3d>& velocity);
+    void solve(std::vector<Vector3d>& velocity, const FreePieces& pieces);
 
     ElasticContacts& contacts() { return parts_.contacts; }
     const ElasticContacts& contacts() const { return parts_.contacts; }

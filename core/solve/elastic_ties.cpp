@@ -63,7 +63,7 @@ void ElasticTies::add(const World& world, const Tie& tie, TiedBodies at) {
     });
     for (std::size_t i = 0; i < at.size(); ++i)
         for (std::size_t k = 0; k < i; ++k)
-            if (at[i] < bodies_ && at[k] < bodies_ && at[i] != at[k])
+            if (at[i] != kImmovable && at[k] != kImmovable && at[i] != at[k])
                 pairs_.emplace_back(at[k], at[i]);
 }
 

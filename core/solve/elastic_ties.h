@@ -10,12 +10,12 @@
 /// What they tie are the system's bodies and, behind these, the particles that are linked.
 #pragma once
 
-#include "math/block_cholesky.h"
 #include "solve/elastic_tie_choice.h"
 #include "ties/tie_rows.h"
 #include "world/kept_factors.h"
 
 #include <span>
+#include <utility>
 #include <vector>
 
 namespace plumb {
@@ -45,9 +45,10 @@ public:
     bool empty() const { return range_.empty(); }
     /// Marks those that were added.
     void mark(SolvedTies& solved) const;
-    /// Adds the pairs of bodies of the system that they hold together.
-    void add_pairs(BlockCholesky::Pattern& pairs) const {
-        pairs.insert(pairs.end(), pairs_.begin(), pairs_.end());
+    /// Calls visit(a, b) for pairs of bodies of the system, and points, that they hold together.
+    template <class Visit>
+    void each_pair(Visit visit) const {
+        for (const auto& [a, b] : pairs_) visit(a, b);
     }
 
     // once a substep of length h [s]
@@ -104,7 +105,7 @@ private:
     std::vector<std::uint32_t> points_;  ///< particles
     std::uint32_t bodies_ = 0;           ///< of the system
     ElasticTieChoice choice_;
-    BlockCholesky::Pattern pairs_;    ///< of bodies
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs_;  ///< of bodies and points
     std::vector<Vector6d> rest_;      ///< [body or point of the system] no velocity
     std::vector<std::uint8_t> tied_;  ///< [body or point of the system] whether any ties it
     TieRows rows_;

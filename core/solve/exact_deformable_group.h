@@ -42,6 +42,7 @@ public:
                 for (std::uint32_t k = 0; k < c.points; ++k) touches_[c.particle[k]] = 1;
         // what Newton's method leaves would throw a piece, were it as fast as its contacts push it
         keeper_.leave(touches_);
+        system_.load_pieces(keeper_.pieces());
     }
 
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>& pass,
@@ -91,7 +92,7 @@ private:
         for (std::size_t i = 0; i < velocity_.size(); ++i)
             velocity_[i] = velocity_of(rows, row(i)).v;
         for (ElasticContacts::Body& body : bodies) body.v = velocity_of(rows, body.table_row);
-        system_.solve(velocity_);
+        system_.solve(velocity_, keeper_.pieces());
         for (std::size_t n = 0; n < couples_.size(); ++n) {
             ElasticContacts::Contact& c = contacts.contacts()[n];
             const Vector3d change = c.q - c.applied;
