@@ -228,9 +228,22 @@ void TreeSolver<W>::solve() {
     turn_levers_to_the_end();
     forget();
     if (find_balance() || close(true)) return;
+    leave_open();
+}
+
+/// What cannot be closed stays as it is if that is no worse than before any step; else as a single
+/// step leaves it, if that is; else nothing holds it in this substep.
+template <int W>
+void TreeSolver<W>::leave_open() {
     const auto note_open = [this](std::uint32_t joint, double error) {
         note_open_tree(open_, {joint, error});
     };
+    if (!progress_.leave_those_no_worse(note_open)) return;
+    mark_active();
+    forget();
+    eliminate(false);
+    substitute(false);
+    evaluate(AxisLook::same_piece);
     if (!progress_.leave_those_no_worse(note_open)) return;
     mark_active();
     forget();

@@ -137,6 +137,7 @@ private:
     void keep();
     void take_back();
     bool bring_back();
+    void leave_open();
     void turn_levers_to_the_end();
     void forget();
     void evaluate(AxisLook look);
