@@ -40,9 +40,12 @@ std::vector<std::uint32_t> least_degree(std::uint32_t rows,
     return order;
 }
 
-/// Rows of each column of L, rising, in the order `place`.
-Lists fill_in(const std::vector<std::uint32_t>& place,
-              const std::vector<SparseLdlt::Pair>& pattern) {
+/// Rows of each column of L, rising, in the order `place`; or none, if that is more than `most`
+/// multiplications to factor.
+std::optional<Lists> fill_in(const std::vector<std::uint32_t>& place,
+                             const std::vector<SparseLdlt::Pair>& pattern, double most) {
+    constexpr double kOfProduct = 27;  // of two 3 × 3 blocks
+    double work = 0;
     const std::size_t n = place.size();
     Lists structure(n), children(n);
     for (const auto& [i, j] : pattern)
@@ -59,6 +62,9 @@ Lists fill_in(const std::vector<std::uint32_t>& place,
         for (const std::uint32_t child : children[p]) take(structure[child]);
         std::sort(all.begin(), all.end());
         structure[p] = all;
+        const auto below = static_cast<double>(all.size());
+        work += kOfProduct * 0.5 * below * (below + 1);
+        if (work > most) return std::nullopt;
         if (!all.empty()) children[all[0]].push_back(p);
     }
     return structure;
@@ -92,7 +98,7 @@ SparseLdlt::SparseLdlt(const FrontKernels& kernels) : kernels_(kernels) {}
 
 // ---- once a pattern
 
-void SparseLdlt::order(std::uint32_t rows, const std::vector<Pair>& pattern) {
+bool SparseLdlt::order(std::uint32_t rows, const std::vector<Pair>& pattern, double most) {
     rows_ = rows;
     order_ = least_degree(rows, pattern);
     place_.resize(rows);
@@ -100,16 +106,22 @@ void SparseLdlt::order(std::uint32_t rows, const std::vector<Pair>& pattern) {
         for (std::uint32_t p = 0; p < rows; ++p) place_[order_[p]] = p;
     };
     invert();
-    const std::vector<std::uint32_t> later = children_first(fill_in(place_, pattern));
+    const std::optional<Lists> found = fill_in(place_, pattern, most);
+    if (!found) {
+        rows_ = 0;
+        return false;
+    }
+    const std::vector<std::uint32_t> later = children_first(*found);
     std::vector<std::uint32_t> order(rows);
     for (std::uint32_t p = 0; p < rows; ++p) order[p] = order_[later[p]];
     order_ = std::move(order);
     invert();
     find_columns(pattern);
-    find_fronts(fill_in(place_, pattern));
+    find_fronts(*fill_in(place_, pattern, kAnyWork));
     diagonal_.resize(rows);
     below_.resize(below_row_.size());
     attach(0, {});
+    return true;
 }
 
 void SparseLdlt::find_columns(const std::vector<Pair>& pattern) {

@@ -12,6 +12,7 @@
 #include "math/types.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -21,6 +22,7 @@ namespace plumb {
 class SparseLdlt {
 public:
     using Pair = std::pair<std::uint32_t, std::uint32_t>;
+    static constexpr double kAnyWork = std::numeric_limits<double>::infinity();
 
     /// A block below the diagonal, and whether A(i, j) of the asking pair is its transpose.
     struct Slot {
@@ -33,8 +35,9 @@ public:
     explicit SparseLdlt(const FrontKernels& kernels);
 
     /// `rows` block rows, and the pairs of them that have blocks; a pair may come more than once,
-    /// in either order.
-    void order(std::uint32_t rows, const std::vector<Pair>& pattern);
+    /// in either order. Returns whether `factor` takes no more than `most` multiplications, about;
+    /// if not, there are no rows, and the time and memory for them were not spent.
+    bool order(std::uint32_t rows, const std::vector<Pair>& pattern, double most = kAnyWork);
 
     /// `more` block rows, numbered from `rows` on, and which of the others each has blocks with,
     /// (row below `rows`, row from it on), each once. Pairs among themselves need not be told.

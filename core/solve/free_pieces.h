@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Pieces of deformables that hang together, and on nothing that never moves: each has a momentum
+/// Connected pieces of deformables that nothing immovable holds: each has a momentum
 /// of its own to keep.
 #pragma once
 

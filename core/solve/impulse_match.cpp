@@ -37,6 +37,7 @@ void ImpulseMatch::load(const ElasticContacts& contacts, const ElasticTies& ties
     const std::size_t most = contacts.contacts().capacity();
     for (auto* pairs : {&touching_, &touching_before_}) pairs->reserve(most);
     seen_.reserve(most);
+    seen_rates_.reserve(ties.rows().size());
     const auto touch = [&](std::uint32_t i, std::uint32_t j) {
         const std::pair now(i, j);
         if (i != j && (touching_.empty() || touching_.back() != now)) touching_.push_back(now);

@@ -37,13 +37,13 @@ private:
     /// How a contact's velocity changes with that of a body or piece, [row of `reach_`], whose
     /// angular velocity is times `size`.
     struct Seen {
-        std::uint32_t row;
-        Motion motion;
+        std::uint32_t row = kNoIndex;
+        Motion motion = Motion::Zero();
     };
     /// The same of the rate of a tie's row.
     struct SeenRate {
-        std::uint32_t row;
-        Vector6d motion;
+        std::uint32_t row = kNoIndex;
+        Vector6d motion = Vector6d::Zero();
     };
     /// Few, one a row.
     template <class T>
@@ -55,7 +55,6 @@ private:
             for (std::uint32_t i = 0; i < count; ++i)
                 if (of[i].row == row) return of[i];
             of[count].row = row;
-            of[count].motion.setZero();
             return of[count++];
         }
         bool has(std::uint32_t row) const {
@@ -83,8 +82,8 @@ private:
     BlockCholesky reach_;                    ///< of all impulses
     std::vector<Few<Seen>> seen_;            ///< [contact]
     std::vector<Few<SeenRate>> seen_rates_;  ///< [row of ties]
-    std::vector<Vector6d>
-        missing_;  ///< [row of `reach_`] impulse, and its moment over `size` [N s]
+    /// [row of `reach_`] impulse, and its moment over `size` [N s]
+    std::vector<Vector6d> missing_;
 };
 
 }  // namespace plumb

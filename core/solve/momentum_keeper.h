@@ -33,7 +33,7 @@ public:
         pieces_.begin(world);
     }
 
-    /// As of FreePieces.
+    /// As FreePieces::leave.
     void leave(const std::vector<std::uint8_t>& touches) { pieces_.leave(touches); }
 
     /// Before and after the constraints of an iteration.

@@ -4,18 +4,41 @@
 #include "math/rotation.h"
 #include "world/motion_script.h"
 
+#include <algorithm>
+
 namespace plumb {
 namespace {
 
 /// With which a script leads through the substep that begins at `from` [s].
-Velocity<double> scripted_velocity(const MotionScript& script, double from, double h) {
+Velocity<double> velocity_through(const MotionScript& script, double from, double h) {
     const Placement start = placement_at(script, from), end = placement_at(script, from + h);
     return {
         (end.position - start.position) / h,
         rotation_vector(end.rotation.normalized() * start.rotation.normalized().conjugate()) / h};
 }
 
+/// Velocities of the substeps from two before one that meets the next, to two after that.
+struct Meeting {
+    Vector3d earlier, before, after, later;
+
+    /// Whether it jumps from the one to the other: the changes beside are not of its kind.
+    bool jumps() const {
+        const Vector3d change = after - before;
+        const double beside = std::max(change.dot(before - earlier), change.dot(later - after));
+        return beside < 0.25 * change.squaredNorm();
+    }
+    Vector3d end_before() const { return jumps() ? before : Vector3d(0.5 * (before + after)); }
+    Vector3d start_after() const { return jumps() ? after : Vector3d(0.5 * (before + after)); }
+};
+
 }  // namespace
+
+HolderPath::Ways HolderPath::ways_of(const std::array<Vector3d, 6>& v) {
+    const Meeting first{v[0], v[1], v[2], v[3]}, start{v[1], v[2], v[3], v[4]},
+        end{v[2], v[3], v[4], v[5]};
+    return {{first.start_after(), v[2], start.end_before()},
+            {start.start_after(), v[3], end.end_before()}};
+}
 
 HolderPath::HolderPath(const World& world, const Plan& plan, std::uint32_t body, double h)
     : h_(h), start_{world.bodies.position[body], world.bodies.orientation[body]} {
@@ -30,12 +53,14 @@ HolderPath::HolderPath(const World& world, const Plan& plan, std::uint32_t body,
         // before the world began, it is taken to have come as it goes on
         const auto in_substep = [&](int k) {
             const double from = world.time + k * h;
-            return from > -0.5 * h ? scripted_velocity(script, from, h) : now;
+            return from > -0.5 * h ? velocity_through(script, from, h) : now;
         };
-        const Velocity<double> next = in_substep(1), last = in_substep(-1), first = in_substep(-2);
-        const Vector3d v = 0.5 * (last.v + now.v), w = 0.5 * (last.w + now.w);
-        ways_ = {{0.5 * (first.v + last.v), last.v, v}, {v, now.v, 0.5 * (now.v + next.v)}};
-        turns_ = {{0.5 * (first.w + last.w), last.w, w}, {w, now.w, 0.5 * (now.w + next.w)}};
+        std::array<Vector3d, 6> v, w;
+        for (int k = -3; k <= 2; ++k) {
+            const Velocity<double> of = k == 0 ? now : in_substep(k);
+            v[static_cast<std::size_t>(k + 3)] = of.v, w[static_cast<std::size_t>(k + 3)] = of.w;
+        }
+        ways_ = ways_of(v), turns_ = ways_of(w);
     }
     moves_ = !(ways_.are_still() && turns_.are_still());
 }

@@ -5,12 +5,16 @@
 /// that would be a jolt to each start of one: as steady a beat as there is, and light rods under a
 /// load have swings that keep time with it. The way is therefore a cubic, which begins and ends at
 /// the mean velocities of the substeps that meet there; where the substep ends it is where the
-/// script is. What has no script keeps the velocity that it was given.
+/// script is. Where the velocity jumps, as where one straight way of a script ends and another
+/// begins, so does that of the cubic, for nothing is to feel a jump before it comes. What has no
+/// script keeps the velocity that it was given.
 #pragma once
 
 #include "constraints/connector.h"
 #include "effects/plan.h"
 #include "world/world.h"
+
+#include <array>
 
 namespace plumb {
 
@@ -48,6 +52,9 @@ private:
         bool are_still() const { return before.is_still() && now.is_still(); }
         Vector3d at(double s) const { return s < 0 ? before.way(s + 1) - before.mean : now.way(s); }
     };
+
+    /// From the velocities of the substeps from the third before this one to the second after it.
+    static Ways ways_of(const std::array<Vector3d, 6>& velocities);
 
     bool moves_ = false;
     double h_ = 0;

@@ -15,6 +15,7 @@ bool IslandSystem::analyse(std::uint32_t rows, const Pattern& pattern, bool many
                            std::uint64_t most) {
     fronts_.reset();
     if (!many) return blocks_.analyse(rows, pattern, most);
+    blocks_.analyse(0, {});
     std::vector<SparseLdlt::Pair> pairs;
     pairs.reserve(rows + 4 * pattern.size());
     for (std::uint32_t i = 0; i < rows; ++i) pairs.emplace_back(2 * i, 2 * i + 1);
@@ -22,8 +23,7 @@ bool IslandSystem::analyse(std::uint32_t rows, const Pattern& pattern, bool many
         if (i != j)
             for (std::uint32_t k = 0; k < 4; ++k) pairs.emplace_back(2 * i + k / 2, 2 * j + k % 2);
     fronts_ = std::make_unique<SparseLdlt>(front_kernels());
-    fronts_->order(2 * rows, pairs);
-    if (block_products() <= most) return true;
+    if (fronts_->order(2 * rows, pairs, kOfProduct * static_cast<double>(most))) return true;
     fronts_.reset();
     return false;
 }

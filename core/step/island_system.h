@@ -16,8 +16,9 @@ class IslandSystem {
 public:
     using Pattern = BlockCholesky::Pattern;
 
-    /// Chooses the order of elimination; `many`: of more than a few hundred bodies. Returns whether
-    /// `factor` takes no more than `most` products; if it does, nothing is kept.
+    /// Chooses the order of elimination; `many`: of more than a few hundred bodies, for which
+    /// memory is taken anew. Returns whether `factor` takes no more than about `most` products; if
+    /// not, there are no rows.
     bool analyse(std::uint32_t rows, const Pattern& pattern, bool many, std::uint64_t most);
 
     std::uint32_t rows() const { return fronts_ ? fronts_->rows() / 2 : blocks_.rows(); }

@@ -28,7 +28,7 @@ void TreeHolder::place(Bodies& b, double from, double to, double before) {
     b.position[body_] = here.position, b.orientation[body_] = here.rotation;
     b.velocity[body_] = next.v, b.angular_velocity[body_] = next.w;
     b.velocity_now[body_] = last.v, b.angular_velocity_now[body_] = last.w;
-    // as evenly faster as it gets: the lag of lines is not to see more
+    // as if it went on getting faster at one rate, so that lines see no lag besides
     b.velocity_before[body_] = 2 * last.v - next.v;
     b.angular_velocity_before[body_] = 2 * last.w - next.w;
 

@@ -203,8 +203,8 @@ public:
 private:
     static constexpr double kNear = 20;
     /// By which share of its fall a loaded tree may be open, one of whose bodies is heavier than
-    /// all others. What Newton's last step leaves of a joint's error has always the same sign: a
-    /// load that goes down with it in each substep feeds or brakes what swings.
+    /// all others together. What Newton's last step leaves of a joint's error has always the same
+    /// sign: a load that goes down with it in each substep feeds or brakes what swings.
     static constexpr double kOpenOfFall = 1e-5;
     /// Tries that all axes at once have to leave fewer wrong, and how often a step is tried.
     static constexpr int kPatience = 4, kMostTries = 60;
@@ -229,7 +229,7 @@ private:
     };
 
     bool is_loaded(std::size_t tree) const {
-        return !driven_[tree] && 2 * falls_[tree].heaviest >= falls_[tree].mass;
+        return !driven_[tree] && 2 * falls_[tree].heaviest > falls_[tree].mass;
     }
     double fine(std::size_t tree, double tolerance) const {
         if (!is_loaded(tree)) return tolerance;

@@ -310,6 +310,28 @@ TEST_P(LedTrees, FollowAHandThatShakes) {
     }
 }
 
+/// A hand that rests sets off at once: what hangs by it swings as by one that goes on resting,
+/// until it does.
+TEST_P(LedTrees, FeelNoJumpBeforeItComes) {
+    Random random(GetParam() == Precision::single ? 31 : 32);
+    for (const double speed : {0.5, 5.0, 50.0}) {
+        const Rods rods = drawn_rods(random);
+        const auto loads_after = [&](double at_speed, int steps) {
+            const auto way = [&](double time) -> Vector {
+                return {at_speed * std::max(0.0, time - 0.5), 2, 0};
+            };
+            Scene s = led_hand(GetParam(), way, 1, 0.5);
+            hang(s, rods, way(0), Vector::Zero());
+            Simulation simulation(s, colliders(), "reference");
+            for (int i = 0; i < steps; ++i) simulation.step();
+            return Vector(simulation.world().bodies.velocity.back());
+        };
+        SCOPED_TRACE(testing::Message() << speed << " m/s");
+        EXPECT_EQ(loads_after(speed, 50), loads_after(0, 50));
+        EXPECT_GT((loads_after(speed, 60) - loads_after(0, 60)).norm(), 0.1 * speed);
+    }
+}
+
 /// Several trees on one hand see it where it is, whoever advances them; and the hand is where its
 /// script has it.
 TEST_P(LedTrees, GoOnBitForBitInParts) {

@@ -74,19 +74,23 @@ TEST(IslandSystem, SolvesFewAndManyAlike) {
     }
 }
 
-/// What is refused leaves nothing; what is few after many is no longer of fronts.
+/// What is refused leaves nothing, whatever was there before.
 TEST(IslandSystem, RefusesWhatTakesTooMuch) {
     Random random(7);
     const Pattern pattern = drawn_pattern(30, random);
-    for (const bool many : {false, true}) {
-        IslandSystem system;
-        ASSERT_TRUE(system.analyse(30, pattern, many, kAnyProducts));
-        const std::uint64_t needed = system.block_products();
-        EXPECT_GT(needed, 30u + pattern.size() / 2);
-        EXPECT_TRUE(system.analyse(30, pattern, many, needed));
-        EXPECT_FALSE(system.analyse(30, pattern, many, needed - 1));
-        EXPECT_EQ(system.rows(), 0u);
-    }
+    for (const bool before : {false, true})
+        for (const bool many : {false, true}) {
+            IslandSystem system;
+            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts));
+            ASSERT_TRUE(system.analyse(30, pattern, many, kAnyProducts));
+            const std::uint64_t needed = system.block_products();
+            EXPECT_GT(needed, 30u + pattern.size() / 2);
+            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts));
+            EXPECT_TRUE(system.analyse(30, pattern, many, needed));
+            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts));
+            EXPECT_FALSE(system.analyse(30, pattern, many, needed / 3));
+            EXPECT_EQ(system.rows(), 0u);
+        }
 }
 
 }  // namespace
