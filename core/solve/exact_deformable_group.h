@@ -40,9 +40,8 @@ public:
         for (const ElasticContacts::Contact& c : system_.contacts().contacts())
             if (!c.is_between_particles() && c.sides[1].body == kNoIndex)
                 for (std::uint32_t k = 0; k < c.points; ++k) touches_[c.particle[k]] = 1;
-        // what Newton's method leaves would throw a piece, were it as fast as its contacts push it
         keeper_.leave(touches_);
-        system_.load_pieces(keeper_.pieces());
+        system_.load_pieces(keeper_.pieces());  // those that were not left
     }
 
     void begin(const World& world, const BodyRows<Real>&, const PassSettings<Real>& pass,

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-/// Connected pieces of deformables that nothing immovable holds: each has a momentum
-/// of its own to keep.
+/// Connected pieces of deformables that nothing immovable holds: each has a momentum of its own to
+/// keep.
 #pragma once
 
+#include "math/disjoint_sets.h"
 #include "math/types.h"
 #include "solve/joined_bodies.h"
 #include "world/world.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace plumb {
@@ -35,7 +35,6 @@ public:
     }
 
     std::uint32_t size() const { return static_cast<std::uint32_t>(pieces_.size()); }
-    Piece& operator[](std::size_t i) { return pieces_[i]; }
     const Piece& operator[](std::size_t i) const { return pieces_[i]; }
 
     /// Of the particle, or kNoIndex: of none, or of one that is left.
@@ -87,23 +86,16 @@ public:
 private:
     /// The free pieces of a deformable, by their lowest points.
     void add_pieces(const Deformable& d) {
-        std::vector<std::uint32_t> lower(d.count);  // a point of the same piece, or itself
-        std::iota(lower.begin(), lower.end(), 0u);
-        const auto lowest = [&](std::uint32_t i) {
-            while (lower[i] != i) i = lower[i] = lower[lower[i]];
-            return i;
-        };
+        DisjointSets points;
+        points.reset(d.count);
         const auto hang_together = [&](const auto& elements) {
             for (const auto& element : elements)
-                for (const std::uint32_t point : element) {
-                    const std::uint32_t a = lowest(element[0]), b = lowest(point);
-                    lower[std::max(a, b)] = std::min(a, b);
-                }
+                for (const std::uint32_t point : element) points.unite(element[0], point);
         };
         hang_together(d.spec.segments), hang_together(d.spec.triangles);
         hang_together(d.spec.tetrahedra);
         std::vector<std::vector<std::uint32_t>> pieces(d.count);
-        for (std::uint32_t i = 0; i < d.count; ++i) pieces[lowest(i)].push_back(d.first + i);
+        for (std::uint32_t i = 0; i < d.count; ++i) pieces[points.lowest(i)].push_back(d.first + i);
         for (const std::vector<std::uint32_t>& piece : pieces) {
             const bool is_free = std::all_of(piece.begin(), piece.end(),
                                              [&](std::uint32_t i) { return mass_.inverse[i] > 0; });

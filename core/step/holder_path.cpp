@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/holder_path.h"
 
-#include "math/rotation.h"
+#include "step/velocity_between.h"
 #include "world/motion_script.h"
 
 #include <algorithm>
@@ -11,10 +11,9 @@ namespace {
 
 /// With which a script leads through the substep that begins at `from` [s].
 Velocity<double> velocity_through(const MotionScript& script, double from, double h) {
-    const Placement start = placement_at(script, from), end = placement_at(script, from + h);
-    return {
-        (end.position - start.position) / h,
-        rotation_vector(end.rotation.normalized() * start.rotation.normalized().conjugate()) / h};
+    Placement start = placement_at(script, from);
+    start.rotation.normalize();
+    return velocity_between(start, placement_at(script, from + h), h);
 }
 
 /// Velocities of the substeps from two before one that meets the next, to two after that.

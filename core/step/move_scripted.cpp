@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-#include "math/rotation.h"
 #include "step/stages.h"
+#include "step/velocity_between.h"
 #include "world/motion_script.h"
 
 namespace plumb {
@@ -9,10 +9,9 @@ void move_scripted(World& world, double h) {
     Bodies& b = world.bodies;
     for (std::size_t i = 0; i < b.size(); ++i) {
         if (b.motion[i] != Motion::kinematic || b.script[i].keyframes.empty()) continue;
-        const Placement target = placement_at(b.script[i], world.time + h);
-        b.velocity[i] = (target.position - b.position[i]) / h;
-        b.angular_velocity[i] =
-            rotation_vector(target.rotation.normalized() * b.orientation[i].conjugate()) / h;
+        const Velocity<double> velocity = velocity_between(
+            {b.position[i], b.orientation[i]}, placement_at(b.script[i], world.time + h), h);
+        b.velocity[i] = velocity.v, b.angular_velocity[i] = velocity.w;
     }
 }
 

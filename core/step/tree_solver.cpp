@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "step/tree_solver.h"
 
+#include "constraints/connector.h"
 #include "ties/lever_of.h"
 
 #include <limits>
@@ -28,8 +29,8 @@ Vector3d holder_velocity(const World& world, const Joint& joint) {
     const Bodies& b = world.bodies;
     const auto velocity = [&](std::uint32_t body, const Placement& frame) -> Vector3d {
         if (body == kNoIndex || b.motion[body] != Motion::kinematic) return Vector3d::Zero();
-        return b.velocity[body] +
-               b.angular_velocity[body].cross(b.orientation[body] * frame.position);
+        return velocity_at<double>({b.velocity[body], b.angular_velocity[body]},
+                                   b.orientation[body] * frame.position);
     };
     return velocity(joint.a, joint.frame_a) + velocity(joint.b, joint.frame_b);
 }

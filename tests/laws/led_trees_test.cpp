@@ -342,14 +342,8 @@ TEST_P(LedTrees, GoOnBitForBitInParts) {
         draw_steps(s.settings, draw, random);
         for (int tree = 0; tree < 4; ++tree)
             hang(s, drawn_rods(random), {0.1 * tree, 0, 0}, Vector::Zero());
-        s.settings.threads = 1;
-        Simulation one(s, colliders(), "reference");
-        s.settings.threads = 3, s.settings.lanes = 1;
-        Simulation two(s, colliders(), "reference");
-        run_for(one, 0.4);
-        two.restore(one.save());
-        run_for(one, 0.4), run_for(two, 0.4);
-        EXPECT_EQ(state_hash(two.world()), state_hash(one.world())) << draw;
+        SCOPED_TRACE(draw);
+        const Simulation one = goes_on_bit_for_bit(s, 0.4, 0.4);
         const Bodies& b = one.world().bodies;
         EXPECT_LT((b.position[0] - placement_at(b.script[0], one.time()).position).norm(), 1e-12);
     }

@@ -410,14 +410,8 @@ TEST_P(Swings, GoOnBitForBitInParts) {
         Scene s = still_scene(GetParam());
         add_drawn_pendulum(s, random);
         add_drawn_pendulum(s, random, {20, 0, 0});
-        s.settings.threads = 1;
-        Simulation one(s, colliders(), "reference");
-        s.settings.threads = 3, s.settings.lanes = 1;
-        Simulation two(s, colliders(), "reference");
-        run_for(one, 0.7);
-        two.restore(one.save());
-        run_for(one, 1.1), run_for(two, 1.1);
-        EXPECT_EQ(state_hash(two.world()), state_hash(one.world())) << draw;
+        SCOPED_TRACE(draw);
+        goes_on_bit_for_bit(s, 0.7, 1.1);
     }
 }
 

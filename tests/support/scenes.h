@@ -45,6 +45,20 @@ inline void run_for(Simulation& simulation, double seconds) {
     }
 }
 
+/// Saves the scene after `before` [s] and goes on for `after` [s], and with it a copy on other
+/// threads and lanes, which is to have the same bits. Returns the first.
+inline Simulation goes_on_bit_for_bit(Scene s, double before, double after) {
+    s.settings.threads = 1;
+    Simulation one(s, colliders(), "reference");
+    s.settings.threads = 3, s.settings.lanes = 1;
+    Simulation two(s, colliders(), "reference");
+    run_for(one, before);
+    two.restore(one.save());
+    run_for(one, after), run_for(two, after);
+    EXPECT_EQ(state_hash(two.world()), state_hash(one.world()));
+    return one;
+}
+
 /// The longest way of any body from where it was [m].
 inline double farthest_from(const std::vector<Vector>& start, const World& world) {
     double most = 0;
