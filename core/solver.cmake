@@ -16,7 +16,7 @@ set(PLUMB_CORE_SOURCES
   step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/driven_islands.cpp step/fast_joints.cpp step/gaping_joints.cpp step/holder_path.cpp step/integrate.cpp
   step/island_choice.cpp step/island_closing.cpp step/island_columns.cpp step/island_demands.cpp step/island_energy.cpp step/island_group.cpp step/island_loan.cpp step/island_newton.cpp
   step/island_obstacles.cpp step/island_residual.cpp step/island_solver.cpp step/island_substep.cpp step/island_system.cpp step/joint_residual.cpp step/large_islands.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp
-  step/row_solver.cpp step/sleeping.cpp step/step.cpp step/stretched_links.cpp step/tear.cpp step/tree_energy.cpp step/tree_holder.cpp step/tree_nodes.cpp step/tree_solver.cpp
+  step/row_solver.cpp step/sleeping.cpp step/step.cpp step/stretched_links.cpp step/tear.cpp step/tree_energy.cpp step/tree_holder.cpp step/tree_nodes.cpp step/tree_path.cpp step/tree_solver.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/within_reach.cpp)
 

@@ -85,14 +85,17 @@ inline T deferred_fraction(const T& squared, const T& most) {
     return select_greater(size, most, T(1) - most / max(size, T(1e-300)), T(0));
 }
 
-/// What impulses along the rows do to the bodies. `apart`: p_a − p_b at the preview poses [m].
+/// What impulses along the rows do to the bodies. `apart`: p_a − p_b at the preview poses [m];
+/// `meet`: 1, or 0 where impulses act on each body at its own point, however far that is from the
+/// other's, as the derivative of C does.
 template <class T>
 inline void joint_axes(JointRows<T>& rows, const JointGeometry<T>& joint, const Velocity<T>& a,
-                       const Velocity<T>& b, const T& h, const Vector3<T>& apart) {
+                       const Velocity<T>& b, const T& h, const Vector3<T>& apart,
+                       const T& meet = T(1)) {
     const LeverTurn<T> lever_a(joint.lever_a, a.w * h), lever_b(joint.lever_b, b.w * h);
     const Vector3<T> opened = apart - joint.apart;
     const JointArms<T> arms(lever_a, lever_b, joint.lever_b.share, joint.r_a, joint.r_b,
-                            joint.apart, opened);
+                            joint.apart * meet, opened * meet);
     rows.arm_a = arms.a, rows.arm_b = arms.b;
     const Vector3<T> none(T(0), T(0), T(0));
     for (int k = 0; k < 3; ++k) {

@@ -170,8 +170,9 @@ inline void place_impulse(TreeBalls<N>& balls, const TreeColumns& tables, double
     const JointLever<T> lever{load(balls.share), load_vector(balls.lag)};
     const JointLever<T> other{load(balls.other_share), load_vector(balls.other_lag)};
     const T sign = load(balls.sign), is_a = (T(1) + sign) * T(0.5), is_b = T(1) - is_a;
-    const Vector3<T> apart = load_vector(balls.apart);
-    const Vector3<T> opened = load_vector(balls.gap) + load_vector(balls.deferred) - apart;
+    const T meet = load(balls.meet);
+    const Vector3<T> open = load_vector(balls.gap) + load_vector(balls.deferred);
+    const Vector3<T> apart = load_vector(balls.apart) * meet, opened = open * meet - apart;
     const Vector3<T> arm = load_vector(balls.arm), other_arm = load_vector(balls.other_arm);
     Vector3<T> acting = arm - (apart + opened * lever.share) * is_b;
     Vector3<T> other_acting = other_arm + (apart + opened * other.share) * is_a;

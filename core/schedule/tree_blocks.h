@@ -54,6 +54,7 @@ struct alignas(64) TreeBalls {
     double hung[N];           // 1 where its root hangs by something
     double load[N];           // impulse of the substeps before [N s]
     double sign[N];           // 1 where the body is the joint's a, else −1
+    double meet[N];           // 1 where the arms of an impulse meet in one point, else 0
     // at the start of a substep
     double mass[N], inertia[6][N];                   // world frame [kg], [kg m²]
     double arm[3][N], other_arm[3][N], apart[3][N];  // child's point − parent's [m]

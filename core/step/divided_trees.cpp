@@ -366,7 +366,7 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     }
     tree.solver.load_impulses(world.joints);
     tree.solver.begin(world, time);
-    tree.solver.solve();
+    tree.solver.solve(last);
     if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, tree);
     tree.solver.take_velocities(b);
     if (!last && !tree.solver.open().empty()) return false;

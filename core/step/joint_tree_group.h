@@ -67,6 +67,7 @@ public:
         for (const TreeSolver<W>& trees : trees_)
             report.open_trees.insert(report.open_trees.end(), trees.open().begin(),
                                      trees.open().end());
+        for (const TreeSolver<W>& trees : trees_) report.coarse_trees += trees.braked();
     }
 
 private:

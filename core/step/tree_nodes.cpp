@@ -104,8 +104,7 @@ void TreeNodes::begin_joint(const World& world, Node& node, const SubstepTime& t
     if (other != kNoIndex && b.motion[other] != Motion::dynamic)
         node.held = {{b.velocity[other], b.angular_velocity[other]}};
     node.geometry = loaded_joint_geometry(world, joint, JointSolve::tree, time);
-    double old[6];
-    defer_errors(node.deferred, old, node.geometry, h_ * world.settings.recovery_speed);
+    defer_errors(node.deferred, node.old, node.geometry, h_ * world.settings.recovery_speed);
     for (DrivenAxis& axis : node.axes) axis.begin(world, time);
 }
 
@@ -133,6 +132,19 @@ void TreeNodes::turn_levers_to_the_end(std::uint32_t index) {
     node.lever() = {1, kZero};
     node.other_lever() = {node.parent != tables_.ground ? 1.0 : 0.0, kZero};
     if (node.geometry.length > 0) node.geometry.line_share = 1, node.geometry.line_lag = kZero;
+}
+
+Velocity<double> TreeNodes::start_of(std::uint32_t index) const {
+    const Node& node = nodes_[index_[index]];
+    return node.start + node.given;
+}
+Velocity<double> TreeNodes::own_of(std::uint32_t index) const { return nodes_[index_[index]].own; }
+void TreeNodes::put_start(std::uint32_t index, const Velocity<double>& start) {
+    Node& node = nodes_[index_[index]];
+    node.given = Change{start} - node.start;
+}
+void TreeNodes::put_own(std::uint32_t index, const Velocity<double>& own) {
+    nodes_[index_[index]].own = Change{own};
 }
 
 double TreeNodes::evaluate(std::uint32_t index, AxisLook look) {
@@ -214,7 +226,7 @@ void TreeNodes::find_rows(Node& node) {
     const Velocity<double> own = velocity_of(tables_.velocity, node.node),
                            other = velocity_beyond(node);
     const Velocity<double>&a = node.sign > 0 ? own : other, &b = node.sign > 0 ? other : own;
-    joint_axes<double>(node.now, node.geometry, a, b, h_, node.apart);
+    joint_axes<double>(node.now, node.geometry, a, b, h_, node.apart, node.meet);
     take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
     if (!(node.geometry.line_share > 0) || !(node.lambda[0] < 0)) return;
     const auto turned = [this](const Vector3d& w, const Vector3d& arm) -> Vector3d {

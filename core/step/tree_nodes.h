@@ -49,6 +49,18 @@ public:
     void take_back(std::uint32_t node);
     void forget(std::uint32_t node);
     void turn_levers_to_the_end(std::uint32_t node);
+    std::uint32_t body_of(std::uint32_t node) const { return nodes_[index_[node]].body; }
+    Velocity<double> start_of(std::uint32_t node) const;
+    Velocity<double> own_of(std::uint32_t node) const;
+    void put_start(std::uint32_t node, const Velocity<double>& start);
+    void put_own(std::uint32_t node, const Velocity<double>& own);
+    void let_arms_meet(std::uint32_t node, double meet) { nodes_[index_[node]].meet = meet; }
+    /// Calls change(row, its error at the start, the part of that that is left for later).
+    template <class Change>
+    void change_deferred(std::uint32_t node, Change change) {
+        Node& of = nodes_[index_[node]];
+        for (int k = 0; k < 6 && !of.free; ++k) change(k, of.old[k], of.deferred[k]);
+    }
     void store_impulses(JointTable& joints);  ///< of those that are not left out
 
     template <class Real>
@@ -106,6 +118,7 @@ private:
         std::uint32_t body, joint;
         bool free, hung;  ///< a root that hangs by nothing; the tree's root hangs by something
         double sign;      ///< 1 where the body is the joint's a, else −1
+        double meet = 1;  ///< as of TreeBalls
         double mass;
         Symmetric3<double> inertia;  ///< world frame, at the start [kg m²]
         Vector3d apart;              ///< a's point − b's at the preview [m]
@@ -115,7 +128,8 @@ private:
         JointGeometry<double> geometry;
         JointRows<double> now;
         RowsElimination<double> elimination;
-        double deferred[6];  ///< old error of the rows that is left for later [m], [rad]
+        double old[6];       ///< error of the rows at the start [m], [rad]
+        double deferred[6];  ///< part of it that is left for later
         double lambda[6];    ///< along the joint's rows
         Change kept_own;     ///< where the step begins, as the next
         double kept_lambda[6];

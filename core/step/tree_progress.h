@@ -108,13 +108,8 @@ public:
         pieces_[tree_[node]].may_change -= changed;
     }
 
-    /// Lets trees wait that something drives. Returns whether any other is left.
-    bool leave_driven() {
-        for (std::size_t i = 0; i < active_.size(); ++i)
-            if (active_[i] && driven_[i]) active_[i] = 0, waits_[i] = Waits::stuck;
-        return any_active();
-    }
-    /// Makes those that are settled active again, or all that wait; the same return.
+    /// Makes those that are settled active again, or all that wait. Returns whether any is to be
+    /// solved.
     bool bring_back(bool all) {
         for (std::size_t i = 0; i < active_.size(); ++i)
             if (waits_[i] == Waits::settled || (all && waits_[i] != Waits::no))
@@ -189,6 +184,23 @@ public:
             if (active_[i]) visit(joint_[i], violation_[i]);
     }
 
+    void activate(std::size_t tree) { active_[tree] = 1; }
+    /// Calls solve(tree, its first joint, whether it hangs by something) for each tree that is
+    /// still to be solved, as if there were no other. Leaves those for which it returns true;
+    /// returns whether any is left.
+    template <class Solve>
+    bool leave_one_by_one(Solve solve) {
+        open_ = active_;
+        for (std::size_t i = 0; i < open_.size(); ++i) {
+            if (!open_[i]) continue;
+            std::fill(active_.begin(), active_.end(), 0);
+            active_[i] = 1;
+            open_[i] = !solve(i, joint_[i], hung_[i] != 0);
+        }
+        active_ = open_;
+        return any_active();
+    }
+
     /// Leaves those that are no worse off than before any step, which are visited as above; the
     /// same return.
     template <class Visit>
@@ -251,6 +263,7 @@ private:
     std::vector<std::uint8_t> active_, hung_;      ///< [tree]
     std::vector<std::uint8_t> left_out_, driven_;  ///< [tree]
     std::vector<std::uint8_t> ends_;               ///< [tree] with the present step
+    std::vector<std::uint8_t> open_;               ///< [tree] of those solved one by one
     std::vector<Waits> waits_;                     ///< [tree]
     bool any_driven_ = false;
     std::vector<Pieces> pieces_;                      ///< [tree]

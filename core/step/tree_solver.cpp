@@ -46,6 +46,7 @@ TreeSolver<W>::TreeSolver(const World& world, const JointForest& forest, double 
     lay_out(world, forest, undriven_balls(world, forest));
     load_impulses(world.joints);
     open_.reserve(progress_.trees());
+    path_.resize(forest.nodes.size());
     each_body([&](std::uint32_t node, std::uint32_t body, const Vector3d&) {
         progress_.note_mass(node, world.bodies.mass[body]);
     });
@@ -96,6 +97,7 @@ void TreeSolver<W>::place(const World& world, const ForestNode& from, std::uint3
     balls.hung[lane] = progress_.hangs(node);
     balls.held[lane] = other == kNoIndex;
     balls.sign[lane] = is_a ? 1 : -1;
+    balls.meet[lane] = 1;
     const Placement& own_frame = is_a ? joint.frame_a : joint.frame_b;
     const Placement& other_frame = is_a ? joint.frame_b : joint.frame_a;
     for (int k = 0; k < 3; ++k) {
@@ -213,22 +215,31 @@ void TreeSolver<W>::give(const BodyRows<Real>& rows) {
 template <int W>
 template <class Real>
 void TreeSolver<W>::solve(const BodyRows<Real>& rows, bool alone) {
-    if (progress_.leaves_all_out()) return open_.clear();
+    if (progress_.leaves_all_out()) {
+        open_.clear(), braked_ = 0;
+        return;
+    }
     if (!alone) take(rows);
     solve();
     give(rows);
 }
 
 template <int W>
-void TreeSolver<W>::solve() {
+void TreeSolver<W>::solve(bool follows) {
     open_.clear();
+    braked_ = 0;
     levers_of_the_end_ = false;
     if (!progress_.start()) return;
-    if (find_balance() || close(false)) return;
+    if (find_balance()) return;
     levers_of_the_end_ = true;
     turn_levers_to_the_end();
     forget();
-    if (find_balance() || close(true)) return;
+    if (find_balance()) return;
+    if (follows &&
+        !progress_.leave_one_by_one([this](auto... of) { return follow_from_rest(of...); }))
+        return mark_active();
+    mark_active();
+    if (close()) return;
     leave_open();
 }
 
@@ -269,18 +280,15 @@ bool TreeSolver<W>::find_balance() {
 }
 
 /// Steps that only close joints, with the same return. They may add energy. Of trees that nothing
-/// drives that is seen (step/divided_trees.h); those that are driven are closed so only
-/// `with_driven`, and are then told as open all the same.
+/// drives that is seen (step/divided_trees.h); those that are driven are told as open all the same.
 template <int W>
-bool TreeSolver<W>::close(bool with_driven) {
-    if (with_driven || progress_.leave_driven()) {
-        mark_active();
-        forget();
-        for (int step = 0; step < kClosingSteps; ++step) {
-            if (!step_on(false)) break;
-            evaluate(AxisLook::same_piece);
-            if (!progress_.leave_undriven_within(tolerance_)) break;
-        }
+bool TreeSolver<W>::close() {
+    mark_active();
+    forget();
+    for (int step = 0; step < kClosingSteps; ++step) {
+        if (!step_on(false)) break;
+        evaluate(AxisLook::same_piece);
+        if (!progress_.leave_undriven_within(tolerance_)) break;
     }
     return bring_back();
 }

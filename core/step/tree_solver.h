@@ -20,6 +20,7 @@
 #include "schedule/tree_levels.h"
 #include "step/body_columns.h"
 #include "step/tree_nodes.h"
+#include "step/tree_path.h"
 
 #include <algorithm>
 #include <vector>
@@ -36,7 +37,7 @@ public:
     /// start where joints that hang by something undo gravity: most of what hangs is near its rest.
     void begin(const World& world, const SubstepTime& time) {
         if (progress_.leaves_all_out()) return;
-        h_ = time.h, fresh_ = true;
+        world_ = &world, h_ = time.h, fresh_ = true;
         const Vector3d lift = -h_ * world.settings.gravity;
         kernels_.begin(balls_.data(), balls_.size(), states_of(world.bodies), h_,
                        {lift[0], lift[1], lift[2]}, h_ * world.settings.recovery_speed);
@@ -52,8 +53,9 @@ public:
         return progress_.leave_out(is_left_out);
     }
 
-    /// Newton steps until no row is violated by more than the tolerance.
-    void solve();
+    /// Newton steps until no row is violated by more than the tolerance. `follows`: with all that
+    /// is known, where they do not succeed.
+    void solve(bool follows = true);
     /// The same among others that change velocities, unless the trees are `alone`.
     template <class Real>
     void solve(const BodyRows<Real>& rows, bool alone);
@@ -61,6 +63,9 @@ public:
     /// Whether the last solve closed some trees only with levers of the substep's end, which lose
     /// energy: with those of its start, there was no solution near.
     bool took_levers_of_the_end() const { return levers_of_the_end_; }
+
+    /// How many trees the last solve closed only by braking them (step/tree_path.h).
+    std::uint32_t braked() const { return braked_; }
 
     /// What the last solve left open.
     const std::vector<OpenTree>& open() const { return open_; }
@@ -131,12 +136,18 @@ private:
     void each_body(Visit visit) const;
     void note_falls(const World& world);
     bool find_balance();
-    bool close(bool with_driven);
+    bool close();
     bool step_on(bool balance);
     void settle_pieces();
     void keep();
     void take_back();
     bool bring_back();
+    template <class Change>
+    void change_velocities(Change change);
+    template <class Change>
+    void change_deferred(Change change);
+    void let_arms_meet(double meet);
+    bool follow_from_rest(std::size_t tree, std::uint32_t joint, bool hangs);
     void leave_open();
     void turn_levers_to_the_end();
     void forget();
@@ -161,6 +172,8 @@ private:
 
     const TreeKernels<W>& kernels_ = tree_kernels<W>();
     double tolerance_, h_ = 0;
+    const World* world_ = nullptr;  ///< that of the substep
+    std::uint32_t braked_ = 0;
     std::vector<OpenTree> open_;
     bool fresh_ = true;  ///< no step was made in this substep
     bool levers_of_the_end_ = false;
@@ -170,6 +183,7 @@ private:
     TreeNodes nodes_;
     std::vector<TreeBalls<N>> balls_;
     std::vector<Kept> kept_;               ///< [block of balls_]
+    std::vector<PathNode> path_;           ///< [node]
     std::vector<std::uint32_t> joint_of_;  ///< [block of balls_ × N + lane]
     std::vector<Span> spans_;              ///< roots first
 };

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "step/tree_path.h"
+
+#include "step/tree_solver.h"
+#include "world/body_momentum.h"
+
+namespace plumb {
+namespace {
+
+/// Of the way: its first share, the least that is tried, and how often.
+constexpr double kFirst = 0.5, kLeast = 1.0 / 128;
+constexpr int kMostTries = 40;
+
+Matrix3d cross_squared(const Vector3d& x) {
+    return x.squaredNorm() * Matrix3d::Identity() - x * x.transpose();
+}
+
+Velocity<double> between(const Velocity<double>& from, const Velocity<double>& to, double share) {
+    return {from.v + share * (to.v - from.v), from.w + share * (to.w - from.w)};
+}
+
+}  // namespace
+
+RestMotion::RestMotion(const World& world, const Joint& joint) {
+    const Bodies& b = world.bodies;
+    for (const std::uint32_t body : {joint.a, joint.b}) {
+        if (body == kNoIndex || b.motion[body] == Motion::dynamic) continue;
+        point_ = b.position[body];
+        motion_ = {b.velocity[body], b.angular_velocity[body]};
+    }
+}
+
+void RestMotion::add(const Bodies& b, std::uint32_t body, const Velocity<double>& velocity) {
+    const Vector3d &x = b.position[body], impulse = b.mass[body] * velocity.v;
+    const Matrix3d axes = b.orientation[body].toRotationMatrix();
+    mass_ += b.mass[body];
+    moment_ += b.mass[body] * x;
+    momentum_ += impulse;
+    angular_momentum_ += x.cross(impulse) + spin_momentum(b, body, velocity.w);
+    inertia_ +=
+        axes * b.inertia[body].asDiagonal() * axes.transpose() + b.mass[body] * cross_squared(x);
+}
+
+void RestMotion::find_rates() {
+    point_ = moment_ / mass_;
+    const Matrix3d inertia = inertia_ - mass_ * cross_squared(point_);
+    const Vector3d spin = angular_momentum_ - point_.cross(momentum_);
+    motion_ = {momentum_ / mass_, inertia.ldlt().solve(spin)};
+}
+
+Velocity<double> RestMotion::of(const Bodies& b, std::uint32_t body) const {
+    return {velocity_at<double>(motion_, b.position[body] - point_), motion_.w};
+}
+
+/// Calls change(node, body, start, own) for each body of trees that are still to be solved, with
+/// velocities that it may change: v*, and what this solver adds to it.
+template <int W>
+template <class Change>
+void TreeSolver<W>::change_velocities(Change change) {
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane) {
+            if (!(balls.active[lane] > 0)) continue;
+            const auto read = [lane](const double(&x)[6][N]) {
+                return Velocity<double>{{x[0][lane], x[1][lane], x[2][lane]},
+                                        {x[3][lane], x[4][lane], x[5][lane]}};
+            };
+            Velocity<double> start = read(balls.start), own = read(balls.own);
+            change(balls.node[lane], balls.body[lane], start, own);
+            for (int k = 0; k < 6; ++k) {
+                const double to = k < 3 ? start.v[k] : start.w[k - 3];
+                balls.given[k][lane] += to - balls.start[k][lane];
+                balls.start[k][lane] = to;
+                balls.own[k][lane] = k < 3 ? own.v[k] : own.w[k - 3];
+            }
+        }
+    each_single([&](std::uint32_t node) {
+        Velocity<double> start = nodes_.start_of(node), own = nodes_.own_of(node);
+        change(node, nodes_.body_of(node), start, own);
+        nodes_.put_start(node, start), nodes_.put_own(node, own);
+    });
+}
+
+/// Calls change(node, row, its error at the start, the part of that that is left for later).
+template <int W>
+template <class Change>
+void TreeSolver<W>::change_deferred(Change change) {
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane)
+            for (int k = 0; k < 3 && balls.active[lane] > 0; ++k)
+                change(balls.node[lane], k, balls.apart[k][lane], balls.deferred[k][lane]);
+    each_single([&](std::uint32_t node) {
+        nodes_.change_deferred(
+            node, [&](int k, double old, double& deferred) { change(node, k, old, deferred); });
+    });
+}
+
+/// Arms that meet keep angular momentum to rounding. Where joints are far open, these are not the
+/// derivatives of what is to be closed, and Newton's steps hardly get on by them.
+template <int W>
+void TreeSolver<W>::let_arms_meet(double meet) {
+    for (TreeBalls<N>& balls : balls_)
+        for (int lane = 0; lane < N; ++lane)
+            if (balls.active[lane] > 0) balls.meet[lane] = meet;
+    each_single([&](std::uint32_t node) { nodes_.let_arms_meet(node, meet); });
+}
+
+/// Returns whether there is any.
+template <int W>
+bool TreeSolver<W>::follow_from_rest(std::size_t tree, std::uint32_t joint, bool hangs) {
+    const Bodies& b = world_->bodies;
+    mark_active();
+    forget();
+    RestMotion rest = hangs ? RestMotion(*world_, world_->joints.joints[joint]) : RestMotion();
+    using Rate = Velocity<double>;
+    if (!hangs) {
+        change_velocities([&](std::uint32_t, std::uint32_t body, const Rate& start, const Rate&) {
+            rest.add(b, body, start);
+        });
+        rest.find_rates();
+    }
+    change_velocities([&](std::uint32_t node, std::uint32_t body, const Rate& start, Rate& own) {
+        path_[node] = {start, rest.of(b, body), own, {}};
+    });
+    change_deferred([&](std::uint32_t node, int k, double, double& deferred) {
+        path_[node].deferred[k] = deferred;
+    });
+    let_arms_meet(0);
+
+    double share = -1;  // nothing is solved
+    bool lost = false;
+    const auto solve_for = [&](double next) {
+        progress_.activate(tree);
+        mark_active();
+        if (lost) forget();
+        change_velocities([&](std::uint32_t node, std::uint32_t, Rate& start, Rate& own) {
+            start = between(path_[node].rest, path_[node].goal, next);
+            own = path_[node].last;
+        });
+        change_deferred([&](std::uint32_t node, int k, double old, double& deferred) {
+            deferred = old + next * (path_[node].deferred[k] - old);
+        });
+        const bool solved = find_balance();
+        progress_.activate(tree);
+        mark_active();
+        lost = !solved;
+        if (lost) return false;
+        share = next;
+        change_velocities([&](std::uint32_t node, std::uint32_t, const Rate&, Rate& own) {
+            path_[node].last = own;
+        });
+        return true;
+    };
+    double step = kFirst;
+    if (solve_for(0))
+        for (int tries = 0; tries < kMostTries && share < 1 && step >= kLeast; ++tries)
+            step *= solve_for(std::min(1.0, share + step)) ? 2 : 0.5;
+    if (share < 1) solve_for(std::max(share, 0.0));  // its impulses
+    change_velocities([&](std::uint32_t node, std::uint32_t, Rate& start, Rate& own) {
+        own = share < 0 ? Rate{Vector3d::Zero(), Vector3d::Zero()}
+                        : Rate{start.v + own.v - path_[node].goal.v,
+                               start.w + own.w - path_[node].goal.w};
+        start = path_[node].goal;
+    });
+    change_deferred([&](std::uint32_t node, int k, double, double& deferred) {
+        deferred = path_[node].deferred[k];
+    });
+    let_arms_meet(1);
+    evaluate(AxisLook::same_piece);
+    braked_ += share >= 0 && share < 1;
+    return share >= 0;
+}
+
+#define PLUMB_INSTANTIATE(W) \
+    template bool TreeSolver<W>::follow_from_rest(std::size_t, std::uint32_t, bool);
+PLUMB_INSTANTIATE(1)
+PLUMB_INSTANTIATE(4)
+PLUMB_INSTANTIATE(8)
+PLUMB_INSTANTIATE(16)
+#undef PLUMB_INSTANTIATE
+
+}  // namespace plumb
