@@ -28,6 +28,13 @@ void fill_anew(std::vector<T>& v, std::size_t n, const T& value) {
     v.assign(n, value);
 }
 
+/// v has the values of `more` behind its own.
+template <class T>
+void append(std::vector<T>& v, const std::vector<T>& more) {
+    make_room(v, v.size() + more.size());
+    v.insert(v.end(), more.begin(), more.end());
+}
+
 /// v has the values of `from`.
 template <class T>
 void copy_anew(std::vector<T>& v, const std::vector<T>& from) {

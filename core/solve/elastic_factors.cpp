@@ -34,7 +34,7 @@ ElasticFactors::ElasticFactors(const World& world, const ElasticParts& parts)
 void ElasticFactors::order(const ElasticParts& parts) {
     copy_anew(near_, made_of_.near);
     particle_pairs_.resize(own_pairs_);
-    particle_pairs_.insert(particle_pairs_.end(), near_.begin(), near_.end());
+    append(particle_pairs_, near_);
     system_.order(parts.particles(), particle_pairs_);
     for (const auto& elements : parts.elements) elements->find_slots(system_);
     pairs_.resize(balloon_pairs_);
@@ -56,7 +56,7 @@ void ElasticFactors::take_near(const ElasticParts& parts) {
             }
     if (known) return;
     if (made_of_.near.size() <= kKeepNear * near_now_.size())
-        near_now_.insert(near_now_.end(), made_of_.near.begin(), made_of_.near.end());
+        append(near_now_, made_of_.near);
     else
         drop();  // they are of pairs that have no blocks any more
     std::sort(near_now_.begin(), near_now_.end());
@@ -148,7 +148,7 @@ void ElasticFactors::attach_contacts(const ElasticParts& parts) {
     if (rows == system_.more() && pairs_now_ == contact_pairs_) return;
     std::swap(pairs_now_, contact_pairs_);
     pairs_.resize(balloon_pairs_);
-    pairs_.insert(pairs_.end(), contact_pairs_.begin(), contact_pairs_.end());
+    append(pairs_, contact_pairs_);
     system_.attach(rows, pairs_);
 }
 
