@@ -1,6 +1,6 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
-  math/block_cholesky.cpp math/sparse_ldlt.cpp
+  math/block_cholesky.cpp math/fill.cpp math/least_degree.cpp math/row_graph.cpp math/sparse_ldlt.cpp
   world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
   world/motion_script.cpp
   world/shape_store.cpp world/sleep.cpp world/tears.cpp

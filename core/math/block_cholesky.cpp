@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: MIT
 #include "math/block_cholesky.h"
 
+#include "math/growing.h"
+
 #include <algorithm>
+#include <iterator>
+#include <span>
 
 namespace plumb {
 namespace {
@@ -53,43 +57,35 @@ std::uint64_t products_of(std::uint64_t blocks) { return 1 + blocks + blocks * (
 
 void BlockCholesky::reserve(std::uint32_t rows) {
     constexpr std::size_t kBlocks = 8;  // of a column
-    if (near_.size() >= rows) return;
-    near_.resize(rows), structure_.resize(rows);
-    for (auto* lists : {&near_, &structure_})
-        for (auto& list : *lists) list.reserve(2 * kBlocks);
-    merged_.reserve(2 * kBlocks), done_.reserve(rows);
+    graph_.reserve(rows, kBlocks * rows);
+    list_.reserve(2 * kBlocks * rows), near_.reserve(rows), done_.reserve(rows);
+    merged_.reserve(rows);
     order_.reserve(rows), place_.reserve(rows), columns_.reserve(rows);
     row_of_.reserve(kBlocks * rows), updates_.reserve(kBlocks * kBlocks * rows);
     diagonal_.reserve(rows), below_.reserve(kBlocks * rows), permuted_.reserve(rows);
 }
 
 bool BlockCholesky::analyse(std::uint32_t rows, const Pattern& pattern, std::uint64_t most) {
-    order_.assign(rows, 0);
-    place_.assign(rows, 0);
+    size_anew(order_, rows), size_anew(place_, rows);
     if (!find_order(pattern, most)) {
         order_.clear();
         return false;
     }
     find_updates();
-    diagonal_.resize(rows);
-    below_.resize(row_of_.size());
-    permuted_.resize(rows);
+    size_anew(diagonal_, rows);
+    size_anew(below_, row_of_.size());
+    size_anew(permuted_, rows);
     return true;
 }
 
 /// Least degree first, of equals the first; what is eliminated makes its neighbours neighbours.
 bool BlockCholesky::find_order(const Pattern& pattern, std::uint64_t most) {
     const auto n = static_cast<std::uint32_t>(order_.size());
-    near_.resize(std::max<std::size_t>(near_.size(), n));
-    structure_.resize(near_.size());
-    for (std::uint32_t i = 0; i < n; ++i) near_[i].clear();
-    for (const auto& [i, j] : pattern)
-        if (i != j) near_[i].push_back(j), near_[j].push_back(i);
-    for (std::uint32_t i = 0; i < n; ++i) {
-        std::sort(near_[i].begin(), near_[i].end());
-        near_[i].erase(std::unique(near_[i].begin(), near_[i].end()), near_[i].end());
-    }
-    done_.assign(n, 0);
+    graph_.build(n, pattern);
+    copy_anew(list_, graph_.list());
+    size_anew(near_, n);
+    for (std::uint32_t i = 0; i < n; ++i) near_[i] = {graph_.first()[i], graph_.first()[i + 1]};
+    fill_anew(done_, n, std::uint8_t(0));
     products_ = 0;
     for (std::uint32_t p = 0; p < n; ++p) {
         std::uint32_t best = n;
@@ -97,14 +93,8 @@ bool BlockCholesky::find_order(const Pattern& pattern, std::uint64_t most) {
             if (!done_[i] && (best == n || near_[i].size() < near_[best].size())) best = i;
         order_[p] = best, place_[best] = p;
         done_[best] = 1;
-        for (const std::uint32_t i : near_[best]) {
-            merged_.clear();
-            std::set_union(near_[i].begin(), near_[i].end(), near_[best].begin(), near_[best].end(),
-                           std::back_inserter(merged_));
-            std::erase_if(merged_, [&](std::uint32_t k) { return k == i || k == best; });
-            near_[i] = merged_;
-        }
-        structure_[p] = near_[best];
+        for (std::size_t k = near_[best].first; k < near_[best].last; ++k)
+            make_near(list_[k], best);
         products_ += products_of(near_[best].size());
         if (products_ > most) return false;
     }
@@ -112,11 +102,27 @@ bool BlockCholesky::find_order(const Pattern& pattern, std::uint64_t most) {
     row_of_.clear();
     for (std::uint32_t p = 0; p < n; ++p) {
         const auto first = static_cast<std::uint32_t>(row_of_.size());
-        for (const std::uint32_t i : structure_[p]) row_of_.push_back(place_[i]);
+        for (std::size_t k = near_[order_[p]].first; k < near_[order_[p]].last; ++k)
+            row_of_.push_back(place_[list_[k]]);
         std::sort(row_of_.begin() + first, row_of_.end());
         columns_.push_back({first, static_cast<std::uint32_t>(row_of_.size())});
     }
     return true;
+}
+
+/// The neighbours of a row that is eliminated are those of its neighbour i, too.
+void BlockCholesky::make_near(std::uint32_t i, std::uint32_t eliminated) {
+    const auto list = [&](const Range& range) {
+        return std::span(list_).subspan(range.first, range.size());
+    };
+    merged_.clear();
+    std::ranges::set_union(list(near_[i]), list(near_[eliminated]), std::back_inserter(merged_));
+    std::erase_if(merged_, [&](std::uint32_t k) { return k == i || k == eliminated; });
+    Range& range = near_[i];
+    if (merged_.size() > range.size())
+        range.first = list_.size(), list_.resize(list_.size() + merged_.size());
+    range.last = range.first + merged_.size();
+    std::ranges::copy(merged_, list(range).begin());
 }
 
 void BlockCholesky::find_updates() {

@@ -6,11 +6,11 @@
 /// `solve`.
 #pragma once
 
+#include "math/row_graph.h"
 #include "math/types.h"
 
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace plumb {
@@ -19,7 +19,7 @@ class BlockCholesky {
 public:
     /// Off-diagonal blocks that are not zero, as pairs of block rows below `rows`; a pair may come
     /// more than once, in either order.
-    using Pattern = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+    using Pattern = RowGraph::Pairs;
 
     /// Memory for so many rows, of which few hang together.
     void reserve(std::uint32_t rows);
@@ -57,8 +57,13 @@ private:
     struct Column {
         std::uint32_t first, last;
     };
+    struct Range {
+        std::size_t first, last;
+        std::size_t size() const { return last - first; }
+    };
     std::uint32_t slot(std::uint32_t row, std::uint32_t column) const;
     bool find_order(const Pattern& pattern, std::uint64_t most);
+    void make_near(std::uint32_t i, std::uint32_t eliminated);
     void find_updates();
 
     std::vector<std::uint32_t> order_, place_;  // [place] block row; [block row] place
@@ -68,8 +73,9 @@ private:
     std::vector<Matrix6d> diagonal_, below_;    // [place], [slot]
     std::vector<Vector6d> permuted_;
     // memory of `find_order`: neighbours that are not yet eliminated, and those of what was
-    std::vector<std::vector<std::uint32_t>> near_, structure_;
-    std::vector<std::uint32_t> merged_;
+    RowGraph graph_;
+    std::vector<Range> near_;  // [block row] in list_
+    std::vector<std::uint32_t> list_, merged_;
     std::vector<std::uint8_t> done_;
     std::uint64_t products_ = 0;
 };

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "math/sparse_ldlt.h"
 
-#include <Eigen/OrderingMethods>
-#include <Eigen/SparseCore>
+#include "math/growing.h"
 
 #include <algorithm>
-#include <numeric>
+#include <utility>
 
 namespace plumb {
 namespace {
@@ -17,79 +16,8 @@ constexpr std::uint32_t kNone = ~0u;
 constexpr std::uint32_t kSmallFront = 6;
 constexpr double kSmallFill = 0.4, kFill = 0.1;
 
-using Lists = std::vector<std::vector<std::uint32_t>>;
-
-/// Least degree first (Amestoy, Davis and Duff 1996): [place] row.
-std::vector<std::uint32_t> least_degree(std::uint32_t rows,
-                                        const std::vector<SparseLdlt::Pair>& pattern) {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(2 * pattern.size() + rows);
-    for (std::uint32_t i = 0; i < rows; ++i)
-        entries.emplace_back(static_cast<int>(i), static_cast<int>(i), 1.0);
-    for (const auto& [i, j] : pattern) {
-        entries.emplace_back(static_cast<int>(i), static_cast<int>(j), 1.0);
-        entries.emplace_back(static_cast<int>(j), static_cast<int>(i), 1.0);
-    }
-    Eigen::SparseMatrix<double> matrix(static_cast<int>(rows), static_cast<int>(rows));
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    Eigen::PermutationMatrix<Eigen::Dynamic, Eigen::Dynamic, int> found;
-    Eigen::AMDOrdering<int>()(matrix, found);
-    std::vector<std::uint32_t> order(rows);
-    for (std::uint32_t p = 0; p < rows; ++p)
-        order[p] = static_cast<std::uint32_t>(found.indices()[static_cast<int>(p)]);
-    return order;
-}
-
-/// Rows of each column of L, rising, in the order `place`; or none, if that is more than `most`
-/// multiplications to factor.
-std::optional<Lists> fill_in(const std::vector<std::uint32_t>& place,
-                             const std::vector<SparseLdlt::Pair>& pattern, double most) {
-    constexpr double kOfProduct = 27;  // of two 3 × 3 blocks
-    double work = 0;
-    const std::size_t n = place.size();
-    Lists structure(n), children(n);
-    for (const auto& [i, j] : pattern)
-        if (i != j) structure[std::min(place[i], place[j])].push_back(std::max(place[i], place[j]));
-    std::vector<std::uint32_t> seen(n, kNone), all;
-    for (std::uint32_t p = 0; p < n; ++p) {
-        all.clear();
-        seen[p] = p;
-        const auto take = [&](const std::vector<std::uint32_t>& rows) {
-            for (const std::uint32_t row : rows)
-                if (seen[row] != p) seen[row] = p, all.push_back(row);
-        };
-        take(structure[p]);
-        for (const std::uint32_t child : children[p]) take(structure[child]);
-        std::sort(all.begin(), all.end());
-        structure[p] = all;
-        const auto below = static_cast<double>(all.size());
-        work += kOfProduct * 0.5 * below * (below + 1);
-        if (work > most) return std::nullopt;
-        if (!all.empty()) children[all[0]].push_back(p);
-    }
-    return structure;
-}
-
-/// [new place] old place: children right before their parents.
-std::vector<std::uint32_t> children_first(const Lists& structure) {
-    const auto n = static_cast<std::uint32_t>(structure.size());
-    Lists children(n);
-    std::vector<std::uint32_t> roots, order, open;
-    for (std::uint32_t p = 0; p < n; ++p)
-        (structure[p].empty() ? roots : children[structure[p][0]]).push_back(p);
-    // from behind: a parent, then its children, all turned round in the end
-    for (std::size_t r = roots.size(); r-- > 0;) {
-        open.push_back(roots[r]);
-        while (!open.empty()) {
-            const std::uint32_t p = open.back();
-            open.pop_back();
-            order.push_back(p);
-            open.insert(open.end(), children[p].begin(), children[p].end());
-        }
-    }
-    std::reverse(order.begin(), order.end());
-    return order;
-}
+/// Multiplications of a product of two 3 × 3 blocks.
+constexpr double kOfProduct = 27;
 
 }  // namespace
 
@@ -100,92 +28,85 @@ SparseLdlt::SparseLdlt(const FrontKernels& kernels) : kernels_(kernels) {}
 
 bool SparseLdlt::order(std::uint32_t rows, const std::vector<Pair>& pattern, double most) {
     rows_ = rows;
-    order_ = least_degree(rows, pattern);
-    place_.resize(rows);
+    graph_.build(rows, pattern);
+    size_anew(place_, rows);
     const auto invert = [&] {
         for (std::uint32_t p = 0; p < rows; ++p) place_[order_[p]] = p;
     };
-    invert();
-    const std::optional<Lists> found = fill_in(place_, pattern, most);
-    if (!found) {
+    least_degree_.find(graph_, order_), invert();
+    fill_.put_children_first(order_, graph_, place_), invert();
+    find_columns();
+    if (!fill_.find(column_first_, below_row_, most / kOfProduct)) {
         rows_ = 0;
         return false;
     }
-    const std::vector<std::uint32_t> later = children_first(*found);
-    std::vector<std::uint32_t> order(rows);
-    for (std::uint32_t p = 0; p < rows; ++p) order[p] = order_[later[p]];
-    order_ = std::move(order);
-    invert();
-    find_columns(pattern);
-    find_fronts(*fill_in(place_, pattern, kAnyWork));
-    diagonal_.resize(rows);
-    below_.resize(below_row_.size());
+    find_fronts();
+    size_anew(diagonal_, rows);
+    size_anew(below_, below_row_.size());
     attach(0, {});
     return true;
 }
 
-void SparseLdlt::find_columns(const std::vector<Pair>& pattern) {
-    Lists below(rows_);
-    for (const auto& [i, j] : pattern)
-        if (i != j) below[std::min(place_[i], place_[j])].push_back(std::max(place_[i], place_[j]));
-    column_first_.assign(1, 0);
-    below_row_.clear();
-    for (auto& list : below) {
-        std::sort(list.begin(), list.end());
-        list.erase(std::unique(list.begin(), list.end()), list.end());
-        below_row_.insert(below_row_.end(), list.begin(), list.end());
-        column_first_.push_back(static_cast<std::uint32_t>(below_row_.size()));
+/// A's own blocks below the diagonal.
+void SparseLdlt::find_columns() {
+    column_first_.clear(), below_row_.clear();
+    for (std::uint32_t p = 0; p < rows_; ++p) {
+        const auto first = static_cast<std::uint32_t>(below_row_.size());
+        column_first_.push_back(first);
+        for (const std::uint32_t row : graph_.near(order_[p]))
+            if (place_[row] > p) below_row_.push_back(place_[row]);
+        std::sort(below_row_.begin() + first, below_row_.end());
     }
+    column_first_.push_back(static_cast<std::uint32_t>(below_row_.size()));
 }
 
 /// Columns that have the same rows below them make a front; small ones are merged into their
 /// parents, which fills little and saves much.
-void SparseLdlt::find_fronts(const Lists& structure) {
-    struct Draft {
-        std::uint32_t first, last;
-        const std::vector<std::uint32_t>* rows;  // below its last column
-        double filled;                           // blocks that are not 0
-    };
+void SparseLdlt::find_fronts() {
+    find_drafts();
+    fronts_.clear(), row_.clear();
+    size_anew(front_of_, rows_);
+    for (const Draft& d : drafts_) {
+        Front front{};
+        front.first = d.first, front.last = d.last;
+        front.child = front.sibling = kNone;
+        front.row = static_cast<std::uint32_t>(row_.size());
+        const auto below = fill_.below(d.last - 1);
+        row_.insert(row_.end(), below.begin(), below.end());
+        front.row_end = static_cast<std::uint32_t>(row_.size());
+        for (std::uint32_t p = d.first; p < d.last; ++p)
+            front_of_[p] = static_cast<std::uint32_t>(fronts_.size());
+        fronts_.push_back(front);
+    }
+    fronts_.push_back({rows_, rows_, 0, 0, 0, 0, kNone, kNone, kNone, 0, 0});
+    for (std::uint32_t i = root(); i-- > 0;) {
+        Front& f = fronts_[i];
+        f.parent = f.row == f.row_end ? root() : front_of_[row_[f.row]];
+        f.sibling = std::exchange(fronts_[f.parent].child, i);
+    }
+}
+
+void SparseLdlt::find_drafts() {
     const auto blocks = [](double width, double rows) {
         return width * (width + 1) / 2 + width * rows;
     };
-    std::vector<Draft> drafts;
+    const auto below = [&](const Draft& draft) { return fill_.below(draft.last - 1); };
     const auto can_merge = [&](const Draft& child, const Draft& parent) {
-        if (child.last != parent.first || child.rows->empty() || child.rows->front() >= parent.last)
+        if (child.last != parent.first || below(child).empty() ||
+            below(child).front() >= parent.last)
             return false;
         const double filled = child.filled + parent.filled;
         const double whole =
-            blocks(parent.last - child.first, static_cast<double>(parent.rows->size()));
+            blocks(parent.last - child.first, static_cast<double>(below(parent).size()));
         const bool small = parent.last - child.first <= kSmallFront;
         return whole - filled <= (small ? kSmallFill : kFill) * whole;
     };
+    drafts_.clear();
     for (std::uint32_t p = 0; p < rows_; ++p) {
-        drafts.push_back(
-            {p, p + 1, &structure[p], blocks(1, static_cast<double>(structure[p].size()))});
-        while (drafts.size() > 1 && can_merge(drafts[drafts.size() - 2], drafts.back())) {
-            const Draft child = drafts[drafts.size() - 2];
-            drafts.erase(drafts.end() - 2);
-            drafts.back().first = child.first, drafts.back().filled += child.filled;
-        }
-    }
-    fronts_.clear(), row_.clear();
-    std::vector<std::uint32_t> front_of(rows_);
-    for (const Draft& d : drafts) {
-        Front front{};
-        front.first = d.first, front.last = d.last;
-        front.row = static_cast<std::uint32_t>(row_.size());
-        row_.insert(row_.end(), d.rows->begin(), d.rows->end());
-        front.row_end = static_cast<std::uint32_t>(row_.size());
-        for (std::uint32_t p = d.first; p < d.last; ++p)
-            front_of[p] = static_cast<std::uint32_t>(fronts_.size());
-        fronts_.push_back(front);
-    }
-    fronts_.push_back({rows_, rows_, 0, 0, 0, 0, kNone, 0, 0});
-    children_.assign(fronts_.size(), {});
-    for (std::uint32_t i = 0; i < root(); ++i) {
-        Front& f = fronts_[i];
-        f.parent = f.row == f.row_end ? root() : front_of[row_[f.row]];
-        children_[f.parent].push_back(i);
+        Draft draft{p, p + 1, blocks(1, static_cast<double>(fill_.below(p).size()))};
+        for (; !drafts_.empty() && can_merge(drafts_.back(), draft); drafts_.pop_back())
+            draft.first = drafts_.back().first, draft.filled += drafts_.back().filled;
+        drafts_.push_back(draft);
     }
 }
 
@@ -209,8 +130,8 @@ void SparseLdlt::attach(std::uint32_t more, const std::vector<Pair>& pairs) {
     std::sort(pairs_.begin(), pairs_.end(), [](const AttachedPair& a, const AttachedPair& b) {
         return a.place != b.place ? a.place < b.place : a.more < b.more;
     });
-    between_.resize(pairs.size());
-    more_block_.resize(std::size_t(9) * more * more);
+    size_anew(between_, pairs.size());
+    size_anew(more_block_, std::size_t(9) * more * more);
     find_attached_rows();
     place_numbers();
 }
@@ -219,7 +140,7 @@ void SparseLdlt::attach(std::uint32_t more, const std::vector<Pair>& pairs) {
 void SparseLdlt::find_attached_rows() {
     more_row_.clear();
     std::vector<std::uint32_t>& seen = position_;
-    seen.assign(more_, kNone);
+    fill_anew(seen, more_, kNone);
     std::size_t pair = 0;
     for (std::uint32_t i = 0; i < root(); ++i) {
         Front& f = fronts_[i];
@@ -228,8 +149,8 @@ void SparseLdlt::find_attached_rows() {
             if (seen[row] != i) seen[row] = i, more_row_.push_back(row);
         };
         for (; pair < pairs_.size() && pairs_[pair].place < f.last; ++pair) take(pairs_[pair].more);
-        for (const std::uint32_t child : children_[i])
-            for (std::uint32_t k = fronts_[child].more; k < fronts_[child].more_end; ++k)
+        for (std::uint32_t c = f.child; c != kNone; c = fronts_[c].sibling)
+            for (std::uint32_t k = fronts_[c].more; k < fronts_[c].more_end; ++k)
                 take(more_row_[k]);
         f.more_end = static_cast<std::uint32_t>(more_row_.size());
         std::sort(more_row_.begin() + f.more, more_row_.end());
@@ -239,7 +160,7 @@ void SparseLdlt::find_attached_rows() {
 /// Where each front's factors lie, and how much memory is needed.
 void SparseLdlt::place_numbers() {
     work_ = 0;
-    left_.resize(fronts_.size());
+    size_anew(left_, fronts_.size());
     std::size_t factors = 0, top = 0, highest = 0, widest = 1;
     for (std::uint32_t i = 0; i < fronts_.size(); ++i) {
         Front& f = fronts_[i];
@@ -252,17 +173,17 @@ void SparseLdlt::place_numbers() {
         widest = std::max<std::size_t>(widest, f.size);
         const double n = f.size, left = f.size - width(i);
         work_ += (n * n * n - left * left * left) / 6;
-        if (!children_[i].empty()) top = left_[children_[i][0]];
+        if (f.child != kNone) top = left_[f.child];
         left_[i] = top;
         top += static_cast<std::size_t>(left * left);
         highest = std::max(highest, top);
     }
-    factors_.resize(factors);
-    stack_.resize(highest);
-    front_.resize(widest * widest);
-    memory_.resize(widest * front::kPanel);
-    position_.resize(std::max<std::size_t>(rows_, widest));
-    x_.resize(std::size_t(3) * (rows_ + more_));
+    size_anew(factors_, factors);
+    size_anew(stack_, highest);
+    size_anew(front_, widest * widest);
+    size_anew(memory_, widest * front::kPanel);
+    size_anew(position_, std::max<std::size_t>(rows_, widest));
+    size_anew(x_, std::size_t(3) * (rows_ + more_));
 }
 
 // ---- numbers
@@ -294,7 +215,8 @@ bool SparseLdlt::factor() {
             std::copy(more_block_.begin(), more_block_.end(), front_.begin());
         else
             pair = gather(f, pair);
-        for (const std::uint32_t child : children_[i]) add_child(fronts_[child], left_[child], i);
+        for (std::uint32_t c = f.child; c != kNone; c = fronts_[c].sibling)
+            add_child(fronts_[c], left_[c], i);
         if (!kernels_.factor(front_.data(), f.size, width(i), memory_.data())) return false;
         const std::uint32_t pivots = width(i), left = f.size - pivots;
         for (std::uint32_t c = 0; c < pivots; ++c)

@@ -9,6 +9,9 @@
 #pragma once
 
 #include "math/dense_front.h"
+#include "math/fill.h"
+#include "math/least_degree.h"
+#include "math/row_graph.h"
 #include "math/types.h"
 
 #include <cstdint>
@@ -36,7 +39,8 @@ public:
 
     /// `rows` block rows, and the pairs of them that have blocks; a pair may come more than once,
     /// in either order. Returns whether `factor` takes no more than `most` multiplications, about;
-    /// if not, there are no rows, and the time and memory for them were not spent.
+    /// if not, there are no rows, and the time and memory for them were not spent. Takes memory
+    /// only where there is more to order than ever before.
     bool order(std::uint32_t rows, const std::vector<Pair>& pattern, double most = kAnyWork);
 
     /// `more` block rows, numbered from `rows` on, and which of the others each has blocks with,
@@ -91,19 +95,24 @@ private:
     /// those of `row_`, then those of `more_row_`.
     struct Front {
         std::uint32_t first, last;
-        std::uint32_t row, row_end;    ///< in row_
-        std::uint32_t more, more_end;  ///< in more_row_
-        std::uint32_t parent;
-        std::uint32_t size;   ///< numbers in a column
-        std::size_t factors;  ///< in factors_
+        std::uint32_t row, row_end;            ///< in row_
+        std::uint32_t more, more_end;          ///< in more_row_
+        std::uint32_t parent, child, sibling;  ///< its first child, the next of its parent
+        std::uint32_t size;                    ///< numbers in a column
+        std::size_t factors;                   ///< in factors_
     };
     struct AttachedPair {
         std::uint32_t place, more, told;  ///< of the row; attached row; index as told
     };
-    using Lists = std::vector<std::vector<std::uint32_t>>;
+    /// Columns [first, last) that may become a front, with the rows below the last of them.
+    struct Draft {
+        std::uint32_t first, last;
+        double filled;  ///< blocks that are not 0
+    };
 
-    void find_columns(const std::vector<Pair>& pattern);
-    void find_fronts(const Lists& structure);
+    void find_columns();
+    void find_fronts();
+    void find_drafts();
     void find_attached_rows();
     void place_numbers();
     std::size_t gather(const Front& front, std::size_t pair);
@@ -123,7 +132,6 @@ private:
     std::vector<std::uint32_t> column_first_, below_row_;  // [place] in below_; place of a block
     std::vector<Front> fronts_;  // children before parents; the last is that of attached rows
     std::vector<std::uint32_t> row_, more_row_;
-    Lists children_;                   // [front]
     std::vector<AttachedPair> pairs_;  // by place
 
     std::vector<Matrix3d> diagonal_, below_;  // [place], [slot]
@@ -132,6 +140,12 @@ private:
     std::vector<double> factors_, stack_, front_, memory_, x_;
     std::vector<std::size_t> left_;        // [front] in stack_: what it leaves to its parent
     std::vector<std::uint32_t> position_;  // memory
+    // memory of `order`
+    RowGraph graph_;
+    LeastDegree least_degree_;
+    Fill fill_;
+    std::vector<Draft> drafts_;
+    std::vector<std::uint32_t> front_of_;  // [place]
 };
 
 }  // namespace plumb

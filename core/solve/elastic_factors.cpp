@@ -2,6 +2,7 @@
 #include "solve/elastic_factors.h"
 
 #include "kernels/front_kernels.h"
+#include "math/growing.h"
 #include "solve/contact_stiffness.h"
 
 #include <algorithm>
@@ -19,19 +20,22 @@ constexpr std::size_t kKeepNear = 3;
 
 ElasticFactors::ElasticFactors(const World& world, const ElasticParts& parts)
     : system_(front_kernels()), places_(parts.particles(), Vector3d::Zero()) {
-    for (const auto& elements : parts.elements) elements->add_pairs(own_pairs_);
+    for (const auto& elements : parts.elements) elements->add_pairs(particle_pairs_);
     for (const Link& link : world.links)
-        if (link.is_between_particles()) own_pairs_.emplace_back(link.a.particle, link.b.particle);
+        if (link.is_between_particles())
+            particle_pairs_.emplace_back(link.a.particle, link.b.particle);
+    own_pairs_ = particle_pairs_.size();
     parts.balloons.add_pairs(parts.first_balloon_row(), pairs_);
     balloon_pairs_ = pairs_.size();
-    order(parts, {});
+    order(parts);
 }
 
-void ElasticFactors::order(const ElasticParts& parts, const std::vector<SparseLdlt::Pair>& near) {
-    near_ = near;
-    std::vector<SparseLdlt::Pair> pairs = own_pairs_;
-    pairs.insert(pairs.end(), near.begin(), near.end());
-    system_.order(parts.particles(), pairs);
+/// With those that touch, by made_of_.
+void ElasticFactors::order(const ElasticParts& parts) {
+    copy_anew(near_, made_of_.near);
+    particle_pairs_.resize(own_pairs_);
+    append(particle_pairs_, near_);
+    system_.order(parts.particles(), particle_pairs_);
     for (const auto& elements : parts.elements) elements->find_slots(system_);
     pairs_.resize(balloon_pairs_);
     contact_pairs_.clear();
@@ -52,12 +56,12 @@ void ElasticFactors::take_near(const ElasticParts& parts) {
             }
     if (known) return;
     if (made_of_.near.size() <= kKeepNear * near_now_.size())
-        near_now_.insert(near_now_.end(), made_of_.near.begin(), made_of_.near.end());
+        append(near_now_, made_of_.near);
     else
         drop();  // they are of pairs that have no blocks any more
     std::sort(near_now_.begin(), near_now_.end());
     near_now_.erase(std::unique(near_now_.begin(), near_now_.end()), near_now_.end());
-    made_of_.near = near_now_;
+    copy_anew(made_of_.near, near_now_);
 }
 
 /// Memory for as many attached rows and pairs as there may be.
@@ -81,7 +85,7 @@ void ElasticFactors::begin_step(const World& world, ElasticParts& parts, double 
     const std::size_t n = parts.particles();
     take_near(parts);
     if (made_of_.near != near_) {
-        order(parts, made_of_.near);
+        order(parts);
         exist_ = false;
     }
     if (made_of_.places.size() != n || made_of_.before.size() != n ||
@@ -104,9 +108,12 @@ void ElasticFactors::begin_step(const World& world, ElasticParts& parts, double 
 void ElasticFactors::store(World& world) {
     if (made_ > 1) drop();
     if (world.kept_factors == made_of_) return;
-    world.kept_factors.contacts.reserve(made_of_.contacts.capacity());
-    world.kept_factors.bodies.reserve(made_of_.bodies.capacity());
-    world.kept_factors = made_of_;
+    KeptFactors& kept = world.kept_factors;
+    kept.contacts.reserve(made_of_.contacts.capacity());
+    kept.bodies.reserve(made_of_.bodies.capacity());
+    make_room(kept.near, made_of_.near.size());
+    make_room(kept.rows, made_of_.rows.size());
+    kept = made_of_;
 }
 
 bool ElasticFactors::make(ElasticParts& parts, const ParticlePlaces& x,
@@ -141,7 +148,7 @@ void ElasticFactors::attach_contacts(const ElasticParts& parts) {
     if (rows == system_.more() && pairs_now_ == contact_pairs_) return;
     std::swap(pairs_now_, contact_pairs_);
     pairs_.resize(balloon_pairs_);
-    pairs_.insert(pairs_.end(), contact_pairs_.begin(), contact_pairs_.end());
+    append(pairs_, contact_pairs_);
     system_.attach(rows, pairs_);
 }
 

@@ -31,7 +31,7 @@ public:
     void solve(std::vector<Vector3d>& b) { system_.solve(b); }
 
 private:
-    void order(const ElasticParts& parts, const std::vector<SparseLdlt::Pair>& near);
+    void order(const ElasticParts& parts);
     void take_near(const ElasticParts& parts);
     void reserve(const ElasticParts& parts);
     void attach_contacts(const ElasticParts& parts);
@@ -41,9 +41,11 @@ private:
 
     SparseLdlt system_;
     bool exist_ = false;
-    int made_ = 0;                                   // in this step
-    KeptFactors made_of_;                            // if they exist
-    std::vector<SparseLdlt::Pair> own_pairs_;        ///< of particles, by elements and links
+    int made_ = 0;         // in this step
+    KeptFactors made_of_;  // if they exist
+    /// Of particles: first those of elements and links, then those that touch.
+    std::vector<SparseLdlt::Pair> particle_pairs_;
+    std::size_t own_pairs_ = 0;
     std::vector<SparseLdlt::Pair> near_, near_now_;  ///< those that touch, as they were ordered
     /// Of particles and attached rows, as told: first those of balloons, then those of contacts.
     std::vector<SparseLdlt::Pair> pairs_, contact_pairs_, pairs_now_;

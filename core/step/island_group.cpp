@@ -97,10 +97,10 @@ bool IslandGroup::find_system(const World& world, ExactIsland& island, const Con
     }
     const std::uint32_t n = from.last_body - from.first_body;
     if (island.system.rows() == n && island.pattern == pattern_) return true;
-    island.pattern = pattern_;
+    std::swap(island.pattern, pattern_);
     const bool large = is_large(world.settings, n);
-    return island.system.analyse(n, pattern_, large,
-                                 large ? most_products(n) / kFewest : kAnyProducts);
+    return island.system.analyse(n, island.pattern, large,
+                                 large ? most_products(n) / kFewest : kAnyProducts, spare_);
 }
 
 /// What it is, which decides how it is treated.

@@ -88,6 +88,7 @@ private:
     std::vector<BodyPair> set_aside_;     // whose islands would take too much
     std::uint32_t costly_ = 0;            // of those islands
     IslandSystem::Pattern pattern_;       // memory of find_system, as the next
+    IslandSystem::Spare spare_;           // memory of a large one
     std::vector<std::uint32_t> tied_;     // bodies of one tie
 
     std::vector<ExactIsland> islands_;  // the first count_ are in use

@@ -2,6 +2,7 @@
 #include "step/island_system.h"
 
 #include "kernels/front_kernels.h"
+#include "math/growing.h"
 
 namespace plumb {
 namespace {
@@ -12,20 +13,29 @@ constexpr double kOfProduct = 216;
 }  // namespace
 
 bool IslandSystem::analyse(std::uint32_t rows, const Pattern& pattern, bool many,
-                           std::uint64_t most) {
-    fronts_.reset();
-    if (!many) return blocks_.analyse(rows, pattern, most);
+                           std::uint64_t most, Spare& spare) {
+    const auto give_back = [&] {
+        if (fronts_) spare = std::move(fronts_);
+    };
+    if (!many) {
+        give_back();
+        return blocks_.analyse(rows, pattern, most);
+    }
     blocks_.analyse(0, {});
-    std::vector<SparseLdlt::Pair> pairs;
-    pairs.reserve(rows + 4 * pattern.size());
-    for (std::uint32_t i = 0; i < rows; ++i) pairs.emplace_back(2 * i, 2 * i + 1);
+    if (!fronts_) fronts_ = std::move(spare);
+    if (!fronts_) fronts_ = std::make_unique<SparseLdlt>(front_kernels());
+    if (analyse_many(rows, pattern, most)) return true;
+    give_back();
+    return false;
+}
+
+bool IslandSystem::analyse_many(std::uint32_t rows, const Pattern& pattern, std::uint64_t most) {
+    pairs_.clear();
+    for (std::uint32_t i = 0; i < rows; ++i) pairs_.emplace_back(2 * i, 2 * i + 1);
     for (const auto& [i, j] : pattern)
         if (i != j)
-            for (std::uint32_t k = 0; k < 4; ++k) pairs.emplace_back(2 * i + k / 2, 2 * j + k % 2);
-    fronts_ = std::make_unique<SparseLdlt>(front_kernels());
-    if (fronts_->order(2 * rows, pairs, kOfProduct * static_cast<double>(most))) return true;
-    fronts_.reset();
-    return false;
+            for (std::uint32_t k = 0; k < 4; ++k) pairs_.emplace_back(2 * i + k / 2, 2 * j + k % 2);
+    return fronts_->order(2 * rows, pairs_, kOfProduct * static_cast<double>(most));
 }
 
 std::uint64_t IslandSystem::block_products() const {
@@ -57,7 +67,7 @@ void IslandSystem::add_to_fronts(std::uint32_t i, std::uint32_t j, const Matrix6
 
 void IslandSystem::solve(std::vector<Vector6d>& x) {
     if (!fronts_) return blocks_.solve(x);
-    halves_.resize(2 * x.size());
+    size_anew(halves_, 2 * x.size());
     for (std::size_t i = 0; i < x.size(); ++i)
         halves_[2 * i] = x[i].head<3>(), halves_[2 * i + 1] = x[i].tail<3>();
     fronts_->solve(halves_);

@@ -16,10 +16,14 @@ class IslandSystem {
 public:
     using Pattern = BlockCholesky::Pattern;
 
-    /// Chooses the order of elimination; `many`: of more than a few hundred bodies, for which
-    /// memory is taken anew. Returns whether `factor` takes no more than about `most` products; if
-    /// not, there are no rows.
-    bool analyse(std::uint32_t rows, const Pattern& pattern, bool many, std::uint64_t most);
+    /// The memory of systems of many bodies, which they pass on to each other: there are few of
+    /// them, and great ones.
+    using Spare = std::unique_ptr<SparseLdlt>;
+
+    /// Chooses the order of elimination; `many`: of more than a few hundred bodies. Returns whether
+    /// `factor` takes no more than about `most` products; if not, there are no rows.
+    bool analyse(std::uint32_t rows, const Pattern& pattern, bool many, std::uint64_t most,
+                 Spare& spare);
 
     std::uint32_t rows() const { return fronts_ ? fronts_->rows() / 2 : blocks_.rows(); }
 
@@ -42,12 +46,14 @@ public:
     void solve(std::vector<Vector6d>& x);
 
 private:
+    bool analyse_many(std::uint32_t rows, const Pattern& pattern, std::uint64_t most);
     void add_to_fronts(std::uint32_t i, const Matrix6d& block);
     void add_to_fronts(std::uint32_t i, std::uint32_t j, const Matrix6d& block);
 
     BlockCholesky blocks_;
-    std::unique_ptr<SparseLdlt> fronts_;  // of many rows: two of 3 × 3 blocks a body
-    std::vector<Vector3d> halves_;        // memory of solve
+    std::unique_ptr<SparseLdlt> fronts_;   // of many rows: two of 3 × 3 blocks a body
+    std::vector<Vector3d> halves_;         // memory of solve
+    std::vector<SparseLdlt::Pair> pairs_;  // memory of analyse_many
 };
 
 }  // namespace plumb

@@ -36,6 +36,16 @@ TEST(BlockCholesky, SolvesRandomGraphsWithPairsThatComeTwice) {
     }
 }
 
+TEST(BlockCholesky, AnalysesOnePatternAfterAnother) {
+    Random random(3);
+    BlockCholesky system;
+    for (const std::uint32_t n : {5u, 30u, 2u, 17u}) {
+        const Pattern pattern = test::drawn_pattern(n, random);
+        ASSERT_TRUE(system.analyse(n, pattern));
+        test::expect_solves(pattern, random, system);
+    }
+}
+
 TEST(BlockCholesky, EliminatesAChainWithoutFill) {
     Pattern chain;
     for (std::uint32_t i = 1; i < 50; ++i) chain.emplace_back(i - 1, i);

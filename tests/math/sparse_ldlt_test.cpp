@@ -131,6 +131,17 @@ TEST(SparseLdlt, SolvesChainsGridsAndPieces) {
     s.fill(1), s.expect_solved();
 }
 
+TEST(SparseLdlt, OrdersOnePatternAfterAnother) {
+    Systems s(25, grid(5), 11);
+    for (const std::uint32_t n : {13u, 3u, 9u, 1u, 10u}) {
+        s.pattern = grid(n), s.attached.clear();
+        s.sparse.order(n * n, s.pattern);
+        s.fill(1), s.expect_solved();
+        s.attach(2, n);
+        s.fill(1), s.expect_solved();
+    }
+}
+
 TEST(SparseLdlt, SolvesWithRowsThatComeAndGo) {
     Systems s(81, grid(9), 3);
     for (const auto& [more, each] : std::vector<std::pair<std::uint32_t, std::uint32_t>>{

@@ -27,6 +27,7 @@ struct RodPile {
     std::vector<IslandPoint> points;
     std::vector<Vector6d> velocity;
     IslandSystem system;
+    IslandSystem::Spare spare;
 
     RodPile(int width, int rows) {
         IslandSystem::Pattern pairs;
@@ -51,7 +52,8 @@ struct RodPile {
                 }
             }
         }
-        system.analyse(static_cast<std::uint32_t>(bodies.size()), pairs, false, kAnyProducts);
+        system.analyse(static_cast<std::uint32_t>(bodies.size()), pairs, false, kAnyProducts,
+                       spare);
         velocity.resize(bodies.size());
     }
 
@@ -139,6 +141,7 @@ struct Train {
     std::vector<Vector6d> velocity;
     AxisDrive drive;
     IslandSystem system;
+    IslandSystem::Spare spare;
 
     explicit Train(std::uint32_t count) : velocity(count, Vector6d::Zero()) {
         IslandSystem::Pattern pairs;
@@ -150,7 +153,7 @@ struct Train {
         }
         add_row(count - 1, kImmovable);
         rows.back().drive = &drive;
-        system.analyse(count, pairs, false, kAnyProducts);
+        system.analyse(count, pairs, false, kAnyProducts, spare);
     }
     double mass() const { return 0.5 * double(bodies.size() * (bodies.size() + 1)); }
     Island island() { return {bodies, velocity, points, rows}; }
@@ -225,7 +228,7 @@ TEST(IslandSolver, ARowHasUpToFourBodies) {
     IslandSystem::Pattern all;
     for (std::uint32_t i = 0; i < 4; ++i)
         for (std::uint32_t j = 0; j < i; ++j) all.emplace_back(i, j);
-    train.system.analyse(4, all, false, kAnyProducts);
+    train.system.analyse(4, all, false, kAnyProducts, train.spare);
     train.velocity[0][0] = 3;
     IslandSolver solver;
     EXPECT_TRUE(solver.solve(train.island(), train.system, 3).solved);

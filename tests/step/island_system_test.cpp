@@ -15,7 +15,8 @@ using Pattern = IslandSystem::Pattern;
 void expect_solves(std::uint32_t rows, const Pattern& pattern, bool many, std::uint32_t seed) {
     Random random(seed);
     IslandSystem system;
-    ASSERT_TRUE(system.analyse(rows, pattern, many, kAnyProducts));
+    IslandSystem::Spare spare;
+    ASSERT_TRUE(system.analyse(rows, pattern, many, kAnyProducts, spare));
     ASSERT_EQ(system.rows(), rows);
     test::expect_solves(pattern, random, system);
 }
@@ -36,14 +37,15 @@ TEST(IslandSystem, RefusesWhatTakesTooMuch) {
     for (const bool before : {false, true})
         for (const bool many : {false, true}) {
             IslandSystem system;
-            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts));
-            ASSERT_TRUE(system.analyse(30, pattern, many, kAnyProducts));
+            IslandSystem::Spare spare;
+            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts, spare));
+            ASSERT_TRUE(system.analyse(30, pattern, many, kAnyProducts, spare));
             const std::uint64_t needed = system.block_products();
             EXPECT_GT(needed, 30u + pattern.size() / 2);
-            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts));
-            EXPECT_TRUE(system.analyse(30, pattern, many, needed));
-            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts));
-            EXPECT_FALSE(system.analyse(30, pattern, many, needed / 3));
+            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts, spare));
+            EXPECT_TRUE(system.analyse(30, pattern, many, needed, spare));
+            ASSERT_TRUE(system.analyse(30, pattern, before, kAnyProducts, spare));
+            EXPECT_FALSE(system.analyse(30, pattern, many, needed / 3, spare));
             EXPECT_EQ(system.rows(), 0u);
         }
 }
