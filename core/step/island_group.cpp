@@ -245,7 +245,7 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
 void IslandGroup::solve(const World& world, StepReport& report) {
     workers_.run([&](std::uint32_t worker) {
         for (std::size_t i = worker; i < count_; i += workers_.count()) {
-            IslandSubstep(world.settings, columns_, solvers_[worker], islands_[i]).solve();
+            IslandSubstep(world, columns_, solvers_[worker], islands_[i]).solve();
             bound_gain(world, columns_, islands_[i]);
         }
     });
