@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
-/// What no constraint may change: linear and angular momentum of bodies that only touch each other.
+/// What no constraint may change: linear and angular momentum of bodies that only touch each other,
+/// or are joined to each other.
 /// Steps: 0.01 s with 5 + 5 iterations, 1/60 s with 20 substeps of 1 + 1, and others at random.
+#include "support/draw_settings.h"
 #include "support/random.h"
 #include "support/scenes.h"
 
@@ -87,31 +89,36 @@ struct Momenta {
     }
 };
 
+std::string words_of(const Settings& s) {
+    return std::to_string(s.dt) + " s x " + std::to_string(s.substeps) + " x (" +
+           std::to_string(s.velocity_iterations) + " + " + std::to_string(s.position_iterations) +
+           ")" + (s.exact_islands ? "" : ", iterated");
+}
+
+/// Expects the momentum back that there was. Spin becomes speed, and the other way round.
+void expect_kept(const World& world, const Momenta& before, const std::string& where) {
+    const Momenta after(world);
+    const double linear = (after.linear - before.linear).norm() /
+                          std::max(before.linear_sum, after.linear_sum),
+                 angular = (after.angular - before.angular).norm() /
+                           std::max(before.angular_sum, after.angular_sum);
+    std::cout << where << ": linear " << linear << ", angular " << angular << "\n";
+    const double bound = world.settings.precision == Precision::single ? 1e-6 : 1e-10;
+    EXPECT_LT(linear, bound) << where;
+    EXPECT_LT(angular, bound) << where;
+}
+
 /// Runs a free heap and expects its momentum back.
 void expect_momentum_kept(const Scene& empty, const std::string& collider, int side, double seconds,
                           double spin, unsigned seed) {
     Random random(seed);
-    const Settings& set = empty.settings;
-    const std::string where = std::to_string(set.dt) + " s x " + std::to_string(set.substeps) +
-                              " x (" + std::to_string(set.velocity_iterations) + " + " +
-                              std::to_string(set.position_iterations) + "), spin " +
-                              std::to_string(spin) + (set.exact_islands ? "" : ", iterated");
+    const std::string where = words_of(empty.settings) + ", spin " + std::to_string(spin);
     Simulation simulation(FreeHeap(empty, side, spin, seed % 2 == 0 ? 1 : 3, random).scene,
                           colliders(), collider);
     const Momenta before(simulation.world());
     const double energy = kinetic_energy(simulation.world());
     run_for(simulation, seconds);
-    const Momenta after(simulation.world());
-    // spin becomes speed, and the other way round
-    const double linear = (after.linear - before.linear).norm() /
-                          std::max(before.linear_sum, after.linear_sum),
-                 angular = (after.angular - before.angular).norm() /
-                           std::max(before.angular_sum, after.angular_sum);
-    std::cout << where << ": linear " << linear << ", angular " << angular << ", energy left "
-              << kinetic_energy(simulation.world()) / energy << "\n";
-    const double bound = set.precision == Precision::single ? 1e-6 : 1e-10;
-    EXPECT_LT(linear, bound) << where;
-    EXPECT_LT(angular, bound) << where;
+    expect_kept(simulation.world(), before, where);
     EXPECT_LT(kinetic_energy(simulation.world()), 0.95 * energy) << "they must have met";
 }
 
@@ -137,6 +144,101 @@ TEST_P(Momentum, OfAFreeHeapIsKeptAtAnySettings) {
         const double spin = std::pow(10.0, random.number(0, 2.5));
         expect_momentum_kept(s, collider(), 2, 0.4, spin, 100u + static_cast<unsigned>(i));
     }
+}
+
+/// Links in a row along x, with others that stick out of them, spun as one about their middle, and
+/// balls and boxes that fly into them.
+struct HitTree {
+    Scene scene;
+
+    HitTree(const Settings& settings, Random& random) {
+        scene.settings = settings;
+        scene.settings.gravity.setZero();
+        scene.materials[0].restitution = random.number(0, 1);
+        scene.materials[0].friction = random.number(0, 1);
+        const std::uint32_t links = 3 + random.below(10);
+        while (scene.bodies.size() < links) add_link(random);
+        const Vector spin = random.vector(2);
+        for (BodySpec& link : scene.bodies) {
+            link.angular_velocity = spin;
+            link.velocity = spin.cross(link.placement.position - end_ / 2);
+        }
+        add_projectile(random, 0.6);
+        if (random.below(2) == 0) add_projectile(random, 1);
+    }
+
+private:
+    /// On at the end of the row, or out of the middle of its last link.
+    void add_link(Random& random) {
+        const auto body = static_cast<std::uint32_t>(scene.bodies.size());
+        const bool aside = body == row_ + 1 && random.below(3) == 0;
+        const double length = random.number(0.1, 0.4), radius = random.number(0.05, 0.12) * length;
+        const Vector way =
+            aside ? Vector(0, 0, 1)
+                  : Vector(1, random.number(-0.4, 0.4), random.number(-0.2, 0.2)).normalized();
+        const Vector start = aside ? scene.bodies[row_].placement.position : end_;
+        const Vector half = length / 2 * way;
+        const Geometry shape = random.below(2) == 0 ? capsule(radius, length / 2 - radius)
+                                                    : box({radius, length / 2, radius});
+        BodySpec& link = add_body(scene, shape, start + half);
+        link.placement.rotation = Rotation::FromTwoVectors(Vector::UnitY(), way);
+        link.mass = random.number(0.1, 1);
+        if (body > 0) join(random, body, start);
+        if (aside) return;
+        end_ += 2 * half, row_ = body;
+    }
+
+    void join(Random& random, std::uint32_t body, const Vector& at) {
+        constexpr JointKind kKinds[] = {JointKind::ball, JointKind::hinge, JointKind::universal,
+                                        JointKind::slider};
+        add_joint(scene, kKinds[random.below(4)], body, row_, at).frame = random.rotation();
+    }
+
+    void add_projectile(Random& random, double away) {
+        const double size = random.number(0.04, 0.15);
+        const Vector at(random.number(0, 1) * end_.x(), -away, random.number(-0.05, 0.05));
+        BodySpec& b = random.below(2) == 0 ? add_body(scene, sphere(size), at)
+                                           : add_body(scene, box({size, size, size}), at);
+        b.mass = random.number(0.2, 2);
+        b.velocity = {0, random.number(2, 8), 0};
+        b.angular_velocity = random.vector(2);
+    }
+
+    Vector end_ = Vector::Zero();  // of the row
+    std::uint32_t row_ = 0;        // its last link
+};
+
+/// Whether the step tells of joints or islands that it did not solve.
+bool tells(const StepReport& report) {
+    return report.unsolved_trees + report.unsolved_islands + report.gaping.joints > 0;
+}
+
+TEST_P(Momentum, OfAFreeTreeThatIsHitIsKept) {
+    Random random(31);
+    int met = 0;
+    for (int draw = 0; draw < 30; ++draw) {
+        Scene s = scene();
+        if (draw % 3 == 1) use_fine_steps(s.settings);
+        if (draw % 3 == 2) draw_steps(s.settings, random, {0.001, 0.02, 40, 1, 50});
+        if (draw % 5 == 4) s.settings.exact_islands = 0;
+        if (draw % 10 == 7) s.settings.joints = JointMethod::iterate;
+        Simulation simulation(HitTree(s.settings, random).scene, colliders(), collider());
+        const std::string where = words_of(s.settings) + ", draw " + std::to_string(draw);
+        const Momenta before(simulation.world());
+        const double energy = kinetic_energy(simulation.world());
+        double most = energy;
+        bool told = false, touched = false;
+        while (simulation.time() < 0.6) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.finite) << where;
+            told |= tells(report), touched |= report.contacts > 0;
+            most = std::max(most, kinetic_energy(simulation.world()));
+        }
+        met += touched;
+        expect_kept(simulation.world(), before, where);
+        EXPECT_TRUE(told || most < 1.001 * energy) << where << ", " << most / energy;
+    }
+    EXPECT_GT(met, 20);
 }
 
 TEST_P(Momentum, SurvivesABallJoint) {
