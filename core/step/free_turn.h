@@ -36,37 +36,52 @@ struct FreeTurn {
 /// What is missing by more than this share is not rounding, in double precision.
 inline constexpr double kMissing = 1e-12;
 
-/// The turn that brings the angular momentum back that bodies had before their velocities changed,
-/// if more is missing than `rounding` of what they took from each other. `each(visit)` calls
-/// visit(body, change) for all of them, at the poses of the start.
-template <class Each>
-FreeTurn turn_back(const Bodies& b, double rounding, Each each) {
-    double mass = 0;
-    Vector3d moment = Vector3d::Zero(), origin = Vector3d::Zero();
-    each([&](std::uint32_t i, const Velocity<double>&) {
-        if (mass == 0) origin = b.position[i];
-        mass += b.mass[i], moment += b.mass[i] * (b.position[i] - origin);
-    });
-    if (!(mass > 0)) return {};
-    FreeTurn turn;
-    turn.centre = origin + moment / mass;
+/// Bodies that may be turned as one piece.
+struct FreeBodies {
+    Vector3d centre = Vector3d::Zero();    ///< of mass [m]
+    Matrix3d inertia = Matrix3d::Zero();   ///< about it [kg m²]
+    Vector3d momentum = Vector3d::Zero();  ///< angular, about it, of the velocities asked about
+    double sizes = 0;                      ///< of the momenta of which that is the sum [kg m²/s]
 
-    double taken = 0;
-    Vector3d gained = Vector3d::Zero();
-    Matrix3d inertia = Matrix3d::Zero();
-    each([&](std::uint32_t i, const Velocity<double>& change) {
-        const Vector3d arm = b.position[i] - turn.centre;
-        const Vector3d orbit = b.mass[i] * arm.cross(change.v),
-                       spin = spin_momentum(b, i, change.w);
-        gained += orbit + spin;
-        taken += orbit.norm() + spin.norm();
+    /// `each(visit)` calls visit(body, velocity) for all of them.
+    template <class Each>
+    FreeBodies(const Bodies& b, Each each) {
+        double mass = 0;
+        Vector3d moment = Vector3d::Zero(), origin = Vector3d::Zero();
+        each([&](std::uint32_t i, const Velocity<double>&) {
+            if (mass == 0) origin = b.position[i];
+            mass += b.mass[i], moment += b.mass[i] * (b.position[i] - origin);
+        });
+        if (mass > 0) centre = origin + moment / mass;
+        each([&](std::uint32_t i, const Velocity<double>& v) { add(b, i, v); });
+    }
+
+    /// The turn that takes such a momentum from them.
+    FreeTurn turn_against(const Vector3d& gained) const {
+        const Vector3d rate = -inertia.ldlt().solve(gained);
+        return rate.allFinite() ? FreeTurn{centre, rate} : FreeTurn{};
+    }
+
+private:
+    void add(const Bodies& b, std::uint32_t i, const Velocity<double>& v) {
+        const Vector3d arm = b.position[i] - centre;
+        const Vector3d orbit = b.mass[i] * arm.cross(v.v), spin = spin_momentum(b, i, v.w);
+        momentum += orbit + spin;
+        sizes += orbit.norm() + spin.norm();
         const Matrix3d axes = b.orientation[i].toRotationMatrix();
         inertia += axes * b.inertia[i].asDiagonal() * axes.transpose() +
                    b.mass[i] * (arm.squaredNorm() * Matrix3d::Identity() - arm * arm.transpose());
-    });
-    if (gained.norm() > rounding * taken) turn.rate = -inertia.ldlt().solve(gained);
-    if (!turn.rate.allFinite()) turn.rate.setZero();
-    return turn;
+    }
+};
+
+/// The turn that brings the angular momentum back that bodies had before their velocities changed,
+/// if more is missing than `rounding` of what they took from each other. `each`: as above, with
+/// those changes, at the poses of the start.
+template <class Each>
+FreeTurn turn_back(const Bodies& b, double rounding, Each each) {
+    const FreeBodies all(b, each);
+    const bool is_missing = all.momentum.norm() > rounding * all.sizes;
+    return is_missing ? all.turn_against(all.momentum) : FreeTurn{};
 }
 
 /// Gives it to a tree that was solved by itself. `pushed`: velocities with forces alone, in the
