@@ -5,6 +5,7 @@
 #include "math/free_rotation.h"
 #include "schedule/joint_trees.h"
 #include "step/energy_loan.h"
+#include "step/free_turn.h"
 #include "step/stages.h"
 #include "ties/joint_state.h"
 #include "ties/lever_of.h"
@@ -185,6 +186,7 @@ void scale_impulses(JointTable& table, const std::vector<std::uint32_t>& joints,
 DividedTrees::Tree::Tree(const World& world, const JointForest& forest)
     : joints(joints_of(forest)),
       first(joints.front()),
+      drifts(forest.nodes.front().parent == kFree),
       holder(world, first),
       solver(world, forest, kFiner * world.settings.joint_tolerance) {}
 
@@ -317,6 +319,12 @@ void DividedTrees::choose(World& world, double h) {
     }
 }
 
+/// Levers of what hangs by nothing must not change its angular momentum.
+void DividedTrees::take_velocities(Bodies& bodies, const Tree& tree) {
+    tree.solver.take_velocities(bodies);
+    if (tree.drifts) turn_back(bodies, tree.bodies, tree.pushed);
+}
+
 /// The energy_defect of a part that was just solved; 0 where it cannot be told.
 double DividedTrees::defect_of(const World& world, const SubstepTime& time, double fall,
                                const Tree& tree) {
@@ -346,7 +354,7 @@ void DividedTrees::bound_gain(World& world, double h, Tree& tree) const {
             loan.owed_after(share) / static_cast<double>(tree.joints.size());
     if (share == 1) return;
     tree.solver.keep_share(share);
-    tree.solver.take_velocities(b);
+    take_velocities(b, tree);
 }
 
 /// From where its bodies began. Returns whether the part can stand as it is, which the `last` try
@@ -368,7 +376,7 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     tree.solver.begin(world, time);
     tree.solver.solve(last);
     if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, tree);
-    tree.solver.take_velocities(b);
+    take_velocities(b, tree);
     if (!last && !tree.solver.open().empty()) return false;
     const bool braked = tree.solver.took_levers_of_the_end();
     const double defect = braked ? 0 : defect_of(world, time, fall, tree);

@@ -55,6 +55,7 @@ private:
     struct Tree {
         std::vector<std::uint32_t> joints;
         std::uint32_t first;  ///< joint, which keeps the pace
+        bool drifts;          ///< it hangs by nothing
         TreeHolder holder;
         std::uint32_t first_of_holder = 0;  ///< tree that hangs by the same, or this one
         std::vector<std::uint32_t> bodies, drives;
@@ -79,6 +80,7 @@ private:
     static bool turns_little(const Bodies& bodies, const Tree& tree, double h);
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
+    static void take_velocities(Bodies& bodies, const Tree& tree);
     static double defect_of(const World& world, const SubstepTime& time, double fall,
                             const Tree& tree);
     void bound_gain(World& world, double h, Tree& tree) const;

@@ -154,8 +154,13 @@ void IslandColumns::give_changes(Bodies& all) const {
     }
 }
 
-void IslandColumns::give_shifts(Bodies& all) const {
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
+bool IslandColumns::shifts(const ExactIsland& island) const {
+    const std::span<const Vector6d> all = bodies_in(shift, island);
+    return std::any_of(all.begin(), all.end(), [](const Vector6d& s) { return !s.isZero(0); });
+}
+
+void IslandColumns::give_shifts(Bodies& all, const ExactIsland& island) const {
+    for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
         if (shift[i].isZero(0)) continue;
         const std::uint32_t body = bodies[i].body;
         all.position[body] += h * shift[i].head<3>();

@@ -50,8 +50,9 @@ struct IslandColumns {
 
     /// Adds what the substep changed to the bodies' velocities.
     void give_changes(Bodies& bodies) const;
-    /// Shifts the bodies.
-    void give_shifts(Bodies& bodies) const;
+    /// Whether bodies of an island are shifted; and shifts them.
+    bool shifts(const ExactIsland& island) const;
+    void give_shifts(Bodies& bodies, const ExactIsland& island) const;
     /// Adds what the contacts bear.
     void add_impulses(ContactSums& sums) const;
 

@@ -3,6 +3,7 @@
 
 #include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
+#include "step/free_turn.h"
 #include "step/island_demands.h"
 #include "step/island_loan.h"
 #include "step/island_substep.h"
@@ -245,7 +246,7 @@ std::uint32_t IslandGroup::begin(const World& world, double h, const PushOut& pu
 void IslandGroup::solve(const World& world, StepReport& report) {
     workers_.run([&](std::uint32_t worker) {
         for (std::size_t i = worker; i < count_; i += workers_.count()) {
-            IslandSubstep(world.settings, columns_, solvers_[worker], islands_[i]).solve();
+            IslandSubstep(world, columns_, solvers_[worker], islands_[i]).solve();
             bound_gain(world, columns_, islands_[i]);
         }
     });
@@ -263,7 +264,25 @@ void IslandGroup::note_open(StepReport& report, const ExactIsland& island) const
 
 void IslandGroup::take_changes(Bodies& bodies) const { columns_.give_changes(bodies); }
 
-void IslandGroup::open_apart(Bodies& bodies) const { columns_.give_shifts(bodies); }
+/// What moves to another place with the velocity that it has would take angular momentum along.
+void IslandGroup::open_apart(Bodies& bodies) const {
+    for (const ExactIsland& island : taken()) {
+        const auto each = [&](auto visit) {
+            for (const SolvedBody& body : bodies_in(columns_.bodies, island))
+                visit(body.body, {bodies.velocity[body.body], bodies.angular_velocity[body.body]});
+        };
+        if (!columns_.shifts(island)) continue;
+        const Vector3d before = FreeBodies(bodies, each).momentum;
+        columns_.give_shifts(bodies, island);
+        if (!island.flies) continue;
+        const FreeBodies after(bodies, each);
+        const FreeTurn turn = after.turn_against(after.momentum - before);
+        for (const SolvedBody& body : bodies_in(columns_.bodies, island)) {
+            const Velocity<double> more = turn.of(bodies, body.body);
+            bodies.velocity[body.body] += more.v, bodies.angular_velocity[body.body] += more.w;
+        }
+    }
+}
 
 void IslandGroup::add_impulses(ContactSums& sums) const { columns_.add_impulses(sums); }
 

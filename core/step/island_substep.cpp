@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/island_substep.h"
 
+#include "step/free_turn.h"
+
 #include <algorithm>
 
 namespace plumb {
@@ -24,6 +26,7 @@ void IslandSubstep::solve() {
         sweep();
     else
         solve_exactly();
+    turn_back();
     const bool fails = island_.given_up || island_.effort == IslandEffort::swept;
     if (island_.is_meshed && island_.was_torn && fails) draw_together();
 }
@@ -71,6 +74,7 @@ bool IslandSubstep::close() {
         const double before = island_.open;
         was_solved |= island_.solved && i > 0;
         island_.solved = solve_system(island_.effort);
+        turn_back();
         ask();
         const bool closes = !island_.is_meshed && island_.open <= 0.5 * before;
         if (!(island_.open > tolerance) || (!island_.solved && i > 0 && !closes)) break;
@@ -87,6 +91,22 @@ bool IslandSubstep::solve_system(IslandEffort effort) {
     island_.stirred |= report.stirred;
     island_.account.take(report.factorisations * island_.system.block_products());
     return report.solved;
+}
+
+/// Its levers turn by their loads (TiedJoints::stiffen).
+void IslandSubstep::turn_back() {
+    if (!island_.flies || island_.ties.empty()) return;
+    const FreeTurn turn = plumb::turn_back(bodies_, kMissing, [&](auto visit) {
+        for (std::size_t i = 0; i < start_.size(); ++i) {
+            const Vector6d change = all_.velocity[i] - start_[i];
+            visit(all_.bodies[i].body, {change.head<3>(), change.tail<3>()});
+        }
+    });
+    if (turn.is_none()) return;
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+        const Velocity<double> more = turn.of(bodies_, all_.bodies[i].body);
+        all_.velocity[i].head<3>() += more.v, all_.velocity[i].tail<3>() += more.w;
+    }
 }
 
 /// What has taken too much in vain is swept from now on.

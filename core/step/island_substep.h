@@ -15,9 +15,10 @@ namespace plumb {
 
 class IslandSubstep {
 public:
-    IslandSubstep(const Settings& settings, IslandColumns& columns, IslandSolver& solver,
+    IslandSubstep(const World& world, IslandColumns& columns, IslandSolver& solver,
                   ExactIsland& island)
-        : settings_(settings),
+        : bodies_(world.bodies),
+          settings_(world.settings),
           ties_(columns.ties),
           solver_(solver),
           island_(island),
@@ -38,6 +39,7 @@ private:
     bool close();
     bool solve_system(IslandEffort effort);
     void give_up_if_in_vain();
+    void turn_back();
 
     /// Back to the velocities of the start; impulses stay.
     void begin_anew() { std::copy(start_.begin(), start_.end(), all_.velocity.begin()); }
@@ -60,6 +62,7 @@ private:
     void bound_energy();
     void bound_speed();
 
+    const Bodies& bodies_;
     const Settings& settings_;
     TieRows& ties_;
     IslandSolver& solver_;

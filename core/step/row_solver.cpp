@@ -12,6 +12,7 @@
 #include "solve/surface_contact_group.h"
 #include "step/contact_solver.h"
 #include "step/energy_bound.h"
+#include "step/free_islands.h"
 #include "step/joint_energy_bound.h"
 #include "step/joint_solver.h"
 #include "step/joint_tree_group.h"
@@ -65,6 +66,7 @@ public:
             if (exact_deformables_) exact_deformables_->take(world, pairs, solved_ties_);
         });
         if (has_impacts_) energy_.load(world, contacts_->pairs());
+        free_islands_.load(world, contacts_->pairs());
         for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
         if (has_impacts_) {
@@ -136,7 +138,7 @@ public:
         iterations_ += settings_.velocity_iterations;
     }
 
-    void solve_positions(StepReport& report, Ledger& ledger) override {
+    void solve_positions(const World& world, StepReport& report, Ledger& ledger) override {
         const auto active = std::count_if(groups_.begin(), groups_.end(),
                                           [](const auto& group) { return !group->empty(); });
         trees_alone_ = false;
@@ -146,15 +148,18 @@ public:
         const std::uint32_t iterations =
             alone ? std::min(settings_.position_iterations, 1u) : settings_.position_iterations;
         trees_alone_ = alone && iterations > 0;
-        workers_.run([this, alone, iterations, &ledger](std::uint32_t worker) {
+        turned_ = false;
+        workers_.run([&, this](std::uint32_t worker) {
             PassSettings<Real> pass = pass_;
-            pass.alone = alone;
             pass.rounds = rounds_;
-            for (std::uint32_t i = 0; i < iterations; ++i) {
+            // what was turned opens a little, and is closed once more
+            for (std::uint32_t i = 0; i < iterations + (alone && turned_); ++i) {
+                pass.alone = alone && i == 0;
                 pass.forwards = forwards(iterations_ + i);
                 pass.iteration = i;
                 for (pass.round = 0; pass.round < rounds_; ++pass.round)
                     iterate_positions(pass, worker, ledger);
+                if (!free_islands_.empty()) turn_back(world, worker);
             }
         });
         iterations_ += settings_.position_iterations;
@@ -286,6 +291,13 @@ private:
         }
     }
 
+    /// What joints took of the angular momentum of what hangs by nothing.
+    void turn_back(const World& world, std::uint32_t worker) {
+        workers_.barrier();
+        if (worker == 0) turned_ = free_islands_.turn_back(world, table_.rows());
+        workers_.barrier();
+    }
+
     bool has_residuals() const {
         return (islands_ && islands_->has_residuals()) ||
                std::any_of(groups_.begin(), groups_.end(),
@@ -386,6 +398,8 @@ private:
     std::vector<Velocity<Real>> settled_;  // [row], of what collides
     Real impact_change_ = 0;               // of their velocities when last looked at, squared
     EnergyBound<Real, W> energy_;
+    FreeIslands<Real> free_islands_;
+    bool turned_ = false;  // one of them, after the last iteration
     std::optional<JointEnergyBound<Real, W>> joint_energy_;
     IslandResiduals residuals_;
     std::vector<BodyPair> held_rows_;  // that any constraint holds together

@@ -34,7 +34,7 @@ public:
 
     virtual void solve_velocities() = 0;
     /// Tells the report of what could not be solved.
-    virtual void solve_positions(StepReport& report, Ledger& ledger) = 0;
+    virtual void solve_positions(const World& world, StepReport& report, Ledger& ledger) = 0;
     /// Where the iterations above added energy: step/energy_bound.h.
     virtual void bound_energy(const World& world, double h) = 0;
     /// The same of joints: step/joint_energy_bound.h.

@@ -108,7 +108,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
         timed(Stage::begin,
               [&] { report.clamped_recoveries += solver.begin_substep(world, h, ledger); });
         timed(Stage::velocities, [&] { solver.solve_velocities(); });
-        timed(Stage::positions, [&] { solver.solve_positions(report, ledger); });
+        timed(Stage::positions, [&] { solver.solve_positions(world, report, ledger); });
         if (plan.runs(Effect::impacts))
             timed(Stage::impacts, [&] { solver.bound_energy(world, h); });
         if (plan.runs(Effect::joints))
