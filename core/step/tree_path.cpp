@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "step/tree_path.h"
 
+#include "step/free_turn.h"
 #include "step/tree_solver.h"
-#include "world/body_momentum.h"
 
 namespace plumb {
 namespace {
@@ -11,45 +11,19 @@ namespace {
 constexpr double kFirst = 0.5, kLeast = 1.0 / 128;
 constexpr int kMostTries = 40;
 
-Matrix3d cross_squared(const Vector3d& x) {
-    return x.squaredNorm() * Matrix3d::Identity() - x * x.transpose();
-}
-
 Velocity<double> between(const Velocity<double>& from, const Velocity<double>& to, double share) {
     return {from.v + share * (to.v - from.v), from.w + share * (to.w - from.w)};
 }
 
 }  // namespace
 
-RestMotion::RestMotion(const World& world, const Joint& joint) {
+RestMotion motion_of_holder(const World& world, const Joint& joint) {
     const Bodies& b = world.bodies;
-    for (const std::uint32_t body : {joint.a, joint.b}) {
-        if (body == kNoIndex || b.motion[body] == Motion::dynamic) continue;
-        point_ = b.position[body];
-        motion_ = {b.velocity[body], b.angular_velocity[body]};
-    }
-}
-
-void RestMotion::add(const Bodies& b, std::uint32_t body, const Velocity<double>& velocity) {
-    const Vector3d &x = b.position[body], impulse = b.mass[body] * velocity.v;
-    const Matrix3d axes = b.orientation[body].toRotationMatrix();
-    mass_ += b.mass[body];
-    moment_ += b.mass[body] * x;
-    momentum_ += impulse;
-    angular_momentum_ += x.cross(impulse) + spin_momentum(b, body, velocity.w);
-    inertia_ +=
-        axes * b.inertia[body].asDiagonal() * axes.transpose() + b.mass[body] * cross_squared(x);
-}
-
-void RestMotion::find_rates() {
-    point_ = moment_ / mass_;
-    const Matrix3d inertia = inertia_ - mass_ * cross_squared(point_);
-    const Vector3d spin = angular_momentum_ - point_.cross(momentum_);
-    motion_ = {momentum_ / mass_, inertia.ldlt().solve(spin)};
-}
-
-Velocity<double> RestMotion::of(const Bodies& b, std::uint32_t body) const {
-    return {velocity_at<double>(motion_, b.position[body] - point_), motion_.w};
+    RestMotion rest;
+    for (const std::uint32_t body : {joint.a, joint.b})
+        if (body != kNoIndex && b.motion[body] != Motion::dynamic)
+            rest = {b.position[body], {b.velocity[body], b.angular_velocity[body]}};
+    return rest;
 }
 
 /// Calls change(node, body, start, own) for each body of trees that are still to be solved, with
@@ -104,20 +78,33 @@ void TreeSolver<W>::let_arms_meet(double meet) {
     each_single([&](std::uint32_t node) { nodes_.let_arms_meet(node, meet); });
 }
 
+/// Of the one tree that is still to be solved, which hangs by nothing: with the momentum that it
+/// has.
+template <int W>
+RestMotion TreeSolver<W>::free_motion() {
+    const Bodies& b = world_->bodies;
+    double mass = 0;
+    Vector3d momentum = Vector3d::Zero();
+    const FreeBodies all(b, [&](auto visit) {
+        mass = 0, momentum.setZero();
+        change_velocities([&](std::uint32_t, std::uint32_t body, const Velocity<double>& start,
+                              const Velocity<double>&) {
+            mass += b.mass[body], momentum += b.mass[body] * start.v;
+            visit(body, start);
+        });
+    });
+    return {all.centre, {momentum / mass, -all.turn_against(all.momentum).rate}};
+}
+
 /// Returns whether there is any.
 template <int W>
 bool TreeSolver<W>::follow_from_rest(std::size_t tree, std::uint32_t joint, bool hangs) {
     const Bodies& b = world_->bodies;
     mark_active();
     forget();
-    RestMotion rest = hangs ? RestMotion(*world_, world_->joints.joints[joint]) : RestMotion();
     using Rate = Velocity<double>;
-    if (!hangs) {
-        change_velocities([&](std::uint32_t, std::uint32_t body, const Rate& start, const Rate&) {
-            rest.add(b, body, start);
-        });
-        rest.find_rates();
-    }
+    const RestMotion rest =
+        hangs ? motion_of_holder(*world_, world_->joints.joints[joint]) : free_motion();
     change_velocities([&](std::uint32_t node, std::uint32_t body, const Rate& start, Rate& own) {
         path_[node] = {start, rest.of(b, body), own, {}};
     });

@@ -12,28 +12,18 @@
 
 namespace plumb {
 
-/// How a tree moves at rest: with the body by which it hangs, else as its bodies would with the
-/// momentum that they have if they were one.
-class RestMotion {
-public:
-    /// Of what hangs by a joint from an immovable body.
-    RestMotion(const World& world, const Joint& joint);
+/// How a tree moves at rest: as one piece.
+struct RestMotion {
+    Vector3d point = Vector3d::Zero();      ///< [m]
+    Velocity<double> motion{point, point};  ///< there [m/s], [rad/s]
 
-    /// Of what hangs by nothing: after all bodies are added, with their velocities.
-    RestMotion() = default;
-    void add(const Bodies& bodies, std::uint32_t body, const Velocity<double>& velocity);
-    void find_rates();
-
-    Velocity<double> of(const Bodies& bodies, std::uint32_t body) const;
-
-private:
-    Vector3d point_ = Vector3d::Zero();             ///< of the motion, or the center of mass [m]
-    Velocity<double> motion_{point_, point_};       ///< of that point [m/s], [rad/s]
-    double mass_ = 0;                               ///< [kg]
-    Vector3d moment_ = point_, momentum_ = point_;  ///< Σ m x [kg m], Σ m v [kg m/s]
-    Vector3d angular_momentum_ = point_;            ///< about the origin [kg m²/s]
-    Matrix3d inertia_ = Matrix3d::Zero();           ///< about the origin [kg m²]
+    Velocity<double> of(const Bodies& b, std::uint32_t body) const {
+        return {velocity_at<double>(motion, b.position[body] - point), motion.w};
+    }
 };
+
+/// Of a tree that hangs by a joint from an immovable body: with that body.
+RestMotion motion_of_holder(const World& world, const Joint& joint);
 
 /// Of a body, while its tree's way is followed.
 struct PathNode {

@@ -147,6 +147,7 @@ private:
     template <class Change>
     void change_deferred(Change change);
     void let_arms_meet(double meet);
+    RestMotion free_motion();
     bool follow_from_rest(std::size_t tree, std::uint32_t joint, bool hangs);
     void leave_open();
     void turn_levers_to_the_end();
