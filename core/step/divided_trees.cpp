@@ -351,7 +351,7 @@ void DividedTrees::bound_gain(World& world, double h, Tree& tree) const {
     const double share = loan.share();
     for (const std::uint32_t joint : tree.joints)
         world.joints.joints[joint].owed =
-            loan.owed_after(share) / static_cast<double>(tree.joints.size());
+            loan.owed_after(loan.gained_with(share)) / static_cast<double>(tree.joints.size());
     if (share == 1) return;
     tree.solver.keep_share(share);
     take_velocities(b, tree);

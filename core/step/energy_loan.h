@@ -5,9 +5,9 @@
 /// little less in another. What an island gains beyond the work of its drives is therefore a loan,
 /// of a small share of its energy: it counts until as much has been lost again, and while it
 /// counts so much less is lent. So however long an island is hit, or stays unsolved, it never has
-/// more than that share above what it had at any time before. Where it would, only a share of all
-/// that is changed of its velocities is taken: that keeps the sums of momentum, and joints close
-/// later.
+/// more than that share above what it had at any time before. Where it would, it is braked by
+/// little, which leaves its joints as closed as they are; or else only a share of all that is
+/// changed of its velocities is taken, and joints close later. Either keeps the sums of momentum.
 ///
 /// Gravity counts by its work on the mean of the velocities at the start and at the end of the
 /// substep, as leapfrog has it.
@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 
@@ -67,6 +68,8 @@ struct EnergyLoan {
     double square = 0;   ///< linear s + square s² [J]
     double granted = 0;  ///< the most that its drives give [J]
     double closing = 0;  ///< energy at the speeds at which old errors close [J]
+    double braking = 0;  ///< with a share s of its velocities against rest it loses
+    double braked = 0;   ///< braking s − braked s² [J]
     double owed = 0;     ///< of loans before [J]
     /// Velocity of who sees the energies: what a script moves so does no work [m/s].
     Vector3d frame = Vector3d::Zero();
@@ -79,9 +82,26 @@ struct EnergyLoan {
         return std::clamp((root - linear) / (2 * square), 0.0, 1.0);
     }
 
-    /// What is owed once that share has been taken [J].
-    double owed_after(double share) const {
-        const double gained = share > 0 ? (linear + square * share) * share : 0;
+    /// The least share of its velocities against rest without which it gains no more than it may,
+    /// with all changes.
+    double brake() const {
+        const double excess = linear + square - most();
+        if (excess <= 0) return 0;
+        const double root = std::sqrt(braking * braking - 4 * braked * excess);
+        constexpr double none = std::numeric_limits<double>::infinity();
+        return root >= 0 && braked > 0 ? (braking - root) / (2 * braked) : none;
+    }
+
+    /// What it gains with a share of all changes, and with all of them once it is braked [J].
+    double gained_with(double share) const {
+        return share > 0 ? (linear + square * share) * share : 0;
+    }
+    double gained_braked(double share) const {
+        return linear + square - (braking - braked * share) * share;
+    }
+
+    /// What is owed once so much is gained [J].
+    double owed_after(double gained) const {
         return std::max(0.0, owed + (gained > 0 ? std::max(0.0, gained - granted) : gained));
     }
 
@@ -92,6 +112,14 @@ struct EnergyLoan {
         moving += kinetic_energy(b, i, v - frame, w);
         linear += b.mass[i] * middle.dot(dv) + inertia_product(b, i, w, dw);
         square += kinetic_energy(b, i, dv, dw);
+    }
+    /// What it may lose of its velocities after that, which are (u, r) against rest.
+    void add_braking(const Bodies& b, std::uint32_t i, const Vector3d& v, const Vector3d& w,
+                     const Vector3d& dv, const Vector3d& dw, const Velocity<double>& against_rest) {
+        const Vector3d &u = against_rest.v, &r = against_rest.w;
+        const Vector3d middle = 0.5 * (b.velocity_now[i] + v) - frame;
+        braking += b.mass[i] * (middle + dv).dot(u) + inertia_product(b, i, w + dw, r);
+        braked += kinetic_energy(b, i, u, r);
     }
     /// What overlaps by so much [m] may part, and is lifted by it.
     void add_overlap(const World& world, const Contact& c, double overlap, double h) {

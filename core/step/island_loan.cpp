@@ -2,12 +2,22 @@
 #include "step/island_loan.h"
 
 #include "step/energy_loan.h"
+#include "step/rest_motion.h"
 #include "ties/tie_work.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace plumb {
 namespace {
+
+/// By how much of its velocities an island is braked at the most. What would have to lose more is
+/// no motion that its joints lead to.
+constexpr double kMostBraked = 0.1;
+
+/// Unless a body turns farther than this within the substep [rad]: it does not turn as its joints
+/// were solved for, and what it gains by that is not seen here.
+constexpr double kWhirl = 0.2;
 
 /// What its velocities have come to, and from what.
 void add_changes(EnergyLoan& loan, const World& world, const IslandColumns& columns,
@@ -36,6 +46,50 @@ EnergyLoan loan_of(const World& world, const IslandColumns& columns, const Exact
     return loan;
 }
 
+/// Calls visit(index in the columns, body, its velocity against rest).
+template <class Visit>
+void each_against_rest(const World& world, const IslandColumns& columns, const ExactIsland& island,
+                       Visit visit) {
+    const auto each = [&](auto see) {
+        for (std::uint32_t k = island.first_body; k < island.last_body; ++k) {
+            const Vector6d& x = columns.velocity[k];
+            see(columns.bodies[k].body, Velocity<double>{x.head<3>(), x.tail<3>()});
+        }
+    };
+    const RestMotion rest = island.flies ? motion_as_one(world.bodies, each) : RestMotion();
+    std::uint32_t k = island.first_body;
+    each([&](std::uint32_t body, const Velocity<double>& x) {
+        const Velocity<double> r = rest.of(world.bodies, body);
+        visit(k++, body, Velocity<double>{x.v - r.v, x.w - r.w});
+    });
+}
+
+bool whirls(const IslandColumns& columns, const ExactIsland& island) {
+    const std::span<const Vector6d> velocities = bodies_in(columns.velocity, island);
+    return std::any_of(velocities.begin(), velocities.end(),
+                       [&](const Vector6d& v) { return columns.h * v.tail<3>().norm() > kWhirl; });
+}
+
+/// Returns whether that does.
+bool brake(const World& world, IslandColumns& columns, ExactIsland& island, EnergyLoan loan) {
+    const Bodies& b = world.bodies;
+    each_against_rest(world, columns, island,
+                      [&](std::uint32_t k, std::uint32_t i, const Velocity<double>& against) {
+                          const Vector6d change = columns.velocity[k] - columns.start[k];
+                          loan.add_braking(b, i, b.velocity[i], b.angular_velocity[i],
+                                           change.head<3>(), change.tail<3>(), against);
+                      });
+    const double share = loan.brake();
+    if (!(share <= kMostBraked) || whirls(columns, island)) return false;
+    each_against_rest(world, columns, island,
+                      [&](std::uint32_t k, std::uint32_t, const Velocity<double>& against) {
+                          columns.velocity[k].head<3>() -= share * against.v;
+                          columns.velocity[k].tail<3>() -= share * against.w;
+                      });
+    island.owed = loan.owed_after(loan.gained_braked(share));
+    return true;
+}
+
 }  // namespace
 
 void bound_gain(const World& world, IslandColumns& columns, ExactIsland& island) {
@@ -43,9 +97,13 @@ void bound_gain(const World& world, IslandColumns& columns, ExactIsland& island)
     if (island.ties.empty() || island.is_driven) return;
     const EnergyLoan loan = loan_of(world, columns, island);
     const double share = loan.share();
-    island.owed = loan.owed_after(share);
+    island.owed = loan.owed_after(loan.gained_with(share));
     if (share == 1) return;
     const Island all = columns.all_of(island);
+    if (brake(world, columns, island, loan)) {
+        island.open = columns.ties.ask(island.ties, all.velocity);
+        return;
+    }
     for (IslandPoint& p : all.points) p.impulse *= share;
     for (TieRow& row : all.rows) row.impulse *= share;
     const std::span<const Vector6d> start = bodies_in(columns.start, island);

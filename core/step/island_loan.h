@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-/// After its solution: keeps such a share of what was changed that it gains no more.
+/// After its solution: brakes it, or keeps such a share of what was changed, that it gains no more.
 void bound_gain(const World& world, IslandColumns& columns, ExactIsland& island);
 
 /// What it owes now, into the world's joints.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "step/tree_path.h"
 
-#include "step/free_turn.h"
 #include "step/tree_solver.h"
 
 namespace plumb {
@@ -78,22 +77,13 @@ void TreeSolver<W>::let_arms_meet(double meet) {
     each_single([&](std::uint32_t node) { nodes_.let_arms_meet(node, meet); });
 }
 
-/// Of the one tree that is still to be solved, which hangs by nothing: with the momentum that it
-/// has.
+/// Of the one tree that is still to be solved, which hangs by nothing.
 template <int W>
 RestMotion TreeSolver<W>::free_motion() {
-    const Bodies& b = world_->bodies;
-    double mass = 0;
-    Vector3d momentum = Vector3d::Zero();
-    const FreeBodies all(b, [&](auto visit) {
-        mass = 0, momentum.setZero();
+    return motion_as_one(world_->bodies, [&](auto visit) {
         change_velocities([&](std::uint32_t, std::uint32_t body, const Velocity<double>& start,
-                              const Velocity<double>&) {
-            mass += b.mass[body], momentum += b.mass[body] * start.v;
-            visit(body, start);
-        });
+                              const Velocity<double>&) { visit(body, start); });
     });
-    return {all.centre, {momentum / mass, -all.turn_against(all.momentum).rate}};
 }
 
 /// Returns whether there is any.

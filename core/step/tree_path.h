@@ -7,20 +7,10 @@
 /// share: it is braked, and no further open than before.
 #pragma once
 
-#include "constraints/connector.h"
+#include "step/rest_motion.h"
 #include "world/world.h"
 
 namespace plumb {
-
-/// How a tree moves at rest: as one piece.
-struct RestMotion {
-    Vector3d point = Vector3d::Zero();      ///< [m]
-    Velocity<double> motion{point, point};  ///< there [m/s], [rad/s]
-
-    Velocity<double> of(const Bodies& b, std::uint32_t body) const {
-        return {velocity_at<double>(motion, b.position[body] - point), motion.w};
-    }
-};
 
 /// Of a tree that hangs by a joint from an immovable body: with that body.
 RestMotion motion_of_holder(const World& world, const Joint& joint);

@@ -4,12 +4,15 @@
 #include "support/draw_settings.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "ties/joint_state.h"
 
 namespace plumb::test {
 namespace {
 
 constexpr double kDuration = 3;   // [s]
 constexpr double kGained = 0.01;  // of the energy that there is
+constexpr double kOpened = 0.25;  // of the reach: how far hits may open joints at the most,
+constexpr double kClosed = 0.1;   // and how far they may still be open a second before the end
 constexpr const char* kColliders[] = {"ode", "bullet", "fcl"};
 
 /// Rods from the origin on along `ways`, that touch nothing of each other.
@@ -62,6 +65,16 @@ Scene hanging_chain(Random& random, const Settings& settings) {
         add_body(s, box({5, 1, 5}), {0, -1 - random.number(0.4, 0.8) * reach, 0}, Motion::fixed);
     else
         add_body(s, box({1, 5, 5}), {-1 - random.number(0.3, 0.8) * reach, 0, 0}, Motion::fixed);
+    return s;
+}
+
+/// The same with joints of other kinds, and with a last rod of up to 100 kg, where others are of
+/// grams.
+Scene loaded_chain(Random& random, const Settings& settings) {
+    Scene s = hanging_chain(random, settings);
+    constexpr JointKind kinds[] = {JointKind::ball, JointKind::hinge, JointKind::universal};
+    for (JointSpec& joint : s.joints) joint.kind = kinds[random.below(3)];
+    s.bodies[s.bodies.size() - 2].mass = std::pow(10.0, random.number(-1, 2));
     return s;
 }
 
@@ -121,6 +134,30 @@ TEST_P(HitChains, OnTheWorldGainNoEnergy) {
         double most = start;
         ASSERT_NO_FATAL_FAILURE(run_to_the_end(simulation, most));
         EXPECT_LT(most - start, kGained * there_is);
+    }
+}
+
+TEST_P(HitChains, StayTogether) {
+    Random random(13);
+    for (int draw = 0; draw < 60; ++draw) {
+        Scene s = loaded_chain(random, drawn_settings(random, draw));
+        s.settings.precision = GetParam();
+        const char* collider = kColliders[random.below(3)];
+        SCOPED_TRACE(testing::Message() << "draw " << draw << " on " << collider);
+        Simulation simulation(s, colliders(), collider);
+        const World& world = simulation.world();
+        const double reach = reach_of(s);
+        double most = 0, late = 0;
+        while (simulation.time() < 2 * kDuration) {
+            ASSERT_TRUE(simulation.step().finite) << "at " << simulation.time();
+            for (const Joint& joint : world.joints.joints) {
+                const double gap = joint_gap(world.bodies, joint);
+                most = std::max(most, gap);
+                if (simulation.time() > 2 * kDuration - 1) late = std::max(late, gap);
+            }
+        }
+        EXPECT_LT(most, kOpened * reach);
+        EXPECT_LT(late, kClosed * reach);
     }
 }
 
