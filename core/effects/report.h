@@ -69,7 +69,8 @@ struct StepReport {
                                           ///< steps could not close
     double tree_error = 0;                ///< by how much they were open at most [m], [rad]
     std::uint32_t coarse_trees = 0;       ///< trees, summed over substeps, that are closed but snap
-                                          ///< faster than their parts can follow: energy is lost
+                                          ///< faster than their parts can follow, or are braked
+                                          ///< since no whole solution is found: energy is lost
     std::uint32_t open_joint = ~0u;       ///< a joint of the tree that was open the most
     std::vector<OpenTree> open_trees;     ///< of the last substep
     GapingJoints gaping;                  ///< joints that anyone sees to be open

@@ -36,7 +36,7 @@ void Simulation::Parts::tell_step(const StepReport& report) const {
         to->trace("step {}: {} trees of joints were left open, by {:.3g} at the most", world.steps,
                   report.unsolved_trees, report.tree_error);
     if (report.coarse_trees > 0)
-        to->trace("step {}: {} trees of joints snap too fast for their parts and lose energy",
+        to->trace("step {}: {} trees of joints snap too fast to be followed and lose energy",
                   world.steps, report.coarse_trees);
     if (report.gaping.joints > 0)
         to->trace(
