@@ -65,8 +65,8 @@ struct StepReport {
                                           ///< exactly and still miss the law of contact
     std::uint32_t costly_islands = 0;     ///< larger ones that miss Settings::accuracy and were
                                           ///< found to take too much; tried anew after a while
-    std::uint32_t unsolved_trees = 0;     ///< trees of joints, summed over substeps, that Newton's
-                                          ///< steps could not close
+    std::uint32_t unsolved_trees = 0;     ///< trees of joints, summed over substeps, that could
+                                          ///< not be closed
     double tree_error = 0;                ///< by how much they were open at most [m], [rad]
     std::uint32_t coarse_trees = 0;       ///< trees, summed over substeps, that are closed but snap
                                           ///< faster than their parts can follow, or are braked

@@ -325,10 +325,14 @@ void DividedTrees::take_velocities(Bodies& bodies, const Tree& tree) {
     if (tree.drifts) turn_back(bodies, tree.bodies, tree.pushed);
 }
 
+bool DividedTrees::is_defect_told(const SubstepTime& time, double fall, const Tree& tree) {
+    return tree.keeps_energy && fall == time.h;
+}
+
 /// The energy_defect of a part that was just solved; 0 where it cannot be told.
 double DividedTrees::defect_of(const World& world, const SubstepTime& time, double fall,
                                const Tree& tree) {
-    if (!tree.keeps_energy || fall != time.h) return 0;
+    if (!is_defect_told(time, fall, tree)) return 0;
     const double unclosed = kFiner * world.settings.joint_tolerance * tree.joints.size();
     const TreeHold& hold = tree.holder.hold();
     return energy_defect(world, tree.bodies, time, fall, unclosed, hold,
@@ -374,8 +378,9 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     }
     tree.solver.load_impulses(world.joints);
     tree.solver.begin(world, time);
-    tree.solver.solve(last);
-    if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, tree);
+    const TreeSolver<1>::Effort effort{.closes = is_defect_told(time, fall, tree), .follows = last};
+    tree.solver.solve(effort);
+    if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, effort, tree);
     take_velocities(b, tree);
     if (!last && !tree.solver.open().empty()) return false;
     const bool braked = tree.solver.took_levers_of_the_end();
@@ -394,14 +399,15 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
 
 /// Until the rates are those of free bodies with the momentum that the joints leave them: what
 /// joints change of a momentum turns with the body, too.
-void DividedTrees::turn_as_free(const Bodies& b, double h, Tree& tree) const {
+void DividedTrees::turn_as_free(const Bodies& b, double h, TreeSolver<1>::Effort effort,
+                                Tree& tree) const {
     for (int round = 0; round < kMostRounds; ++round) {
         const double change = tree.solver.correct_rates([&](std::uint32_t body, const Vector3d& w) {
             return carries_momentum_[body] ? pushed_rate(b, body, w, h)
                                            : Vector3d(b.angular_velocity[body] + w);
         });
         if (!(h * change > kSameTurn)) return;
-        tree.solver.solve();
+        tree.solver.solve(effort);
     }
 }
 

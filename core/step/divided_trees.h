@@ -81,12 +81,14 @@ private:
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
     static void take_velocities(Bodies& bodies, const Tree& tree);
+    static bool is_defect_told(const SubstepTime& time, double fall, const Tree& tree);
     static double defect_of(const World& world, const SubstepTime& time, double fall,
                             const Tree& tree);
     void bound_gain(World& world, double h, Tree& tree) const;
     bool try_part(World& world, const Plan& plan, const SubstepTime& time, double fall, bool last,
                   bool may_snap, Tree& tree) const;
-    void turn_as_free(const Bodies& bodies, double h, Tree& tree) const;
+    void turn_as_free(const Bodies& bodies, double h, TreeSolver<1>::Effort effort,
+                      Tree& tree) const;
 
     std::deque<Tree> trees_;
     std::vector<std::uint8_t> touches_, moved_, carries_momentum_;  ///< [body]

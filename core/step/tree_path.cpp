@@ -6,9 +6,17 @@
 namespace plumb {
 namespace {
 
-/// Of the way: its first share, the least that is tried, and how often.
-constexpr double kFirst = 0.5, kLeast = 1.0 / 128;
+/// Of a share: by how much it is to grow first and at the least, and how often that is tried.
+constexpr double kFirst = 1, kLeast = 1.0 / 128;
 constexpr int kMostTries = 40;
+
+/// `solve(next)`: returns whether it could, and has set the share to that.
+template <class Solve>
+void grow(const double& share, Solve solve) {
+    double step = kFirst;
+    for (int tries = 0; tries < kMostTries && share < 1 && step >= kLeast; ++tries)
+        step *= solve(std::min(1.0, share + step)) ? 2 : 0.5;
+}
 
 Velocity<double> between(const Velocity<double>& from, const Velocity<double>& to, double share) {
     return {from.v + share * (to.v - from.v), from.w + share * (to.w - from.w)};
@@ -86,7 +94,7 @@ RestMotion TreeSolver<W>::free_motion() {
     });
 }
 
-/// Returns whether there is any.
+/// Returns whether a solution is found for any share.
 template <int W>
 bool TreeSolver<W>::follow_from_rest(std::size_t tree, std::uint32_t joint, bool hangs) {
     const Bodies& b = world_->bodies;
@@ -103,39 +111,48 @@ bool TreeSolver<W>::follow_from_rest(std::size_t tree, std::uint32_t joint, bool
     });
     let_arms_meet(0);
 
-    double share = -1;  // nothing is solved
+    double motion = -1, closing = 0;  // shares that are solved; nothing is so far
     bool lost = false;
-    const auto solve_for = [&](double next) {
-        progress_.activate(tree);
+    const auto put_last = [&](double m, double c) {
+        progress_.begin_anew(tree);
         mark_active();
         if (lost) forget();
         change_velocities([&](std::uint32_t node, std::uint32_t, Rate& start, Rate& own) {
-            start = between(path_[node].rest, path_[node].goal, next);
+            start = between(path_[node].rest, path_[node].goal, m);
             own = path_[node].last;
         });
         change_deferred([&](std::uint32_t node, int k, double old, double& deferred) {
-            deferred = old + next * (path_[node].deferred[k] - old);
+            deferred = old + c * (path_[node].deferred[k] - old);
         });
+    };
+    const auto solve_for = [&](double m, double c) {
+        put_last(m, c);
+        if (lost) {  // impulses, too
+            evaluate(AxisLook::anew);
+            step_on(true);
+            progress_.begin_anew(tree);
+            mark_active();
+        }
         const bool solved = find_balance();
-        progress_.activate(tree);
+        progress_.begin_anew(tree);
         mark_active();
         lost = !solved;
         if (lost) return false;
-        share = next;
+        motion = m, closing = c;
         change_velocities([&](std::uint32_t node, std::uint32_t, const Rate&, Rate& own) {
             path_[node].last = own;
         });
         return true;
     };
-    double step = kFirst;
-    if (solve_for(0))
-        for (int tries = 0; tries < kMostTries && share < 1 && step >= kLeast; ++tries)
-            step *= solve_for(std::min(1.0, share + step)) ? 2 : 0.5;
-    if (share < 1) solve_for(std::max(share, 0.0));  // its impulses
+    if (solve_for(0, 0)) {
+        grow(motion, [&](double next) { return solve_for(next, closing); });
+        grow(closing, [&](double next) { return solve_for(motion, next); });
+        if (lost && !solve_for(motion, closing)) put_last(motion, closing);
+    }
     change_velocities([&](std::uint32_t node, std::uint32_t, Rate& start, Rate& own) {
-        own = share < 0 ? Rate{Vector3d::Zero(), Vector3d::Zero()}
-                        : Rate{start.v + own.v - path_[node].goal.v,
-                               start.w + own.w - path_[node].goal.w};
+        own = motion < 0 ? Rate{Vector3d::Zero(), Vector3d::Zero()}
+                         : Rate{start.v + own.v - path_[node].goal.v,
+                                start.w + own.w - path_[node].goal.w};
         start = path_[node].goal;
     });
     change_deferred([&](std::uint32_t node, int k, double, double& deferred) {
@@ -143,8 +160,8 @@ bool TreeSolver<W>::follow_from_rest(std::size_t tree, std::uint32_t joint, bool
     });
     let_arms_meet(1);
     evaluate(AxisLook::same_piece);
-    braked_ += share >= 0 && share < 1;
-    return share >= 0;
+    braked_ += motion >= 0 && (motion < 1 || closing < 1);
+    return motion >= 0;
 }
 
 #define PLUMB_INSTANTIATE(W) \

@@ -27,7 +27,8 @@ public:
             std::uint32_t& first = joint_[tree_.back()];
             if (node.parent != kFree && first == kNoIndex) first = node.joint;
         }
-        active_.assign(trees, 1), left_out_.assign(trees, 0), ends_.assign(trees, 0);
+        active_.assign(trees, 1), open_ = active_, left_out_.assign(trees, 0),
+                                  ends_.assign(trees, 0);
         waits_.assign(trees, Waits::no), pieces_.resize(trees);
         any_driven_ = std::find(driven_.begin(), driven_.end(), 1) != driven_.end();
         violation_.assign(trees, 0), before_ = first_ = violation_;
@@ -184,7 +185,8 @@ public:
             if (active_[i]) visit(joint_[i], violation_[i]);
     }
 
-    void activate(std::size_t tree) { active_[tree] = 1; }
+    /// A tree is to be solved again, from elsewhere.
+    void begin_anew(std::size_t tree) { active_[tree] = 1, violation_[tree] = 0; }
     /// Calls solve(tree, its first joint, whether it hangs by something) for each tree that is
     /// still to be solved, as if there were no other. Leaves those for which it returns true;
     /// returns whether any is left.

@@ -220,22 +220,22 @@ void TreeSolver<W>::solve(const BodyRows<Real>& rows, bool alone) {
         return;
     }
     if (!alone) take(rows);
-    solve();
+    solve({.closes = false, .follows = true});
     give(rows);
 }
 
 template <int W>
-void TreeSolver<W>::solve(bool follows) {
+void TreeSolver<W>::solve(Effort effort) {
     open_.clear();
     braked_ = 0;
     levers_of_the_end_ = false;
     if (!progress_.start()) return;
-    if (find_balance()) return;
+    if (find_balance() || (effort.closes && close())) return;
     levers_of_the_end_ = true;
     turn_levers_to_the_end();
     forget();
     if (find_balance()) return;
-    if (follows &&
+    if (effort.follows &&
         !progress_.leave_one_by_one([this](auto... of) { return follow_from_rest(of...); }))
         return mark_active();
     mark_active();
@@ -279,8 +279,8 @@ bool TreeSolver<W>::find_balance() {
     return bring_back();
 }
 
-/// Steps that only close joints, with the same return. They may add energy. Of trees that nothing
-/// drives that is seen (step/divided_trees.h); those that are driven are told as open all the same.
+/// Steps that only close joints, with the same return. They may add energy. Those that something
+/// drives are told as open all the same.
 template <int W>
 bool TreeSolver<W>::close() {
     mark_active();

@@ -53,9 +53,14 @@ public:
         return progress_.leave_out(is_left_out);
     }
 
-    /// Newton steps until no row is violated by more than the tolerance. `follows`: with all that
-    /// is known, where they do not succeed.
-    void solve(bool follows = true);
+    /// What is done where Newton's steps do not succeed.
+    struct Effort {
+        bool closes;   ///< steps that may add energy: the caller sees to that
+        bool follows;  ///< a way from rest (step/tree_path.h)
+    };
+
+    /// Newton steps until no row is violated by more than the tolerance.
+    void solve(Effort effort);
     /// The same among others that change velocities, unless the trees are `alone`.
     template <class Real>
     void solve(const BodyRows<Real>& rows, bool alone);
