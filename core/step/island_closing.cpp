@@ -3,6 +3,8 @@
 /// would close.
 #include "step/island_substep.h"
 
+#include "step/rest_motion.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -15,6 +17,9 @@ constexpr double kOtherRoot = 0.25;
 
 /// More energy than so many times what there is did not come from what drives an island.
 constexpr double kFlung = 4;
+
+/// The least share of its velocities that what is torn keeps, else none.
+constexpr double kLeastKept = 1.0 / 16;
 
 /// Whether what a row asks for closes what is open; slack ropes ask for as much as they have.
 bool closes(const TieRow& row) {
@@ -94,6 +99,36 @@ void IslandSubstep::draw_together() {
         !std::all_of(shift_.begin(), shift_.end(), [](const Vector6d& x) { return x.allFinite(); });
     for (std::size_t i = 0; i < shift_.size(); ++i)
         shift_[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift_[i] - all_.velocity[i]);
+}
+
+/// What is not solved opens its ties by no more than another substep may close again: its
+/// velocities are halved against rest until then, where all stays as open as it is.
+void IslandSubstep::brake_torn() {
+    const double most = ties_.open_at_start(island_.ties) +
+                        h_ * (settings_.recovery_speed + ties_.scripted_speed(island_.ties));
+    if (island_.open <= most) return;
+    const auto each = [&](auto visit) {
+        for (std::size_t i = 0; i < start_.size(); ++i)
+            visit(all_.bodies[i].body, Velocity<double>{start_[i].head<3>(), start_[i].tail<3>()});
+    };
+    const RestMotion rest = island_.flies ? motion_as_one(bodies_, each) : RestMotion();
+    double share = 1;
+    while (!(island_.open <= most) && share > 0) {
+        const double half = share > kLeastKept ? 0.5 : 0;
+        share *= half;
+        for (std::size_t i = 0; i < start_.size(); ++i) {
+            const Velocity<double> r = rest.of(bodies_, all_.bodies[i].body);
+            Vector6d at_rest;
+            at_rest << r.v, r.w;
+            Vector6d& v = all_.velocity[i];
+            v = half > 0 ? Vector6d(at_rest + half * (v - at_rest)) : at_rest;
+        }
+        for (IslandPoint& p : all_.points) p.impulse *= half;
+        for (TieRow& row : all_.rows) row.impulse *= half;
+        if (half == 0) IslandSolver::forget(all_);
+        ask();
+    }
+    island_.solved = false;
 }
 
 /// Ties that were not closed must add no energy: from nothing, and at rates that are linear in the

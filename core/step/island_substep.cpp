@@ -29,6 +29,7 @@ void IslandSubstep::solve() {
     turn_back();
     const bool fails = island_.given_up || island_.effort == IslandEffort::swept;
     if (island_.is_meshed && island_.was_torn && fails) draw_together();
+    if (!island_.ties.empty() && (!island_.solved || island_.given_up)) brake_torn();
 }
 
 /// Overlap goes by shifts, and the velocities are those of a heap that keeps it.

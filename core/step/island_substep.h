@@ -54,6 +54,7 @@ private:
     void hold_torn();
     void draw_together();
     void close_gently();
+    void brake_torn();
 
     // energy
     double energy_at_start() const { return kinetic_energy(all_.bodies, start_); }
