@@ -86,8 +86,8 @@ inline T deferred_fraction(const T& squared, const T& most) {
 }
 
 /// What impulses along the rows do to the bodies. `apart`: p_a − p_b at the preview poses [m];
-/// `meet`: 1, or 0 where impulses act on each body at its own point, however far that is from the
-/// other's, as the derivative of C does.
+/// `meet`: 1 where impulses act on both bodies at the point of a, which keeps angular momentum; 0
+/// where they act on each at its own, which is the derivative of C.
 template <class T>
 inline void joint_axes(JointRows<T>& rows, const JointGeometry<T>& joint, const Velocity<T>& a,
                        const Velocity<T>& b, const T& h, const Vector3<T>& apart,

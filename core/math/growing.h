@@ -14,7 +14,7 @@ void make_room(std::vector<T>& v, std::size_t n) {
     if (n > v.capacity()) v.reserve(v.capacity() == 0 ? n : n + n / 2);
 }
 
-/// v has n values, of which those that are new are 0.
+/// v has n values; new numbers are 0, new vectors and matrices undefined.
 template <class T>
 void size_anew(std::vector<T>& v, std::size_t n) {
     make_room(v, n);

@@ -12,7 +12,8 @@
 /// Bodies on plain balls are solved several side by side, level by level; those on other or driven
 /// joints, and roots that hang by nothing, one by one (tree_nodes.h). What drives a joint is part
 /// of the system: a step is taken again until each axis ends on that piece of its force law
-/// (constraints/axis_drive.h) that it was taken for.
+/// (constraints/axis_drive.h) that it was taken for. Where no solution is found from v*, a way to
+/// one is followed from rest (step/tree_path.h).
 #pragma once
 
 #include "effects/report.h"
@@ -69,7 +70,7 @@ public:
     /// energy: with those of its start, there was no solution near.
     bool took_levers_of_the_end() const { return levers_of_the_end_; }
 
-    /// How many trees the last solve closed only by braking them (step/tree_path.h).
+    /// How many trees the last solve braked, or closed by less than asked (step/tree_path.h).
     std::uint32_t braked() const { return braked_; }
 
     /// What the last solve left open.
