@@ -49,7 +49,7 @@ public:
             if (account.joints == 0 || account.is_driven) continue;
             const double share = account.loan.share();
             if (share < 1) keep_share(share, islands_, islands_.islands()[i], contacts, bodies);
-            account.loan.owed = account.loan.owed_after(share);
+            account.loan.owed = account.loan.owed_after(account.loan.gained_with(share));
         }
         for (Joint& joint : world.joints.joints)
             if (const Account* account = account_of(world, joint))
