@@ -11,6 +11,10 @@
 namespace plumb {
 namespace {
 
+/// With so large a share of its changes, what an island does not gain now comes back as its joints
+/// close, and nothing is lost of a smooth motion.
+constexpr double kNearlyAll = 0.9;
+
 /// By how much of its velocities an island is braked at the most. What would have to lose more is
 /// no motion that its joints lead to.
 constexpr double kMostBraked = 0.1;
@@ -100,7 +104,7 @@ void bound_gain(const World& world, IslandColumns& columns, ExactIsland& island)
     island.owed = loan.owed_after(loan.gained_with(share));
     if (share == 1) return;
     const Island all = columns.all_of(island);
-    if (brake(world, columns, island, loan)) {
+    if (share < kNearlyAll && brake(world, columns, island, loan)) {
         island.open = columns.ties.ask(island.ties, all.velocity);
         return;
     }
