@@ -5,9 +5,10 @@
 /// little less in another. What an island gains beyond the work of its drives is therefore a loan,
 /// of a small share of its energy: it counts until as much has been lost again, and while it
 /// counts so much less is lent. So however long an island is hit, or stays unsolved, it never has
-/// more than that share above what it had at any time before. Where it would, it is braked by
-/// little, which leaves its joints as closed as they are; or else only a share of all that is
-/// changed of its velocities is taken, and joints close later. Either keeps the sums of momentum.
+/// more than that share above what it had at any time before. Where it would, only a share of all
+/// that is changed of its velocities is taken, and joints close later. Where that would open them
+/// by much, what is solved exactly is braked by little instead (step/island_loan.h). Either keeps
+/// the sums of momentum.
 ///
 /// Gravity counts by its work on the mean of the velocities at the start and at the end of the
 /// substep, as leapfrog has it.

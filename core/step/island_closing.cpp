@@ -107,25 +107,15 @@ void IslandSubstep::brake_torn() {
     const double most = ties_.open_at_start(island_.ties) +
                         h_ * (settings_.recovery_speed + ties_.scripted_speed(island_.ties));
     if (island_.open <= most) return;
-    const auto each = [&](auto visit) {
-        for (std::size_t i = 0; i < start_.size(); ++i)
-            visit(all_.bodies[i].body, Velocity<double>{start_[i].head<3>(), start_[i].tail<3>()});
-    };
-    const RestMotion rest = island_.flies ? motion_as_one(bodies_, each) : RestMotion();
+    const RestMotion rest = rest_of(bodies_, island_.flies, all_.bodies, start_);
     double share = 1;
     while (!(island_.open <= most) && share > 0) {
-        const double half = share > kLeastKept ? 0.5 : 0;
-        share *= half;
-        for (std::size_t i = 0; i < start_.size(); ++i) {
-            const Velocity<double> r = rest.of(bodies_, all_.bodies[i].body);
-            Vector6d at_rest;
-            at_rest << r.v, r.w;
-            Vector6d& v = all_.velocity[i];
-            v = half > 0 ? Vector6d(at_rest + half * (v - at_rest)) : at_rest;
-        }
-        for (IslandPoint& p : all_.points) p.impulse *= half;
-        for (TieRow& row : all_.rows) row.impulse *= half;
-        if (half == 0) IslandSolver::forget(all_);
+        const double kept = share > kLeastKept ? 0.5 : 0;
+        share *= kept;
+        brake(bodies_, rest, 1 - kept, all_.bodies, all_.velocity);
+        for (IslandPoint& p : all_.points) p.impulse *= kept;
+        for (TieRow& row : all_.rows) row.impulse *= kept;
+        if (kept == 0) IslandSolver::forget(all_);  // what is no number, too
         ask();
     }
     island_.solved = false;

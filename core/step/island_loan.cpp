@@ -50,24 +50,6 @@ EnergyLoan loan_of(const World& world, const IslandColumns& columns, const Exact
     return loan;
 }
 
-/// Calls visit(index in the columns, body, its velocity against rest).
-template <class Visit>
-void each_against_rest(const World& world, const IslandColumns& columns, const ExactIsland& island,
-                       Visit visit) {
-    const auto each = [&](auto see) {
-        for (std::uint32_t k = island.first_body; k < island.last_body; ++k) {
-            const Vector6d& x = columns.velocity[k];
-            see(columns.bodies[k].body, Velocity<double>{x.head<3>(), x.tail<3>()});
-        }
-    };
-    const RestMotion rest = island.flies ? motion_as_one(world.bodies, each) : RestMotion();
-    std::uint32_t k = island.first_body;
-    each([&](std::uint32_t body, const Velocity<double>& x) {
-        const Velocity<double> r = rest.of(world.bodies, body);
-        visit(k++, body, Velocity<double>{x.v - r.v, x.w - r.w});
-    });
-}
-
 bool whirls(const IslandColumns& columns, const ExactIsland& island) {
     const std::span<const Vector6d> velocities = bodies_in(columns.velocity, island);
     return std::any_of(velocities.begin(), velocities.end(),
@@ -75,21 +57,22 @@ bool whirls(const IslandColumns& columns, const ExactIsland& island) {
 }
 
 /// Returns whether that does.
-bool brake(const World& world, IslandColumns& columns, ExactIsland& island, EnergyLoan loan) {
+bool brake(const World& world, const IslandColumns& columns, const Island& all, EnergyLoan loan,
+           ExactIsland& island) {
     const Bodies& b = world.bodies;
-    each_against_rest(world, columns, island,
-                      [&](std::uint32_t k, std::uint32_t i, const Velocity<double>& against) {
-                          const Vector6d change = columns.velocity[k] - columns.start[k];
-                          loan.add_braking(b, i, b.velocity[i], b.angular_velocity[i],
-                                           change.head<3>(), change.tail<3>(), against);
-                      });
+    const RestMotion rest = rest_of(b, island.flies, all.bodies, all.velocity);
+    const std::span<const Vector6d> start = bodies_in(columns.start, island);
+    for (std::size_t k = 0; k < start.size(); ++k) {
+        const std::uint32_t i = all.bodies[k].body;
+        const Vector6d change = all.velocity[k] - start[k];
+        const Velocity<double> r = rest.of(b, i);
+        loan.add_braking(b, i, b.velocity[i], b.angular_velocity[i], change.head<3>(),
+                         change.tail<3>(),
+                         {all.velocity[k].head<3>() - r.v, all.velocity[k].tail<3>() - r.w});
+    }
     const double share = loan.brake();
     if (!(share <= kMostBraked) || whirls(columns, island)) return false;
-    each_against_rest(world, columns, island,
-                      [&](std::uint32_t k, std::uint32_t, const Velocity<double>& against) {
-                          columns.velocity[k].head<3>() -= share * against.v;
-                          columns.velocity[k].tail<3>() -= share * against.w;
-                      });
+    brake(b, rest, share, all.bodies, all.velocity);
     island.owed = loan.owed_after(loan.gained_braked(share));
     return true;
 }
@@ -104,7 +87,7 @@ void bound_gain(const World& world, IslandColumns& columns, ExactIsland& island)
     island.owed = loan.owed_after(loan.gained_with(share));
     if (share == 1) return;
     const Island all = columns.all_of(island);
-    if (share < kNearlyAll && brake(world, columns, island, loan)) {
+    if (share < kNearlyAll && brake(world, columns, all, loan, island)) {
         island.open = columns.ties.ask(island.ties, all.velocity);
         return;
     }

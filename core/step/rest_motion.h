@@ -4,6 +4,9 @@
 #pragma once
 
 #include "step/free_turn.h"
+#include "step/island.h"
+
+#include <span>
 
 namespace plumb {
 
@@ -26,6 +29,29 @@ RestMotion motion_as_one(const Bodies& b, Each each) {
     });
     const FreeBodies all(b, each);
     return {all.centre, {momentum / mass, -all.turn_against(all.momentum).rate}};
+}
+
+/// Of the bodies of an island, of which what does not fly touches or hangs by what is immovable.
+inline RestMotion rest_of(const Bodies& b, bool flies, std::span<const SolvedBody> bodies,
+                          std::span<const Vector6d> velocities) {
+    if (!flies) return {};
+    return motion_as_one(b, [&](auto visit) {
+        for (std::size_t i = 0; i < bodies.size(); ++i)
+            visit(bodies[i].body,
+                  Velocity<double>{velocities[i].head<3>(), velocities[i].tail<3>()});
+    });
+}
+
+/// Takes a share of the velocities against rest, of which 1 leaves rest whatever they are.
+inline void brake(const Bodies& b, const RestMotion& rest, double share,
+                  std::span<const SolvedBody> bodies, std::span<Vector6d> velocities) {
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Velocity<double> r = rest.of(b, bodies[i].body);
+        Vector6d at_rest;
+        at_rest << r.v, r.w;
+        Vector6d& v = velocities[i];
+        v = share < 1 ? Vector6d(v - share * (v - at_rest)) : at_rest;
+    }
 }
 
 }  // namespace plumb

@@ -27,8 +27,8 @@ public:
             std::uint32_t& first = joint_[tree_.back()];
             if (node.parent != kFree && first == kNoIndex) first = node.joint;
         }
-        active_.assign(trees, 1), open_ = active_, left_out_.assign(trees, 0),
-                                  ends_.assign(trees, 0);
+        active_.assign(trees, 1), left_out_.assign(trees, 0), ends_.assign(trees, 0);
+        open_.assign(trees, 0);
         waits_.assign(trees, Waits::no), pieces_.resize(trees);
         any_driven_ = std::find(driven_.begin(), driven_.end(), 1) != driven_.end();
         violation_.assign(trees, 0), before_ = first_ = violation_;
