@@ -1,22 +1,26 @@
 # plumb::core: the embeddable library, from math to measure. Eigen, spdlog and threads only.
 set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp math/fill.cpp math/least_degree.cpp math/row_graph.cpp math/sparse_ldlt.cpp
-  world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp world/edit_world.cpp
-  world/motion_script.cpp
-  world/shape_store.cpp world/sleep.cpp world/tears.cpp
+  world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp
+  world/edit_world.cpp world/motion_script.cpp world/shape_store.cpp world/sleep.cpp world/tears.cpp
   schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   ties/joint_state.cpp ties/tie_list.cpp ties/tie_load.cpp ties/tie_rows.cpp ties/tied_couplings.cpp ties/tied_joints.cpp ties/tied_links.cpp
   kernels/dispatch.cpp
   effects/filter_reachability.cpp effects/plan.cpp
-  contacts/bend.cpp contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_room.cpp contacts/detect.cpp
-  contacts/detect_particles.cpp contacts/follow_contacts.cpp contacts/impacts.cpp contacts/match_contacts.cpp contacts/renew_contacts.cpp contacts/reuse_contacts.cpp
-  contacts/contact_reach.cpp contacts/ghost_contacts.cpp contacts/ground_touch.cpp contacts/rims.cpp contacts/still_ground.cpp contacts/surface_detector.cpp
-  solve/balloons.cpp solve/contact_stiffness.cpp solve/elastic_contacts.cpp solve/elastic_contacts_load.cpp solve/elastic_factors.cpp solve/elastic_parts.cpp solve/elastic_system.cpp solve/elastic_tie_choice.cpp solve/elastic_ties.cpp solve/impulse_match.cpp solve/island_residuals.cpp
-  solve/patch_tree.cpp
-  step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/driven_axis.cpp step/driven_islands.cpp step/fast_joints.cpp step/gaping_joints.cpp step/holder_path.cpp step/integrate.cpp
-  step/island_choice.cpp step/island_closing.cpp step/island_columns.cpp step/island_demands.cpp step/island_energy.cpp step/island_group.cpp step/island_loan.cpp step/island_newton.cpp
-  step/island_obstacles.cpp step/island_residual.cpp step/island_solver.cpp step/island_substep.cpp step/island_system.cpp step/joint_residual.cpp step/large_islands.cpp step/move_particles.cpp step/move_scripted.cpp step/remember_velocities.cpp
-  step/row_solver.cpp step/sleeping.cpp step/step.cpp step/stretched_links.cpp step/tear.cpp step/tree_energy.cpp step/tree_holder.cpp step/tree_nodes.cpp step/tree_path.cpp step/tree_solver.cpp
+  contacts/bend.cpp contacts/choose_restitution.cpp contacts/contact_faults.cpp contacts/contact_pairs.cpp contacts/contact_reach.cpp
+  contacts/contact_room.cpp contacts/detect.cpp contacts/detect_particles.cpp contacts/follow_contacts.cpp contacts/ghost_contacts.cpp
+  contacts/ground_touch.cpp contacts/impacts.cpp contacts/match_contacts.cpp contacts/renew_contacts.cpp contacts/reuse_contacts.cpp contacts/rims.cpp
+  contacts/still_ground.cpp contacts/surface_detector.cpp
+  solve/balloons.cpp solve/contact_stiffness.cpp solve/elastic_contacts.cpp solve/elastic_contacts_load.cpp solve/elastic_factors.cpp
+  solve/elastic_parts.cpp solve/elastic_system.cpp solve/elastic_tie_choice.cpp solve/elastic_ties.cpp solve/gaping_joints.cpp solve/impulse_match.cpp
+  solve/island_residuals.cpp solve/joint_residual.cpp solve/patch_tree.cpp
+  trees/driven_axis.cpp trees/holder_path.cpp trees/tree_energy.cpp trees/tree_holder.cpp trees/tree_nodes.cpp trees/tree_path.cpp
+  trees/tree_solver.cpp
+  islands/driven_islands.cpp islands/island_choice.cpp islands/island_closing.cpp islands/island_columns.cpp islands/island_demands.cpp
+  islands/island_energy.cpp islands/island_group.cpp islands/island_loan.cpp islands/island_newton.cpp islands/island_obstacles.cpp
+  islands/island_residual.cpp islands/island_solver.cpp islands/island_substep.cpp islands/island_system.cpp islands/large_islands.cpp
+  step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/fast_joints.cpp step/integrate.cpp step/move_particles.cpp step/move_scripted.cpp
+  step/remember_velocities.cpp step/row_solver.cpp step/sleeping.cpp step/step.cpp step/stretched_links.cpp step/tear.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp
   measure/within_reach.cpp)
 

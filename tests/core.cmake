@@ -6,13 +6,15 @@ plumb_add_tests(plumb_unit_tests unit
   constraints/air_drag_test.cpp constraints/axis_drive_test.cpp constraints/bending_test.cpp constraints/contact_cone_test.cpp constraints/connector_test.cpp
   constraints/elasticity_test.cpp constraints/formulas_test.cpp constraints/joint_rows_test.cpp constraints/rolling_test.cpp constraints/strain_test.cpp
   constraints/tree_block_test.cpp constraints/volume_test.cpp schedule/joint_forest_test.cpp schedule/tree_levels_test.cpp world/slot_map_test.cpp
-  geometry/hull_test.cpp geometry/overlap_test.cpp step/island_solver_test.cpp step/island_account_test.cpp step/island_effort_test.cpp step/island_system_test.cpp
+  geometry/hull_test.cpp geometry/overlap_test.cpp
   effects/filter_reachability_test.cpp effects/plan_test.cpp
   schedule/colouring_test.cpp schedule/contact_batches_test.cpp schedule/contact_islands_test.cpp schedule/workers_test.cpp
   measure/contact_comparison_test.cpp measure/deformation_test.cpp measure/mesh_resolution_test.cpp host/choose_collider_test.cpp host/remote_source_test.cpp
   host/edit_bodies_test.cpp host/edit_equal_test.cpp host/edit_errors_test.cpp host/edit_joints_test.cpp
   host/contacts_test.cpp host/log_test.cpp host/names_test.cpp host/state_test.cpp
-  contacts/contact_work_test.cpp host/kept_contacts_test.cpp step/gaping_joints_test.cpp step/residual_test.cpp
+  contacts/contact_work_test.cpp host/kept_contacts_test.cpp solve/gaping_joints_test.cpp
+  islands/island_account_test.cpp islands/island_effort_test.cpp islands/island_solver_test.cpp islands/island_system_test.cpp
+  step/residual_test.cpp
   host/capture_test.cpp)
 # Deformables take the reader's shapes; what frames tell is followed into recordings.
 target_link_libraries(plumb_unit_tests PRIVATE plumb::reader plumb::output)

@@ -31,7 +31,6 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     changes_.resize(bodies);
     start_.reserve(world.bodies.size());
     fast_.reserve(world.bodies.size());
-    body_of_.resize(bodies);
 }
 
 bool Impacts::find_fast(const Bodies& b, double threshold) {
@@ -67,10 +66,7 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
                    last = islands_.pairs().begin() + island.last_pair;
         const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
         if (!hit) continue;
-        std::for_each(first, last, [&](std::uint32_t p) {
-            hit_[p] = 1;
-            take_bodies(world, pairs[p]);
-        });
+        std::for_each(first, last, [&](std::uint32_t p) { hit_[p] = 1; });
         colliding_.push_back(island);
     }
     choose_start(world);
@@ -83,16 +79,10 @@ void Impacts::choose_start(const World& world) {
     for (const ContactIsland& island : colliding_) {
         if (island.last_pair - island.first_pair > 1) continue;
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
-            const std::uint32_t body = body_of_[islands_.bodies()[i]];
+            const std::uint32_t body = world.body_of_row[islands_.bodies()[i]];
             start_[body] = 0.5 * (b.velocity_now[body] + b.velocity[body]);
         }
     }
-}
-
-void Impacts::take_bodies(const World& world, const BodyPair& pair) {
-    const Contact& contact = world.contacts.found[pair.first];
-    if (pair.row_a < world.dynamic_count) body_of_[pair.row_a] = contact.a;
-    if (pair.row_b < world.dynamic_count) body_of_[pair.row_b] = contact.b;
 }
 
 /// The greatest share of the changes, at most 1, with which the island has no more energy than
@@ -110,7 +100,7 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
     ContactWork work;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
         const std::int32_t row = islands_.bodies()[i];
-        const std::uint32_t body = body_of_[row];
+        const std::uint32_t body = world.body_of_row[row];
         const Change& d = changes_[row];
         const Vector3d &v = start_[body], &w = bodies.angular_velocity_now[body];
         work.at_start += bodies.mass[body] * v.dot(d.v) + inertia_product(bodies, body, w, d.w);
@@ -131,7 +121,7 @@ Vector3d Impacts::drift(const World& world, const ContactIsland& island,
     double mass = 0;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
         const std::int32_t row = islands_.bodies()[i];
-        const double of_body = world.bodies.mass[body_of_[row]];
+        const double of_body = world.bodies.mass[world.body_of_row[row]];
         momentum += of_body * changes_[row].v, mass += of_body;
     }
     return momentum / mass;
@@ -145,7 +135,7 @@ void Impacts::take(World& world, const std::vector<BodyPair>& pairs, double h) {
         const Vector3d drifted = drift(world, island, pairs);
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
             const std::int32_t row = islands_.bodies()[i];
-            const std::uint32_t body = body_of_[row];
+            const std::uint32_t body = world.body_of_row[row];
             const Vector3d dv = share * (changes_[row].v - drifted), dw = share * changes_[row].w;
             b.velocity[body] += dv, b.velocity_now[body] += dv;
             if (gyroscopic_ && !b.isotropic[body])

@@ -79,7 +79,6 @@ private:
     /// Marks the bodies that are fast enough to collide with another; whether any is.
     bool find_fast(const Bodies& bodies, double threshold);
     void choose_start(const World& world);
-    void take_bodies(const World& world, const BodyPair& pair);
     Vector3d drift(const World& world, const ContactIsland& island,
                    const std::vector<BodyPair>& pairs) const;
     double bounded_share(const World& world, const ContactIsland& island,
@@ -88,12 +87,11 @@ private:
     bool gyroscopic_;
     ContactIslands islands_;
     std::vector<ContactIsland> colliding_;
-    std::vector<double> shares_;          // [colliding_] of the changes that were taken
-    std::vector<std::uint8_t> fast_;      // [body]
-    std::vector<std::uint8_t> hit_;       // [pair]
-    std::vector<Vector3d> start_;         // [body]
-    std::vector<std::uint32_t> body_of_;  // [row], of the rows above
-    std::vector<Change> changes_;         // [row]
+    std::vector<double> shares_;      // [colliding_] of the changes that were taken
+    std::vector<std::uint8_t> fast_;  // [body]
+    std::vector<std::uint8_t> hit_;   // [pair]
+    std::vector<Vector3d> start_;     // [body]
+    std::vector<Change> changes_;     // [row]
 };
 
 }  // namespace plumb

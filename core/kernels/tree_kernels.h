@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// The kernels of bodies that hang by balls in trees (step/tree_solver.h), over blocks in which no
+/// The kernels of bodies that hang by balls in trees (trees/tree_solver.h), over blocks in which no
 /// two share a parent.
 #pragma once
 

@@ -2,7 +2,7 @@
 #include "measure/measure.h"
 
 #include "math/fnv1a.h"
-#include "step/gaping_joints.h"
+#include "solve/gaping_joints.h"
 #include "world/body_momentum.h"
 #include "world/link_error.h"
 #include "world/sleep.h"

@@ -4,7 +4,7 @@
 
 #include "constraints/connector.h"
 #include "schedule/contact_batches.h"
-#include "step/velocity_table.h"
+#include "solve/velocity_table.h"
 
 namespace plumb {
 

@@ -9,6 +9,8 @@
 #include "contacts/contact_sums.h"
 #include "contacts/impacts.h"
 #include "effects/plan.h"
+#include "islands/island_account.h"
+#include "islands/island_group.h"
 #include "kernels/contact_kernels.h"
 #include "schedule/contact_batches.h"
 #include "schedule/workers.h"
@@ -16,12 +18,10 @@
 #include "solve/contact_iteration.h"
 #include "solve/contact_residuals.h"
 #include "solve/mass_table.h"
+#include "solve/velocity_table.h"
 #include "step/contact_impacts.h"
 #include "step/contact_impulses.h"
-#include "step/island_account.h"
-#include "step/island_group.h"
 #include "step/row_work.h"
-#include "step/velocity_table.h"
 #include "world/world.h"
 
 #include <algorithm>

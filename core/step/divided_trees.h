@@ -9,7 +9,7 @@
 /// began.
 ///
 /// Where a tree hangs by a body that a script moves, parts see that where it is in each of them
-/// (step/holder_path.h), and energies are those in its frame (step/tree_energy.h).
+/// (trees/holder_path.h), and energies are those in its frame (trees/tree_energy.h).
 ///
 /// A part is a substep, in which bodies also turn with the momentum that the joint leaves them
 /// (math/free_rotation.h), and not with that of the start. As many parts as were needed are kept
@@ -27,8 +27,8 @@
 #include "effects/report.h"
 #include "schedule/motion_lists.h"
 #include "schedule/workers.h"
-#include "step/tree_holder.h"
-#include "step/tree_solver.h"
+#include "trees/tree_holder.h"
+#include "trees/tree_solver.h"
 
 #include <deque>
 #include <vector>

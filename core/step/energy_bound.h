@@ -74,9 +74,6 @@ private:
         found_ = true;
         islands_.find(pairs, {}, 0, world.dynamic_count);
         held_.assign(static_cast<std::size_t>(world.dynamic_count), 0);
-        body_of_.resize(held_.size());
-        for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-            if (world.bodies.motion[i] == Motion::dynamic) body_of_[world.bodies.row[i]] = i;
         const auto hold = [&](std::uint32_t body) {
             if (body != kNoIndex && world.bodies.motion[body] == Motion::dynamic)
                 held_[world.bodies.row[body]] = 1;
@@ -131,7 +128,7 @@ private:
                      Visit visit) const {
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
             const std::int32_t row = islands_.bodies()[i];
-            visit(world.bodies.velocity[body_of_[row]],
+            visit(world.bodies.velocity[world.body_of_row[row]],
                   Vector3d(velocity_in(rows.change, row).v.template cast<double>()));
         }
     }
@@ -144,7 +141,7 @@ private:
         const double speed = world.settings.recovery_speed;
         double energy = 0;
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
-            const std::uint32_t body = body_of_[islands_.bodies()[i]];
+            const std::uint32_t body = world.body_of_row[islands_.bodies()[i]];
             energy += 0.5 * b.mass[body] * speed * speed - kinetic_energy(b, body);
         }
         return std::max(0.0, energy);
@@ -154,7 +151,6 @@ private:
     bool watches_ = false, found_ = false;
     std::vector<std::uint8_t> fast_, held_;  // [dynamic row]
     std::vector<std::uint8_t> uneven_;       // [pair]
-    std::vector<std::uint32_t> body_of_;     // [dynamic row]
 };
 
 }  // namespace plumb

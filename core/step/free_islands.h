@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
 /// Keeps the angular momentum of bodies that joints hold together and that hang by nothing, alone
-/// or with what they touch, where iterations or trees solve them (step/free_turn.h).
+/// or with what they touch, where iterations or trees solve them (solve/free_turn.h).
 #pragma once
 
 #include "schedule/contact_islands.h"
+#include "solve/free_turn.h"
 #include "solve/island_residuals.h"
-#include "step/free_turn.h"
-#include "step/velocity_table.h"
+#include "solve/velocity_table.h"
 
 #include <limits>
 #include <vector>
@@ -30,10 +30,6 @@ public:
             const ContactIsland& island = islands_.islands()[i];
             if (!held_[i] && island.first_tie < island.last_tie) free_.push_back(island);
         }
-        if (free_.empty()) return;
-        body_of_.resize(static_cast<std::size_t>(world.dynamic_count));
-        for (std::uint32_t i = 0; i < world.bodies.size(); ++i)
-            if (world.bodies.motion[i] == Motion::dynamic) body_of_[at(world.bodies.row[i])] = i;
     }
 
     bool empty() const { return free_.empty(); }
@@ -42,18 +38,18 @@ public:
     bool turn_back(const World& world, const BodyRows<Real>& bodies) const {
         bool turned = false;
         for (const ContactIsland& island : free_) {
-            const FreeTurn turn = plumb::turn_back(world.bodies, kRounding, [&](auto visit) {
+            const RigidMotion turn = plumb::turn_back(world.bodies, kRounding, [&](auto visit) {
                 each_row(island, [&](std::int32_t row) {
                     const Velocity<Real> x = velocity_in(bodies.change, row);
-                    visit(body_of_[at(row)],
+                    visit(world.body_of_row[at(row)],
                           {x.v.template cast<double>(), x.w.template cast<double>()});
                 });
             });
-            if (turn.is_none()) continue;
+            if (turn.is_rest()) continue;
             turned = true;
             each_row(island, [&](std::int32_t row) {
                 Velocity<Real> x = velocity_in(bodies.change, row);
-                const Velocity<double> more = turn.of(world.bodies, body_of_[at(row)]);
+                const Velocity<double> more = turn.of(world.bodies, world.body_of_row[at(row)]);
                 x.v += more.v.template cast<Real>(), x.w += more.w.template cast<Real>();
                 put_velocity(bodies.change, row, x);
             });
@@ -86,7 +82,6 @@ private:
     ContactIslands islands_;
     std::vector<std::uint8_t> held_;  // [island]
     std::vector<ContactIsland> free_;
-    std::vector<std::uint32_t> body_of_;  // [dynamic row]
 };
 
 }  // namespace plumb

@@ -5,9 +5,9 @@
 /// the angular momentum from step to step and turns with the rate of the step's middle
 /// (math/free_rotation.h). With a leapfrog start the very first push is half of one: velocities are
 /// then those in the middle of substeps, for which the same formulas are of second order.
+#include "kernels/body_columns.h"
 #include "kernels/contact_kernels.h"
 #include "math/matrices.h"
-#include "step/body_columns.h"
 #include "step/stages.h"
 
 #include <Eigen/LU>

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 /// Sees to it that iterations of contacts, and joints that are iterated or solved among them, give
-/// an island no more energy than it may have (step/energy_loan.h). Rows at the preview poses say
+/// an island no more energy than it may have (solve/energy_loan.h). Rows at the preview poses say
 /// little of the way there where links whip round by radians within a substep, and contacts have
 /// the last word over joints, which they open and which close again: a few iterations may end at
 /// rates from which the next substep does not recover.
 #pragma once
 
 #include "schedule/contact_islands.h"
+#include "solve/energy_loan.h"
 #include "solve/island_residuals.h"
 #include "step/contact_solver.h"
-#include "step/energy_loan.h"
 #include "step/keep_share.h"
 #include "world/tie.h"
 
@@ -22,18 +22,14 @@ namespace plumb {
 template <class Real, int W>
 class JointEnergyBound {
 public:
-    explicit JointEnergyBound(const World& world)
-        : body_of_(world.dynamic_count), is_joined_(world.bodies.size(), 0) {
+    explicit JointEnergyBound(const World& world) : is_joined_(world.bodies.size(), 0) {
         for (const Joint& joint : world.joints.joints)
             for (const std::uint32_t body : {joint.a, joint.b})
                 if (body != kNoIndex) is_joined_[body] = 1;
-        for (std::uint32_t i = 0; i < world.bodies.size(); ++i) {
-            if (world.bodies.motion[i] != Motion::dynamic) continue;
-            body_of_[static_cast<std::size_t>(world.bodies.row[i])] = i;
-            if (is_joined_[i]) joined_.push_back(i);
-        }
+        for (const std::uint32_t body : world.body_of_row)
+            if (is_joined_[body]) joined_.push_back(body);
         ties_.reserve(world.joints.size() + world.links.size());
-        loans_.reserve(body_of_.size());
+        loans_.reserve(world.body_of_row.size());
     }
 
     /// After the passes of a substep of h [s]; bodies: their rows.
@@ -91,7 +87,7 @@ private:
         const Bodies& b = world.bodies;
         loans_.assign(islands_.islands().size(), Account{});
         for (const std::int32_t row : islands_.bodies()) {
-            const std::uint32_t i = body_of_[static_cast<std::size_t>(row)];
+            const std::uint32_t i = world.body_of_row[static_cast<std::size_t>(row)];
             const Velocity<double> x = change_of(b, rows, i);
             EnergyLoan& loan = loans_[islands_.island_of()[static_cast<std::size_t>(row)]].loan;
             loan.add_change(b, i, b.velocity[i], b.angular_velocity[i], x.v, x.w);
@@ -138,7 +134,6 @@ private:
         if (Account* account = account_of(world, body)) account->is_driven = true;
     }
 
-    std::vector<std::uint32_t> body_of_;   // [dynamic row]
     std::vector<std::uint8_t> is_joined_;  // [body] whether a joint holds it
     std::vector<std::uint32_t> joined_;    // those of them that are dynamic
     std::vector<BodyPair> ties_;

@@ -2,12 +2,12 @@
 /// Joints of one precision and lane width: from the world's tables to blocks, iterations, and back.
 #pragma once
 
+#include "kernels/body_columns.h"
 #include "schedule/joint_forest.h"
 #include "solve/constraint_group.h"
 #include "solve/lane_blocks.h"
-#include "step/body_columns.h"
+#include "solve/velocity_table.h"
 #include "step/coupling_solver.h"
-#include "step/velocity_table.h"
 #include "ties/drive_state.h"
 #include "world/tie.h"
 

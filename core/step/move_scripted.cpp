@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
+#include "constraints/velocity_between.h"
 #include "step/stages.h"
-#include "step/velocity_between.h"
 #include "world/motion_script.h"
 
 namespace plumb {

@@ -2,6 +2,7 @@
 #include "step/row_solver.h"
 
 #include "contacts/impacts.h"
+#include "islands/large_islands.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
 #include "schedule/motion_lists.h"
@@ -15,9 +16,8 @@
 #include "step/free_islands.h"
 #include "step/joint_energy_bound.h"
 #include "step/joint_solver.h"
-#include "step/joint_tree_group.h"
-#include "step/large_islands.h"
 #include "step/push_out_shares.h"
+#include "trees/joint_tree_group.h"
 
 #include <algorithm>
 #include <limits>

@@ -39,7 +39,7 @@ public:
     virtual void bound_energy(const World& world, double h) = 0;
     /// The same of joints: step/joint_energy_bound.h.
     virtual void bound_joint_energy(World& world, double h) = 0;
-    /// Islands that are solved exactly (step/island_group.h); the same.
+    /// Islands that are solved exactly (islands/island_group.h); the same.
     virtual void solve_islands(const World& world, StepReport& report) = 0;
     virtual void propagate_shock() = 0;
     /// After all of these: adds what contacts bear in this substep, besides its impacts.

@@ -89,14 +89,12 @@ void Sleeping::count_rest(World& world) {
 /// `since`: the last look [s].
 void Sleeping::find_what_stirs(World& world, double since) {
     Bodies& b = world.bodies;
-    body_of_.assign(static_cast<std::size_t>(world.dynamic_count), kNoIndex);
-    stirs_.assign(body_of_.size(), 0);
+    stirs_.assign(world.body_of_row.size(), 0);
     const auto stir = [&](std::uint32_t body) {
         if (body != kNoIndex && b.motion[body] == Motion::dynamic) stirs_[b.row[body]] = 1;
     };
     for (std::uint32_t i = 0; i < b.size(); ++i) {
         if (b.motion[i] != Motion::dynamic) continue;
-        body_of_[b.row[i]] = i;
         const double way = b.rest_way[i].norm() + b.bounding_radius[i] * b.rest_turn[i].norm();
         const bool drifts = way > kDrift * world.settings.sleep_speed * since;
         if (drifts || b.rest_time[i] < 0.99 * since) stir(i);
@@ -154,7 +152,7 @@ bool Sleeping::put_to_sleep_what_rests(World& world) {
         bool rests = !stirs;
         island_.clear();
         for (auto row = first; row != last; ++row) {
-            const std::uint32_t body = body_of_[*row];
+            const std::uint32_t body = world.body_of_row[*row];
             if (stirs) b.rest_time[body] = 0;
             rests &= b.rest_time[body] > time;
             island_.push_back(body);

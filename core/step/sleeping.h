@@ -45,7 +45,6 @@ private:
                       const std::vector<BodyMotion>& motions) const;
 
     std::uint32_t asleep_ = 0;
-    std::vector<std::uint32_t> body_of_;  // [dynamic row]
     std::vector<std::uint8_t> stirs_;     // [dynamic row] whether it keeps its island awake
     std::vector<BodyPair> pairs_, ties_;  // that touch; that are held together
     ContactIslands islands_;

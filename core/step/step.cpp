@@ -3,7 +3,7 @@
 
 #include "constraints/substep_time.h"
 #include "contacts/bend.h"
-#include "step/gaping_joints.h"
+#include "solve/gaping_joints.h"
 #include "world/derived.h"
 
 #include <cmath>

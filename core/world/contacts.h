@@ -23,10 +23,10 @@ struct alignas(64) ContactMemory {
     bool exact = false;         ///< whether its impulses are those of an island solved exactly
     bool jammed = false;        ///< friction holds its overlap: an exact solution could not push it
                                 ///< out, or left it as it is
-    std::uint8_t disputed = 0;  ///< steps for which its island is (step/island_effort.h)
+    std::uint8_t disputed = 0;  ///< steps for which its island is (islands/island_effort.h)
     std::uint8_t settling = 0;  ///< steps for which it is solved to a finer tolerance (the same)
     std::uint8_t missed = 0;    ///< 1: its island misses Settings::accuracy; more: it waits for so
-                                ///< long (step/island_account.h)
+                                ///< long (islands/island_account.h)
     bool moved = false;         ///< and it moved when it was given up
     bool flush = false;         ///< it is with what lies below the plane of another
     bool ghost = false;         ///< and others ensure what it would (contacts/ghost_contacts.h)

@@ -18,6 +18,10 @@ void assign_rows(World& world) {
         b.row[i] = b.motion[i] == Motion::dynamic     ? dynamic++
                    : b.motion[i] == Motion::kinematic ? kinematic++
                                                       : world.zero_row();
+    world.body_of_row.resize(static_cast<std::size_t>(world.dynamic_count));
+    for (std::uint32_t i = 0; i < b.size(); ++i)
+        if (b.motion[i] == Motion::dynamic)
+            world.body_of_row[static_cast<std::size_t>(b.row[i])] = i;
 }
 
 void combine_surfaces(World& world, const Scene& scene) {

@@ -52,7 +52,7 @@ struct Joint {
     std::array<double, kJointAxes> rows_before{};  ///< and of the one before it
     TreePace pace;
     IslandRest island_rest;
-    double owed = 0;  ///< its share of the energy lent to its island [J] (step/energy_loan.h)
+    double owed = 0;  ///< its share of the energy lent to its island [J] (solve/energy_loan.h)
 
     /// Of a row that is taken away [m/N], [rad/(N m)].
     double compliance_of(std::uint32_t axis) const {

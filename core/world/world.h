@@ -51,7 +51,8 @@ struct World {
     ShapeStore shapes;
     std::int32_t dynamic_count = 0;    ///< rows of dynamic bodies come first in the velocity table,
     std::int32_t kinematic_count = 0;  ///< then particles, kinematic bodies, and one row of zeros
-    double time = 0;                   ///< [s]
+    std::vector<std::uint32_t> body_of_row;  ///< [row of a dynamic body]
+    double time = 0;                         ///< [s]
     std::uint64_t steps = 0;
 
     const SurfacePair& surface_pair(std::uint32_t body_a, std::uint32_t body_b) const {

@@ -4,7 +4,7 @@
 # standard library and itself, and plugins/ nothing of core/. Names each include that breaks this, with its line.
 set -eu
 root=$1
-layers="math scene geometry world constraints schedule ties kernels effects contacts solve step measure host reader output study app"
+layers="math scene geometry world constraints schedule ties kernels effects contacts solve trees islands step measure host reader output study app"
 sources() { find "$root/$1" \( -name '*.h' -o -name '*.cpp' \) -print0 | sort -z; }
 
 # Splits each include into its first folder (empty: a file alone) and hands it to `complaint`, which the caller defines.
