@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "manifold/candidates.h"
 
+#include <tuple>
+
 namespace plumb {
 namespace {
 
@@ -76,25 +78,42 @@ void Candidates::fatten_all(BodyTable& table) {
     order_ = table.order();
 }
 
-void Candidates::renew_escaped(BodyTable& table) {
+/// Along x, with how far they reach up to each.
+void Candidates::line_up_escaped(BodyTable& table) {
     std::vector<Part>& parts = table.parts();
-    escaped_fat_.clear();
+    line_.clear();
     for (std::uint32_t i : escaped_) {
         fatten(parts[i], made_[i]);
         fats_[i] = {parts[i].fat};
-        escaped_fat_.push_back(parts[i].fat);
+        line_.push_back({parts[i].fat, 0, i});
     }
+    std::sort(line_.begin(), line_.end(), [](const Escaped& p, const Escaped& q) {
+        return std::tie(p.fat.low.x, p.part) < std::tie(q.fat.low.x, q.part);
+    });
+    double reach = -kInfinity;
+    for (Escaped& e : line_) e.reach = reach = std::max(reach, e.fat.high.x);
+}
+
+/// Of those in line, the ones before that end too early, and those that begin too late, are not
+/// looked at.
+void Candidates::renew_escaped(BodyTable& table) {
+    line_up_escaped(table);
     std::erase_if(
         wide_, [&](const PartPair& p) { return is_outdated_[p.first] || is_outdated_[p.second]; });
 
+    const std::vector<Part>& parts = table.parts();
     renewed_.clear();
-    for (std::uint32_t j = 0; j < parts.size(); ++j)
-        for (std::size_t k = 0; k < escaped_.size(); ++k) {
-            const std::uint32_t i = escaped_[k];
-            if (!overlap(fats_[j].box, escaped_fat_[k]) || (is_outdated_[j] && j <= i)) continue;
+    for (std::uint32_t j = 0; j < parts.size(); ++j) {
+        const Aabb& box = fats_[j].box;
+        const auto ends_before = [](const Escaped& e, double x) { return e.reach < x; };
+        for (auto e = std::lower_bound(line_.begin(), line_.end(), box.low.x, ends_before);
+             e != line_.end() && e->fat.low.x <= box.high.x; ++e) {
+            const std::uint32_t i = e->part;
+            if (!overlap(box, e->fat) || (is_outdated_[j] && j <= i)) continue;
             if (parts[j].present && table.wanted(parts[i], parts[j]))
                 renewed_.push_back({std::min(i, j), std::max(i, j)});
         }
+    }
     std::sort(renewed_.begin(), renewed_.end(), PairOrder{bodies_});
     merge_renewed();
 }

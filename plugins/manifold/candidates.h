@@ -45,6 +45,7 @@ private:
     bool find_escaped(BodyTable& table);
     void fatten_all(BodyTable& table);
     void fatten(Part& part, Made& made) const;
+    void line_up_escaped(BodyTable& table);
     void renew_escaped(BodyTable& table);
     void merge_renewed();
     void take_overlapping(std::vector<PartPair>& near) const;
@@ -52,6 +53,12 @@ private:
     /// In one line of the processor's cache.
     struct alignas(64) Bounds {
         Aabb box;
+    };
+    /// A part that left its fat bounds, with its new ones.
+    struct alignas(64) Escaped {
+        Aabb fat;
+        double reach;  ///< the greatest x of it and of all before it [m]
+        std::uint32_t part;
     };
 
     std::vector<PartPair> wide_, renewed_;
@@ -61,7 +68,7 @@ private:
     std::vector<std::uint32_t> bodies_;        ///< [part]
     std::vector<std::uint32_t> escaped_;       ///< parts that came, or left their fat bounds
     std::vector<std::uint8_t> is_outdated_;    ///< [part, of now or before] its pairs may be others
-    std::vector<Aabb> escaped_fat_;            ///< [escaped part]
+    std::vector<Escaped> line_;                ///< the same parts along x, by where they begin
     std::vector<Made> made_;                   ///< [part]
     std::uint64_t order_ = ~std::uint64_t{0};  ///< of the table, BodyTable::order
     std::uint64_t detection_ = 0;              ///< counted

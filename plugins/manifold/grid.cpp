@@ -17,7 +17,26 @@ std::uint32_t bucket_of(const std::int32_t* cell, std::uint32_t mask) {
     return (h ^ (h >> 15)) & mask;
 }
 
+constexpr std::uint32_t kOnEveryAxis = 7;
+
 }  // namespace
+
+/// Along each axis a cell that both cover is the higher of their low ones where it is the low one
+/// of either.
+bool Grid::meet_here(const Entry& p, const Entry& q) {
+    return (p.is_low | q.is_low) == kOnEveryAxis && p.cell[0] == q.cell[0] &&
+           p.cell[1] == q.cell[1] && p.cell[2] == q.cell[2];
+}
+
+void Grid::enter(std::uint32_t part, const Range& r) {
+    for (std::int32_t x = r.low[0]; x <= r.high[0]; ++x)
+        for (std::int32_t y = r.low[1]; y <= r.high[1]; ++y)
+            for (std::int32_t z = r.low[2]; z <= r.high[2]; ++z) {
+                const std::uint32_t is_low =
+                    (x == r.low[0]) | (y == r.low[1]) << 1 | (z == r.low[2]) << 2;
+                loose_.push_back({{x, y, z}, part, is_low});
+            }
+}
 
 double Grid::cell_size(const BodyTable& table) {
     // Half as large again as the middle one of the parts, so that most cover few cells.
@@ -35,13 +54,12 @@ double Grid::cell_size(const BodyTable& table) {
 
 void Grid::sort_into_cells(const BodyTable& table, double size) {
     const std::vector<Part>& parts = table.parts();
-    ranges_.resize(parts.size());
     is_large_.assign(parts.size(), 0);
     large_.clear();
     loose_.clear();
     for (std::uint32_t i = 0; i < parts.size(); ++i) {
         if (!parts[i].present) continue;
-        Range& r = ranges_[i];
+        Range r;
         double cells = 1;
         for (int k = 0; k < 3; ++k) {
             const double low = std::floor(at(parts[i].fat.low, k) / size);
@@ -56,10 +74,7 @@ void Grid::sort_into_cells(const BodyTable& table, double size) {
             is_large_[i] = 1;
             continue;
         }
-        for (std::int32_t x = r.low[0]; x <= r.high[0]; ++x)
-            for (std::int32_t y = r.low[1]; y <= r.high[1]; ++y)
-                for (std::int32_t z = r.low[2]; z <= r.high[2]; ++z)
-                    loose_.push_back({{x, y, z}, i});
+        enter(i, r);
     }
 
     // A counting sort by bucket.
@@ -79,12 +94,7 @@ void Grid::meet_in_cell(std::vector<PartPair>& pairs, const BodyTable& table, st
     for (std::uint32_t i = begin; i < end; ++i)
         for (std::uint32_t j = i + 1; j < end; ++j) {
             const Entry &p = sorted_[i], &q = sorted_[j];
-            const Range &rp = ranges_[p.part], &rq = ranges_[q.part];
-            bool here = true;
-            for (int k = 0; k < 3; ++k)
-                here =
-                    here && p.cell[k] == q.cell[k] && p.cell[k] == std::max(rp.low[k], rq.low[k]);
-            if (!here) continue;
+            if (!meet_here(p, q)) continue;
             const Part &a = parts[p.part], &b = parts[q.part];
             if (overlap(a.fat, b.fat) && table.wanted(a, b))
                 pairs.push_back({std::min(p.part, q.part), std::max(p.part, q.part)});

@@ -20,15 +20,17 @@ private:
     struct Entry {
         std::int32_t cell[3];
         std::uint32_t part;
+        std::uint32_t is_low;  ///< a bit an axis: whether the part covers no lower cell along it
     };
 
     double cell_size(const BodyTable& table);
+    static bool meet_here(const Entry& p, const Entry& q);
+    void enter(std::uint32_t part, const Range& r);
     void sort_into_cells(const BodyTable& table, double size);
     void meet_in_cell(std::vector<PartPair>& pairs, const BodyTable& table, std::uint32_t begin,
                       std::uint32_t end);
 
     std::vector<double> sizes_;
-    std::vector<Range> ranges_;           ///< [part]
     std::vector<std::uint32_t> large_;    ///< parts that cover too many cells, or have no bounds
     std::vector<std::uint8_t> is_large_;  ///< [part]
     std::vector<Entry> loose_, sorted_;  ///< a part once for every cell it covers; sorted by bucket
