@@ -36,7 +36,7 @@ Vec3 on_plane(const Roles& r, Vec3 p) {
 
 /// Inward unit normal of the side of the prism over the window's edge i.
 Vec3 side_normal(const Roles& r, int i) {
-    const Vec3 edge = r.window.corner[(i + 1) % r.window.count] - r.window.corner[i];
+    const Vec3 edge = r.window.corner[i + 1 < r.window.count ? i + 1 : 0] - r.window.corner[i];
     const Vec3 up = dot(r.window.normal, r.n) > 0 ? r.n : -r.n;
     return unit_or(cross(up, edge), {0, 0, 0});
 }
@@ -56,15 +56,19 @@ struct Polygon {
 
 void cut(Polygon& out, const Polygon& in, Vec3 p, Vec3 m, std::uint32_t line, double slack) {
     out.count = 0;
+    const double first = dot(m, in.corner[0].p - p);
+    double dc = first;
     for (int i = 0; i < in.count; ++i) {
-        const Corner &c = in.corner[i], &d = in.corner[i + 1 < in.count ? i + 1 : 0];
-        const double dc = dot(m, c.p - p), dd = dot(m, d.p - p);
+        const bool is_last = i + 1 == in.count;
+        const Corner &c = in.corner[i], &d = in.corner[is_last ? 0 : i + 1];
+        const double dd = is_last ? first : dot(m, d.p - p);
         const bool c_inside = dc >= -slack, d_inside = dd >= -slack;
         if (c_inside) out.add(c.p, c.line);
         // cut where the slack ends, or an edge that runs along the line would be cut far outside of
         // itself
         if (c_inside != d_inside)
             out.add(c.p + ((dc + slack) / (dc - dd)) * (d.p - c.p), c_inside ? line : c.line);
+        dc = dd;
     }
 }
 
@@ -80,7 +84,7 @@ void polygon_in_polygon(FacingPoints& out, const Roles& r) {
     }
     const Polygon& now = *now_at;
     for (int i = 0; i < now.count; ++i) {
-        const Corner& before = now.corner[(i + now.count - 1) % now.count];
+        const Corner& before = now.corner[i > 0 ? i - 1 : now.count - 1];
         emit(out, r, now.corner[i].p, on_plane(r, now.corner[i].p),
              128 * before.line + now.corner[i].line);
     }
