@@ -85,10 +85,14 @@ Witness least_overlap(const Part& a, const Part& b) {
 }
 
 bool axes_part(const Part& a, const Part& b, double by) {
-    for (const Part* part : {&a, &b})
-        for (const Vec3& axis : part->world.axis)
-            for (double side : {1.0, -1.0})
-                if (support_gap(a, b, side * axis) > by) return true;
+    // most often one that looks from b towards a does
+    const Vec3 way = a.world.origin - b.world.origin;
+    for (const bool towards : {true, false})
+        for (const Part* part : {&a, &b})
+            for (const Vec3& axis : part->world.axis) {
+                const Vec3 n = (dot(axis, way) >= 0) == towards ? axis : -axis;
+                if (support_gap(a, b, n) > by) return true;
+            }
     return false;
 }
 

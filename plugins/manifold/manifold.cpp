@@ -100,6 +100,29 @@ Facing facing_of(const Part& a, const Part& b, Vec3 n, double size) {
     return {support_face(a, -n, around, 2 * size), support_face(b, n, around, 2 * size)};
 }
 
+/// Whether two of the points are as near as a gap that supports imply.
+bool is_reached(double gap, const FacingPoints& points, double size) {
+    return points.deepest <= gap + 1e-7 * size;
+}
+
+/// Contacts at those of the points that are within the margin.
+void add_points(ContactList& out, DetectStats& stats, const Pair& pair, const Facing& facing,
+                FacingPoints& points) {
+    const SupportFace &face_a = facing.a, &face_b = facing.b;
+    keep_near(points, pair_margin(pair.a, pair.b));
+    reduce(points);
+    for (int i = 0; i < points.count; ++i) {
+        // A cylinder that lies on its side is anchored on its axis, as every round shape is on its
+        // core.
+        const FacingPoints::Point& p = points.point[i];
+        const double sa = face_a.side_radius, sb = face_b.side_radius;
+        Contact& c = add_contact(out, pair, p.on_a + sa * pair.n, p.on_b - sb * pair.n,
+                                 face_a.radius + sa, face_b.radius + sb);
+        c.feature = feature_key({3, pair.a.index, pair.b.index, face_a.id, face_b.id, p.feature});
+    }
+    stats.from_clip += static_cast<std::uint64_t>(points.count);
+}
+
 void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,
                   const Witness& witness, Fallback fallback) {
     if (!finite(witness.normal) || !finite(witness.point)) return;
@@ -107,8 +130,7 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
     if (a.shape.kind == ShapeKind::plane) pair.n = -a.world.axis[1];
     if (b.shape.kind == ShapeKind::plane) pair.n = b.world.axis[1];
     pair.gap = support_gap(a, b, pair.n);
-    const double margin = pair_margin(a, b);
-    if (!(pair.gap <= margin)) return;
+    if (!(pair.gap <= pair_margin(a, b))) return;
     if (witness.approximate) pair.flags |= kContactApproximate;
 
     const bool sphere = a.shape.kind == ShapeKind::sphere || b.shape.kind == ShapeKind::sphere;
@@ -119,8 +141,7 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
 
     const double size = size_of(a) + size_of(b);
     const Facing facing = facing_of(a, b, pair.n, size);
-    const SupportFace &face_a = facing.a, &face_b = facing.b;
-    FacingPoints points = facing_points(face_a, face_b, pair.n);
+    FacingPoints points = facing_points(facing.a, facing.b, pair.n);
 
     if (fallback == Fallback::witness && points.deepest > pair.gap + 1e-6 * size) {
         ++stats.from_fallback;
@@ -133,18 +154,7 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
             touching_point(point, a, b, pair.n, pair.gap);
         fallback_contact(out, pair, point);
     }
-    keep_near(points, margin);
-    reduce(points);
-    for (int i = 0; i < points.count; ++i) {
-        // A cylinder that lies on its side is anchored on its axis, as every round shape is on its
-        // core.
-        const FacingPoints::Point& p = points.point[i];
-        const double sa = face_a.side_radius, sb = face_b.side_radius;
-        Contact& c = add_contact(out, pair, p.on_a + sa * pair.n, p.on_b - sb * pair.n,
-                                 face_a.radius + sa, face_b.radius + sb);
-        c.feature = feature_key({3, a.index, b.index, face_a.id, face_b.id, p.feature});
-    }
-    stats.from_clip += static_cast<std::uint64_t>(points.count);
+    add_points(out, stats, pair, facing, points);
 }
 
 }  // namespace
@@ -152,7 +162,17 @@ void add_manifold(ContactList& out, DetectStats& stats, const Part& a, const Par
 bool gap_is_reached(const Part& a, const Part& b, Vec3 n) {
     const double size = size_of(a) + size_of(b);
     const Facing facing = facing_of(a, b, n, size);
-    return facing_points(facing.a, facing.b, n).deepest <= support_gap(a, b, n) + 1e-7 * size;
+    return is_reached(support_gap(a, b, n), facing_points(facing.a, facing.b, n), size);
+}
+
+bool build_where_reached(ContactList& out, DetectStats& stats, const Part& a, const Part& b, Vec3 n,
+                         double gap) {
+    const double size = size_of(a) + size_of(b);
+    const Facing facing = facing_of(a, b, n, size);
+    FacingPoints points = facing_points(facing.a, facing.b, n);
+    if (!is_reached(gap, points, size)) return false;
+    add_points(out, stats, {a, b, n, gap, kContactClipped}, facing, points);
+    return true;
 }
 
 void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const Part& b,

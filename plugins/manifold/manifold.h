@@ -36,6 +36,11 @@ void build_manifold(ContactList& out, DetectStats& stats, const Part& a, const P
 /// then n is the direction of the shortest way between parts that are apart.
 bool gap_is_reached(const Part& a, const Part& b, Vec3 n);
 
+/// Adds the contacts of a sharp pair along the unit normal n where the gap is reached; else none,
+/// and returns false. `gap`: support_gap along n [m].
+bool build_where_reached(ContactList& out, DetectStats& stats, const Part& a, const Part& b, Vec3 n,
+                         double gap);
+
 /// Adds one contact as the back-end gave it, sharp on both sides. `feature`: a key of what touches
 /// there, 0 where the back-end does not say.
 void add_raw(ContactList& out, DetectStats& stats, const Part& a, const Part& b,

@@ -89,35 +89,57 @@ bool ask_gjk(Witness& witness, const Part& a, const Part& b) {
     return found;
 }
 
+/// The gap that supports imply along the normal of a witness [m].
+double implied_gap(const Witness& witness, const Part& a, const Part& b) {
+    return support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
+}
+
 /// ODE can name a normal along which the true shapes overlap far more than it says: its convex test
 /// often, its box test where two edges are nearly parallel. Then GJK is
-/// asked, too, and of both normals the one of less overlap is nearer to the truth.
-void validate_normal(Witness& witness, const Part& a, const Part& b) {
-    const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
-    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return;
+/// asked, too, and of both normals the one of less overlap is nearer to the truth. Returns the gap
+/// that it implies [m].
+double validate_normal(Witness& witness, const Part& a, const Part& b) {
+    const double implied = implied_gap(witness, a, b);
+    if (implied > witness.gap - 1e-4 * (size_of(a) + size_of(b))) return implied;
     Witness other;
     witness.approximate = true;
-    if (ask_gjk(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
+    if (!ask_gjk(other, a, b) || !(support_gap(a, b, other.normal) > implied)) return implied;
+    witness = other;
+    return implied_gap(witness, a, b);
 }
 
 /// ODE's convex test stops at some way out of an overlap, which need not be the shortest. Where
 /// parts overlap little, their cores or the parts a little smaller are apart, and their closest
-/// points show a shorter one.
-void shorten(Witness& witness, const Part& a, const Part& b) {
-    const Vec3 n = unit_or(witness.normal, {0, 1, 0});
-    const double implied = support_gap(a, b, n);
+/// points show a shorter one. Takes and returns the gap that the witness implies [m].
+double shorten(Witness& witness, const Part& a, const Part& b, double implied) {
     Witness other;
-    if (ask_gjk(other, a, b) && other.gap > implied) witness = other;
+    if (!ask_gjk(other, a, b) || !(other.gap > implied)) return implied;
+    witness = other;
+    return implied_gap(witness, a, b);
 }
 
-/// Of parts that overlap far ODE may name a long way out, or say nothing at all.
-bool ask_deep(Witness& witness, const Part& a, const Part& b, bool overlap) {
+/// Parts that overlap far, of which ODE may have named a long way out, or none at all: the
+/// shortest, if it is shorter than the gap that the witness implies [m].
+bool ask_deep(Witness& witness, const Part& a, const Part& b, double implied) {
     const double size = size_of(a) + size_of(b);
-    const Vec3 n = unit_or(witness.normal, {0, 1, 0});
-    const double implied = overlap ? support_gap(a, b, n) : -1e300;
-    if (implied > -kDeep * size || axes_part(a, b)) return overlap;
+    if (implied > -kDeep * size || axes_part(a, b)) return false;
     const Witness other = least_overlap(a, b);
     if (other.gap > implied + 1e-5 * size) witness = other;
+    return true;
+}
+
+constexpr double kNoWayOut = -1e300;
+
+bool ask_any(Witness& witness, const Part& a, const Part& b) {
+    if (ask(witness, a, b)) {
+        double implied = validate_normal(witness, a, b);
+        if (is(a, ShapeKind::hull) || is(b, ShapeKind::hull))
+            implied = shorten(witness, a, b, implied);
+        ask_deep(witness, a, b, implied);
+    } else if (!ask_gjk(witness, a, b) && !ask_deep(witness, a, b, kNoWayOut)) {
+        return false;
+    }
+    sharpen_bent(witness, a, b);
     return true;
 }
 
@@ -125,25 +147,22 @@ bool ask_deep(Witness& witness, const Part& a, const Part& b, bool overlap) {
 /// and two points of them reach the gap that it implies. Where an edge of one is all but parallel
 /// to one of the other, ODE takes boxes for parted along their product, which is rounding alone: no
 /// axis of a face parts those.
-bool ask_boxes_apart(Witness& witness, const Part& a, const Part& b) {
+void collide_boxes(Output out, const Part& a, const Part& b) {
     const double margin = pair_margin(a, b);
-    if (ask_boxes(witness, a, b, 0.5 * margin)) {
-        const bool parts = support_gap(a, b, unit_or(witness.normal, {0, 1, 0})) >= 0;
-        return (parts && gap_is_reached(a, b, witness.normal)) || ask_gjk(witness, a, b);
+    Witness witness;
+    if (ask_boxes(witness, a, b, 0)) {
+        validate_normal(witness, a, b);
+    } else if (ask_boxes(witness, a, b, 0.5 * margin)) {
+        const Vec3 n = unit_or(witness.normal, {0, 1, 0});
+        const double gap = support_gap(a, b, n);
+        if (gap > margin) return;  // no way between them is shorter
+        if (gap >= 0 && build_where_reached(out.contacts, out.stats, a, b, n, gap)) return;
+        if (!ask_gjk(witness, a, b)) return;
+    } else {
+        if (axes_part(a, b, margin)) return;
+        if (!ask_gjk(witness, a, b) && !ask_deep(witness, a, b, kNoWayOut)) return;
     }
-    if (axes_part(a, b, margin)) return false;
-    return ask_gjk(witness, a, b) || ask_deep(witness, a, b, false);
-}
-
-bool ask_any(Witness& witness, const Part& a, const Part& b) {
-    const bool boxes = is(a, ShapeKind::box) && is(b, ShapeKind::box);
-    const bool overlap = boxes ? ask_boxes(witness, a, b, 0) : ask(witness, a, b);
-    if (overlap) validate_normal(witness, a, b);
-    if (overlap && (is(a, ShapeKind::hull) || is(b, ShapeKind::hull))) shorten(witness, a, b);
-    if (boxes) return overlap || ask_boxes_apart(witness, a, b);
-    const bool found = (!overlap && ask_gjk(witness, a, b)) || ask_deep(witness, a, b, overlap);
-    if (found) sharpen_bent(witness, a, b);
-    return found;
+    build_manifold(out.contacts, out.stats, a, b, witness);
 }
 
 bool is_plane_pair(const Part& a, const Part& b) {
@@ -212,7 +231,7 @@ bool TriangleAnswers::find(Witness& witness, const Part& a, const Part& b, std::
     if (!finite(witness.normal)) return ask_gjk(witness, a, b);
 
     // A normal along which the true shapes overlap more than ODE says is not trusted.
-    const double implied = support_gap(a, b, unit_or(witness.normal, {0, 1, 0}));
+    const double implied = implied_gap(witness, a, b);
     if (implied > witness.gap - 1e-6 * (size_of(a) + size_of(b))) return true;
     Witness other;
     if (ask_gjk(other, a, b) && support_gap(a, b, other.normal) > implied) witness = other;
@@ -220,6 +239,7 @@ bool TriangleAnswers::find(Witness& witness, const Part& a, const Part& b, std::
 }
 
 void collide_convex(Output out, const Part& a, const Part& b) {
+    if (is(a, ShapeKind::box) && is(b, ShapeKind::box)) return collide_boxes(out, a, b);
     // A half-space needs no question: its normal is the contact's.
     Witness witness{{0, 1, 0}, is(a, ShapeKind::plane) ? b.world.origin : a.world.origin, 0, false};
     if (is_plane_pair(a, b) || ask_any(witness, a, b))
