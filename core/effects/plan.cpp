@@ -163,7 +163,6 @@ Wish exact_deformables(const World& w, const BodyCensus&) {
     if (w.settings.exact_deformables == 0) return {false, "exact_deformables is 0"};
     if (!w.settings.shared_push)
         return {false, "the passes' pushes are apart, as in the paper (shared_push)"};
-    if (w.settings.position_iterations == 0) return {false, "there are no position iterations"};
     const std::string most = std::to_string(w.settings.exact_deformables);
     if (n > w.settings.exact_deformables)
         return {false, std::to_string(n) + " particles are more than " + most +

@@ -161,6 +161,9 @@ public:
                     iterate_positions(pass, worker, ledger);
                 if (!free_islands_.empty()) turn_back(world, worker);
             }
+            // a system is solved, and not iterated: it takes none
+            if (iterations == 0 && exact_deformables_)
+                exact_deformables_->iterate_positions(table_.rows(), pass, worker);
         });
         iterations_ += settings_.position_iterations;
         for (const auto& group : groups_) group->report(report);

@@ -86,6 +86,27 @@ TEST_P(LoadedSheets, ComeToRestWithWhatLiesOnThem) {
     }
 }
 
+/// The system is solved once where there are no iterations: what lies on a sheet comes to the
+/// height at which more of them leave it.
+TEST_P(LoadedSheets, NeedNoIterations) {
+    Random random(19);
+    for (int draw = 0; draw < 3; ++draw) {
+        Tray t = tray(scene(), random);
+        t.scene.settings.dt = random.number(0.004, 0.02);
+        t.scene.settings.substeps = 1 + random.below(4);
+        double height[2] = {0, 0};
+        for (const std::uint32_t iterations : {0u, 5u}) {
+            t.scene.settings.position_iterations = iterations;
+            t.scene.settings.velocity_iterations = draw == 0 ? 0 : iterations;
+            Simulation simulation(t.scene, colliders(), collider());
+            run_until(simulation, 5);
+            height[iterations > 0] = simulation.world().bodies.position[0].y();
+        }
+        std::cout << draw << ": at " << height[0] << " m, or " << height[1] << " m\n";
+        EXPECT_NEAR(height[0], height[1], 1e-3 * t.size);
+    }
+}
+
 /// Boxes lie on each other, too, in one system with the sheet; a heavy one swings for long. A point
 /// under a corner that lies over an edge of the sheet may tremble, for the corner is held by
 /// another triangle from step to step.
