@@ -154,11 +154,16 @@ GhostContacts::Plane::Plane(const Contact& c, std::uint32_t body, std::uint32_t 
     part = is_a ? c.part_a : c.part_b, other_part = is_a ? c.part_b : c.part_a;
 }
 
-/// Whether two contacts are with the same convex solid, or with the same mesh.
-bool GhostContacts::are_of_one_solid(const World& world, const Plane& p, const Plane& q) {
-    if (p.other != q.other) return false;
-    const Shape& shape = world.shapes[world.bodies.geometry[p.other]];
-    return shape.kind != ShapeKind::compound || p.other_part == q.other_part;
+/// Whether all of what a contact is with is clearly not below a plane: a ball in it stands out, and
+/// no less where the plane is tilted a little. It does so by twice what is flush, which no rounding
+/// makes good.
+bool GhostContacts::stands_out(const World& world, const Plane& at, const Plane& plane,
+                               double flush) {
+    const Bodies& b = world.bodies;
+    const double ball = inner_radius(world.shapes[b.geometry[at.other]]);
+    const Vector3d centre = in_world(b, at.other, b.geometry_in_body[at.other].position);
+    const double tilt = 2 * kSamePlane * (centre - at.surface).norm();
+    return plane.normal.dot(centre - plane.surface) + ball - tilt > 2 * flush;
 }
 
 /// Whether all of what a contact is with is below a plane, or rises no more than planes that count
@@ -224,45 +229,60 @@ void GhostContacts::list_contacts(const World& world, Workers& workers) {
     });
 }
 
+/// Those that are looked at of the contacts of a body, as it sees them.
+std::span<const GhostContacts::Plane> GhostContacts::planes_of(std::uint32_t body) const {
+    return {planes_.data() + first_[body], std::min(first_[body + 1] - first_[body], kMostOthers)};
+}
+
 /// Looks for a plane that the same part of the body is above, as another contact keeps it, and all
 /// that the contact is with lies below. Where such contacts hold its point, it is a ghost, and they
 /// are left in `beneath_`; where they do not, it is turned to hold its own point above the plane.
 GhostContacts::Verdict GhostContacts::judge(World& world, std::uint32_t contact,
                                             std::uint32_t body) {
-    ContactTable& c = world.contacts;
-    const Plane at(c.found[contact], body, contact);
-    if (!is_convex(shape_of_part(world, body, at.part).kind)) return Verdict::real;
-    const double radius = world.bodies.bounding_radius[body], flush = kFlush * radius;
-    const std::uint32_t first = first_[body],
-                        last = std::min(first_[body + 1], first + kMostOthers);
-    for (std::uint32_t j = first; j < last; ++j) {
-        const Plane& plane = planes_[j];
-        const Vector3d& n = plane.normal;
-        const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
-        if (are_of_one_solid(world, at, plane) || height(at.surface) > flush ||
-            is_ghost_[plane.contact] || plane.part != at.part || is_along(at.normal, n) ||
-            !lies_below(world, at, plane, flush))
-            continue;
-        const Vector3d held = held_point(world, body, Hold(c.found[contact], body), n);
-        if (height(held) < std::min(0.0, c.found[plane.contact].gap) - kOutside * radius) continue;
-        const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
-            return Eigen::Vector2d(u.dot(p - held), n.cross(u).dot(p - held));
-        };
-        Hull hull;
-        beneath_.clear();
-        for (std::uint32_t k = first; k < last; ++k) {
-            const Plane& side = planes_[k];
-            if (side.contact == contact || is_ghost_[side.contact] || side.part != at.part ||
-                !is_along(side.normal, n) || std::abs(height(side.surface)) > flush)
-                continue;
-            hull.add(in_plane(held_point(world, body, Hold(c.found[side.contact], body), n)));
-            beneath_.push_back(side.contact);
-        }
-        if (hull.distance() <= kOutside * radius) return Verdict::ghost;
-        turn(world, contact, body, n, held, height(held));
-        return Verdict::turned;
+    const Plane at(world.contacts.found[contact], body, contact);
+    const double flush = kFlush * world.bodies.bounding_radius[body];
+    // of a compound each part is a solid, a mesh is one
+    const bool is_compound =
+        world.shapes[world.bodies.geometry[at.other]].kind == ShapeKind::compound;
+    for (const Plane& plane : planes_of(body)) {
+        const bool is_one_solid =
+            plane.other == at.other && !(is_compound && plane.other_part != at.other_part);
+        if (is_one_solid || plane.normal.dot(at.surface - plane.surface) > flush) continue;
+        const Verdict verdict = judge_above(world, at, plane, body);
+        if (verdict != Verdict::real) return verdict;
     }
     return Verdict::real;
+}
+
+/// The verdict by one plane, below which the contact's point is.
+GhostContacts::Verdict GhostContacts::judge_above(World& world, const Plane& at, const Plane& plane,
+                                                  std::uint32_t body) {
+    const ContactTable& c = world.contacts;
+    const double radius = world.bodies.bounding_radius[body], flush = kFlush * radius;
+    const Vector3d& n = plane.normal;
+    if (is_ghost_[plane.contact] || plane.part != at.part || is_along(at.normal, n) ||
+        !is_convex(shape_of_part(world, body, at.part).kind) ||
+        stands_out(world, at, plane, flush) || !lies_below(world, at, plane, flush))
+        return Verdict::real;
+    const auto height = [&](const Vector3d& point) { return n.dot(point - plane.surface); };
+    const Vector3d held = held_point(world, body, Hold(c.found[at.contact], body), n);
+    if (height(held) < std::min(0.0, c.found[plane.contact].gap) - kOutside * radius)
+        return Verdict::real;
+    const auto in_plane = [&, u = Vector3d(n.unitOrthogonal())](const Vector3d& p) {
+        return Eigen::Vector2d(u.dot(p - held), n.cross(u).dot(p - held));
+    };
+    Hull hull;
+    beneath_.clear();
+    for (const Plane& side : planes_of(body)) {
+        if (side.contact == at.contact || is_ghost_[side.contact] || side.part != at.part ||
+            !is_along(side.normal, n) || std::abs(height(side.surface)) > flush)
+            continue;
+        hull.add(in_plane(held_point(world, body, Hold(c.found[side.contact], body), n)));
+        beneath_.push_back(side.contact);
+    }
+    if (hull.distance() <= kOutside * radius) return Verdict::ghost;
+    turn(world, at.contact, body, n, held, height(held));
+    return Verdict::turned;
 }
 
 /// Lets a contact hold a point of the body above a plane with the normal n, from which it is so far

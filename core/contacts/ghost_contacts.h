@@ -18,6 +18,7 @@
 #include "world/world.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace plumb {
@@ -51,17 +52,22 @@ private:
     void list_contacts(const World& world, Workers& workers);
     void judge_one(World& world, std::uint32_t contact);
     Verdict judge(World& world, std::uint32_t contact, std::uint32_t body);
+    std::span<const Plane> planes_of(std::uint32_t body) const;
     void turn(World& world, std::uint32_t contact, std::uint32_t body, const Vector3d& n,
               const Vector3d& held, double gap);
 
-    static bool are_of_one_solid(const World& world, const Plane& p, const Plane& q);
+    Verdict judge_above(World& world, const Plane& at, const Plane& plane, std::uint32_t body);
+    static bool stands_out(const World& world, const Plane& at, const Plane& plane, double flush);
     static bool lies_below(const World& world, const Plane& at, const Plane& plane, double flush);
 
     /// A contact by how far it is from just touching.
     struct Touch {
         double distance;  ///< [m]
         std::uint32_t contact;
-        auto operator<=>(const Touch&) const = default;
+        bool operator<(const Touch& other) const {
+            return distance < other.distance ||
+                   (distance == other.distance && contact < other.contact);
+        }
     };
 
     std::vector<std::uint32_t> first_;    ///< [body] in touches_ and planes_; one more at the end

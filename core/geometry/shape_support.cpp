@@ -97,6 +97,20 @@ double support(const PlacedShape& s, const Vector3d& d) {
     return s.origin.dot(d) + local_support(*s.shape, s.rotation.conjugate() * d);
 }
 
+double inner_radius(const Shape& s) {
+    switch (s.kind) {
+        case ShapeKind::sphere:
+        case ShapeKind::capsule:
+            return s.radius;
+        case ShapeKind::box:
+            return to_eigen(s.half_extents).minCoeff();
+        case ShapeKind::cylinder:
+            return std::min(s.radius, s.half_height);
+        default:
+            return -kInfinite;
+    }
+}
+
 double axis_gap(const PlacedShape& a, const PlacedShape& b, const Vector3d& n) {
     return -support(a, -n) - support(b, n);
 }

@@ -33,6 +33,10 @@ bool has_triangles(const Shape& shape);
 /// plane along all but its normal, and for height fields and compounds.
 double support(const PlacedShape& shape, const Vector3d& d);
 
+/// Radius of a ball about the origin of a shape's frame that the shape holds [m]; −∞ where none is
+/// known of, for the origin of what has vertices may lie outside.
+double inner_radius(const Shape& shape);
+
 /// Signed gap of two convex shapes along the unit vector n, which points out of b towards a [m]:
 /// the true gap where n is the best axis, and less than it elsewhere. −∞ along any axis of a plane
 /// but its own.
