@@ -78,8 +78,9 @@ std::size_t nearest_sticking(const PairRun& before, const Vector3d& point) {
     std::size_t best = before.size();
     double least = 0;
     for (std::size_t j = 0; j < before.size(); ++j) {
+        if (!before.memory[j].sticks) continue;
         const double distance = (common_point(before.found[j]) - point).squaredNorm();
-        if (!before.memory[j].sticks || (best < before.size() && distance >= least)) continue;
+        if (best < before.size() && distance >= least) continue;
         best = j;
         least = distance;
     }

@@ -21,6 +21,9 @@ constexpr double kStill = 1e-4;
 /// are less than the rest.
 constexpr double kSure = 0.99;
 
+/// Less than any motion is.
+constexpr double kNone = -1;
+
 /// So many pairs ahead the memory of their poses is asked for: only some are looked at, and the
 /// processor does not foresee which.
 constexpr std::ptrdiff_t kAhead = 8;
@@ -31,12 +34,6 @@ struct Watched {
 };
 Watched watched(const Bodies& b, std::uint32_t i, std::uint32_t j) {
     return b.bounding_radius[i] < b.bounding_radius[j] ? Watched{i, j} : Watched{j, i};
-}
-
-PairPose pose_of(const KeptPair& pair, const Bodies& b) {
-    const auto [small, large] = watched(b, pair.a, pair.b);
-    const Quaterniond back = b.orientation[large].conjugate();
-    return {back * (b.position[small] - b.position[large]), back * b.orientation[small]};
 }
 
 /// Twice the sine of half the angle by which the smaller body has turned in the other's frame: a
@@ -50,6 +47,9 @@ double turned(const PairPose& then, const PairPose& now) {
 /// what rolls.
 struct Allowed {
     double moved, turned;
+
+    /// Whether a bound on the motion is enough to tell.
+    bool surely_holds(double bound) const { return bound <= kSure * std::min(moved, turned); }
 };
 
 /// Goes through the candidates of a detection and the pairs of the one before side by side.
@@ -77,8 +77,8 @@ public:
         const double margin = world_.settings.margin + motions_[a].sweep + motions_[b].sweep;
         if (read_ == pairs.size() || key_of(pairs[read_]) != key) {
             if (spheres_are_apart(world_.bodies, a, b, margin)) return false;
-            kept_.born.push_back({a, b, 0, 0, true, margin, 0, 0});
-            renew(kept_.born.back(), kept_.born_poses.emplace_back(), margin);
+            KeptPair& born = kept_.born.emplace_back(KeptPair{a, b, 0, 0, true, margin, 0, 0});
+            renew(born, kept_.born_poses.emplace_back(), pose_of(born), margin);
             return true;
         }
         KeptPair& pair = pairs[read_];
@@ -86,13 +86,16 @@ public:
         __builtin_prefetch(&pose + kAhead), __builtin_prefetch(&(&pose + kAhead)->turn);
         pair.first = contact_;
         contact_ += pair.count;
-        if (is_kept(pair, pose, margin)) {
+        add_motion(pair);
+        const Allowed most = allowed(pair, margin);
+        PairPose now;
+        if (most.surely_holds(pair.moved) || will_do(pair, pose, now = pose_of(pair), most)) {
             keep(pair);
         } else if (spheres_are_apart(world_.bodies, a, b, margin)) {
             ++read_;
             return false;
         } else {
-            renew(pair, pose, margin);
+            renew(pair, pose, now, margin);
         }
         const bool wanted = pair.fresh;
         if (write_ != read_) pairs[write_] = pair, kept_.poses[write_] = pose;
@@ -114,9 +117,15 @@ public:
     }
 
 private:
-    void renew(KeptPair& pair, PairPose& pose, double margin) const {
+    PairPose pose_of(const KeptPair& pair) const {
         const Bodies& b = world_.bodies;
-        pose = pose_of(pair, b);
+        const auto [small, large] = watched(b, pair.a, pair.b);
+        const Quaterniond back = b.orientation[large].conjugate();
+        return {back * (b.position[small] - b.position[large]), back * b.orientation[small]};
+    }
+
+    void renew(KeptPair& pair, PairPose& pose, const PairPose& now, double margin) const {
+        pose = now;
         pair.fresh = true, pair.margin = margin, pair.moved = 0;
         pair.reach = pose.offset.norm() + smaller_radius(pair);
     }
@@ -136,27 +145,19 @@ private:
         return std::min(radius[pair.a], radius[pair.b]);
     }
 
-    bool is_kept(KeptPair& pair, const PairPose& then, double margin) const {
-        add_motion(pair);
-        const double apart = allowed_apart(pair, margin);
-        const double distance = world_.settings.reuse_distance;
-        if (apart > distance) return will_do(pair, then, {apart, apart});
-        return pair.margin >= margin - distance && will_do(pair, then, allowed(pair));
-    }
-
     /// Adds what the bodies have moved since the detection before to the bound of a pair.
     void add_motion(KeptPair& pair) const {
         const PoseChange &a = motions_[pair.a].change, &b = motions_[pair.b].change;
         pair.moved += a.travel + b.travel + (a.turn + b.turn) * (pair.reach + pair.moved);
     }
 
-    /// Whether the contacts of a pair will do at the poses now. Its bound is brought up to date.
-    bool will_do(KeptPair& pair, const PairPose& then, const Allowed& most) const {
-        const double surely = kSure * std::min(most.moved, most.turned);
-        if (pair.moved <= surely) return true;
-        const PairPose now = pose_of(pair, world_.bodies);
+    /// Whether the contacts of a pair will do at the pose now. Its bound is brought up to date.
+    bool will_do(KeptPair& pair, const PairPose& then, const PairPose& now,
+                 const Allowed& most) const {
+        pair.moved = (now.offset - then.offset).norm();
+        if (pair.moved > most.moved) return false;
         const double turn = turned(then, now) * smaller_radius(pair);
-        pair.moved = (now.offset - then.offset).norm() + turn;
+        pair.moved += turn;
         return turn <= most.turned && pair.moved <= most.moved;
     }
 
@@ -167,8 +168,11 @@ private:
         return pair.margin - std::max(margin - world_.settings.margin / 2, 2 * step);
     }
 
-    Allowed allowed(const KeptPair& pair) const {
+    Allowed allowed(const KeptPair& pair, double margin) const {
         const double distance = world_.settings.reuse_distance;
+        const double apart = allowed_apart(pair, margin);
+        if (apart > distance) return {apart, apart};
+        if (pair.margin < margin - distance) return {kNone, kNone};
         const BodyMotion &a = motions_[pair.a], &b = motions_[pair.b];
         Allowed most{distance, distance};
         if (!a.is_round && !b.is_round) return most;
