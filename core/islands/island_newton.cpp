@@ -86,11 +86,15 @@ public:
                                const Vector3d& right) -> Matrix3d {
             return k.about + skew_times(left, right_upper) - times_skew(k.mixed.transpose(), right);
         };
-        const Matrix3d upper_a = upper(p.arm_a), upper_b = upper(p.arm_b);
-        upper_a_ += upper_a, upper_b_ += upper_b;
-        about_a_ += about(p.arm_a, upper_a, p.arm_a);
-        about_b_ += about(p.arm_b, upper_b, p.arm_b);
-        about_both_ += about(p.arm_a, upper_b, p.arm_b);
+        // what is immovable has no block
+        if (a_ != kImmovable) {
+            const Matrix3d upper_a = upper(p.arm_a);
+            upper_a_ += upper_a, about_a_ += about(p.arm_a, upper_a, p.arm_a);
+        }
+        if (b_ == kImmovable) return;
+        const Matrix3d upper_b = upper(p.arm_b);
+        upper_b_ += upper_b, about_b_ += about(p.arm_b, upper_b, p.arm_b);
+        if (a_ != kImmovable) about_both_ += about(p.arm_a, upper_b, p.arm_b);
     }
 
     void add_to(IslandSystem& system) const {
