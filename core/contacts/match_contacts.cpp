@@ -34,17 +34,21 @@ std::size_t nearest(std::span<const Contact> contacts, const Vector3d& point) {
     return best;
 }
 
-/// `used`: of the contacts before, whether one has taken over their memory.
+/// What a contact remembers is what the one of its feature did, or nothing. `used`: of the contacts
+/// before, whether one has taken over their memory.
 void match_by_feature(const PairRun& now, const PairRun& before, std::vector<std::uint8_t>& used) {
-    for (std::size_t k = 0; k < now.size(); ++k)
-        for (std::size_t j = 0; j < before.size(); ++j)
-            if (now.found[k].feature != 0 && now.found[k].feature == before.found[j].feature &&
-                !used[j]) {
-                now.memory[k] = before.memory[j];
-                now.memory[k].matched = now.memory[k].known = true;
-                used[j] = 1;
-                break;
-            }
+    for (std::size_t k = 0; k < now.size(); ++k) {
+        const std::uint64_t feature = now.found[k].feature;
+        std::size_t j = 0;
+        while (j < before.size() && (before.found[j].feature != feature || used[j])) ++j;
+        if (feature == 0 || j == before.size()) {
+            now.memory[k] = ContactMemory{};
+            continue;
+        }
+        now.memory[k] = before.memory[j];
+        now.memory[k].matched = now.memory[k].known = true;
+        used[j] = 1;
+    }
 }
 
 /// Where features came and went (a corner slid over an edge), the pair keeps its summed impulses:
@@ -68,7 +72,6 @@ void hand_on_impulses(const PairRun& now, const PairRun& before,
 /// `before` is empty where the pair is new.
 void match_pair(const PairRun& now, const PairRun& before, std::vector<std::uint8_t>& used) {
     used.assign(before.size(), 0);
-    std::fill(now.memory.begin(), now.memory.end(), ContactMemory{});
     match_by_feature(now, before, used);
     hand_on_impulses(now, before, used);
 }

@@ -27,11 +27,9 @@ public:
     /// Lets the next contacts come that were detected, of the pairs up to `last` (pair_key).
     /// Returns how many.
     std::uint32_t come(std::uint64_t last) {
-        const std::uint32_t first = fresh_, count = skip(last);
-        for (std::uint32_t i = 0; i < count; ++i)
-            table_.add_to_pairs(table_.fresh.found[first + i], new_ + i);
-        add(kept_.comes, first, count);
-        return count;
+        const std::uint32_t first = fresh_;
+        while (next_ <= last) come_pair();
+        return fresh_ - first;
     }
 
     /// Leaves them out.
@@ -47,6 +45,15 @@ private:
     void look() {
         const std::vector<Contact>& found = table_.fresh.found;
         next_ = fresh_ < found.size() ? pair_key(found[fresh_].a, found[fresh_].b) : kEnd;
+    }
+
+    void come_pair() {
+        const std::uint64_t key = next_;
+        const std::uint32_t first = fresh_;
+        while (next_ == key) ++fresh_, look();
+        const Contact& contact = table_.fresh.found[first];
+        table_.pairs.push_back({contact.a, contact.b, new_, fresh_ - first});
+        add(kept_.comes, first, fresh_ - first);
     }
 
     /// In one with the move before where it goes on.
