@@ -163,7 +163,7 @@ public:
             }
             // a system is solved, and not iterated: it takes none
             if (iterations == 0 && exact_deformables_)
-                exact_deformables_->iterate_positions(table_.rows(), pass, worker);
+                iterate_positions(*exact_deformables_, pass, worker, ledger);
         });
         iterations_ += settings_.position_iterations;
         for (const auto& group : groups_) group->report(report);
@@ -285,13 +285,14 @@ private:
 
     /// One round of an iteration.
     void iterate_positions(const PassSettings<Real>& pass, std::uint32_t worker, Ledger& ledger) {
-        for (const auto& group : groups_) {
-            if (group->empty()) continue;
-            // by the clock of the first worker alone
-            const auto share =
-                worker == 0 ? share_of(*group, ledger, Stage::positions) : std::nullopt;
-            group->iterate_positions(table_.rows(), pass, worker);
-        }
+        for (const auto& group : groups_) iterate_positions(*group, pass, worker, ledger);
+    }
+    void iterate_positions(Group& group, const PassSettings<Real>& pass, std::uint32_t worker,
+                           Ledger& ledger) {
+        if (group.empty()) return;
+        // by the clock of the first worker alone
+        const auto share = worker == 0 ? share_of(group, ledger, Stage::positions) : std::nullopt;
+        group.iterate_positions(table_.rows(), pass, worker);
     }
 
     /// What joints took of the angular momentum of what hangs by nothing.

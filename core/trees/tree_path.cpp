@@ -196,12 +196,9 @@ bool TreeSolver<W>::follow_from_rest(std::size_t tree, std::uint32_t joint, bool
     return path.is_found();
 }
 
-#define PLUMB_INSTANTIATE(W) \
-    template bool TreeSolver<W>::follow_from_rest(std::size_t, std::uint32_t, bool);
-PLUMB_INSTANTIATE(1)
-PLUMB_INSTANTIATE(4)
-PLUMB_INSTANTIATE(8)
-PLUMB_INSTANTIATE(16)
-#undef PLUMB_INSTANTIATE
+template bool TreeSolver<1>::follow_from_rest(std::size_t, std::uint32_t, bool);
+template bool TreeSolver<4>::follow_from_rest(std::size_t, std::uint32_t, bool);
+template bool TreeSolver<8>::follow_from_rest(std::size_t, std::uint32_t, bool);
+template bool TreeSolver<16>::follow_from_rest(std::size_t, std::uint32_t, bool);
 
 }  // namespace plumb
