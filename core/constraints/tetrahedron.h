@@ -1,21 +1,26 @@
 // SPDX-License-Identifier: MIT
 /// Strain of a tetrahedron with two moduli.
 ///
-///   F  how the tetrahedron is mapped; J = det F; E = ½ (FᵀF − 1)
-///   C  E_xx − E_yy, 2 E_yz, 2 E_zx, 2 E_xy with compliance 1/(μ V),
-///      E_xx + E_yy − 2 E_zz with 3/(μ V), J − 1 with 1/(K V)
+///   F  how the tetrahedron is mapped; F = R S, with a rotation R and S symmetric
 ///
-/// For small strains that is Hooke's solid with the shear modulus μ and the bulk modulus K. All
-/// rows are 0 at rest: those of a solid under stress of its own would have to be turned with it
-/// within a substep. E knows no inside and outside, so where J < 0 only the last row acts, and
-/// turns it back.
+///   C  S_xx − S_yy, 2 S_yz, 2 S_zx, 2 S_xy with compliance 1/(μ V),
+///      S_xx + S_yy − 2 S_zz with 3/(μ V), S_xx + S_yy + S_zz − 3 with 1/(K V)
+///
+/// That is Hooke's solid, with the shear modulus μ and the bulk modulus K, in axes that turn with
+/// the tetrahedron. Each row is a matrix D of numbers: C = D : S + const. R is a rotation also
+/// where the tetrahedron is flat or inside out (Irving et al. 2004), so that it is pushed back to
+/// its shape from any other, and by forces that do not grow faster than it is deformed. All rows
+/// are 0 at rest: those of a solid under stress of its own would have to be turned with it within a
+/// substep.
 #pragma once
 
 #include "constraints/points.h"
-#include "math/lanes.h"
+#include "math/principal_stretches.h"
 #include "world/particles.h"
 
 #include <Eigen/LU>
+
+#include <algorithm>
 
 namespace plumb {
 
@@ -25,58 +30,52 @@ struct Tetrahedron {
 
     template <class T>
     static PointRows<T, 4, 6> rows(const Vector3<T> (&p)[4], const T (&inverse)[kNumbers]) {
-        const Vector3<T> e[3] = {p[1] - p[0], p[2] - p[0], p[3] - p[0]};
-        Vector3<T> f[3];
-        for (int k = 0; k < 3; ++k)
-            f[k] = e[0] * inverse[k] + e[1] * inverse[3 + k] + e[2] * inverse[6 + k];
-        const Vector3<T> minors[3] = {cross<T>(f[1], f[2]), cross<T>(f[2], f[0]),
-                                      cross<T>(f[0], f[1])};
-        const T volume = dot(f[0], minors[0]);
-        const T upright = select_greater(volume, T(0), T(1), T(0));
-        const T half = T(0.5) * upright;
-        const T xx = dot(f[0], f[0]), yy = dot(f[1], f[1]), zz = dot(f[2], f[2]);
+        const PrincipalStretches<T> at = stretches_of<T>(p, inverse);
+        const T(&s)[3] = at.stretch;
+        Vector3<T> edge[3];  // vᵀ ∂F/∂p of corners 1 … 3
+        for (int i = 0; i < 3; ++i)
+            for (int k = 0; k < 3; ++k) edge[i][k] = dot(at.rest[k], corner(inverse, i));
+        T share[3][3];
+        turning_shares<T>(share, s);
         PointRows<T, 4, 6> r;
-        r.c[0] = (xx - yy) * half, r.c[1] = (xx + yy - (zz + zz)) * half;
-        // ∂C/∂f of each row, three vectors
-        const Vector3<T> none(T(0), T(0), T(0));
-        Vector3<T> slope[6][3] = {
-            {f[0] * upright, f[1] * -upright, none},
-            {f[0] * upright, f[1] * upright, f[2] * (T(-2) * upright)},
-        };
-        for (int k = 0; k < 3; ++k) {
-            const int i = (k + 1) % 3, j = (k + 2) % 3;
-            r.c[2 + k] = dot(f[i], f[j]) * upright;
-            slope[2 + k][i] = f[j] * upright, slope[2 + k][j] = f[i] * upright;
-            slope[2 + k][k] = none;
-            slope[5][k] = minors[k];
-        }
-        r.c[5] = volume - T(1);
         for (int row = 0; row < 6; ++row) {
+            T d[3][3];
+            principal_row<T>(row, d, at.rest);
+            r.c[row] = (d[0][0] * s[0] + d[1][1] * s[1]) + d[2][2] * s[2] - T(row == 5 ? 3 : 0);
+            Vector3<T> slope[3];  // uᵀ ∂C/∂F v
             for (int i = 0; i < 3; ++i)
-                r.gradient[row][i + 1] = slope[row][0] * inverse[3 * i] +
-                                         slope[row][1] * inverse[3 * i + 1] +
-                                         slope[row][2] * inverse[3 * i + 2];
+                for (int j = 0; j < 3; ++j) slope[i][j] = T(2) * (share[i][j] * d[i][j]);
+            for (int i = 0; i < 3; ++i)
+                r.gradient[row][i + 1] = at.now[0] * dot(slope[0], edge[i]) +
+                                         at.now[1] * dot(slope[1], edge[i]) +
+                                         at.now[2] * dot(slope[2], edge[i]);
             r.gradient[row][0] = -(r.gradient[row][1] + r.gradient[row][2] + r.gradient[row][3]);
         }
         return r;
     }
 
-    /// The stress of the rows of strain as far as it pulls.
-    static Eigen::Matrix4d tension(const Vector3d (&)[4], const double (&inverse)[kNumbers],
+    /// The stress as far as it pulls, along each principal direction.
+    static Eigen::Matrix4d tension(const Vector3d (&p)[4], const double (&inverse)[kNumbers],
                                    const double (&force)[kRows]) {
-        Matrix3d stress;
-        stress << force[0] + force[1], force[4], force[3],  //
-            force[4], force[1] - force[0], force[2],        //
-            force[3], force[2], -2 * force[1];
-        Eigen::Matrix<double, 3, 4> map;  // of the corners to the axes at rest
-        for (int axis = 0; axis < 3; ++axis) {
-            map(axis, 0) = 0;
-            for (int i = 0; i < 3; ++i) {
-                map(axis, i + 1) = inverse[3 * i + axis];
-                map(axis, 0) -= inverse[3 * i + axis];
-            }
+        const PrincipalStretches<double> at = stretches_of<double>(p, inverse);
+        double pull[3] = {};
+        for (int row = 0; row < 6; ++row) {
+            double d[3][3];
+            principal_row<double>(row, d, at.rest);
+            for (int k = 0; k < 3; ++k) pull[k] += force[row] * d[k][k];
         }
-        return map.transpose() * pulling_part<3>(stress) * map;
+        Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
+        for (int k = 0; k < 3; ++k) {
+            Eigen::Vector4d along;  // v_kᵀ ∂F/∂p
+            along[0] = 0;
+            for (int i = 0; i < 3; ++i) {
+                along[i + 1] = dot(at.rest[k], corner(inverse, i));
+                along[0] -= along[i + 1];
+            }
+            sum += std::max(pull[k], 0.0) / std::max(at.stretch[k], kLeastSum) * along *
+                   along.transpose();
+        }
+        return sum;
     }
 
     /// Calls visit(points, numbers, compliances) for each tetrahedron of a solid.
@@ -99,6 +98,54 @@ struct Tetrahedron {
                                                soft, soft,     1 / (bulk * volume)};
             visit(t, numbers, compliances);
         }
+    }
+
+private:
+    /// The least s_i + s_j by which S is taken to turn: of those of a face that turns over, next to
+    /// nothing is left.
+    static constexpr double kLeastSum = 0.1;
+
+    template <class T>
+    static Vector3<T> corner(const T (&inverse)[kNumbers], int i) {
+        return Vector3<T>(inverse[3 * i], inverse[3 * i + 1], inverse[3 * i + 2]);
+    }
+
+    template <class T>
+    static PrincipalStretches<T> stretches_of(const Vector3<T> (&p)[4],
+                                              const T (&inverse)[kNumbers]) {
+        const Vector3<T> e[3] = {p[1] - p[0], p[2] - p[0], p[3] - p[0]};
+        Vector3<T> f[3];
+        for (int k = 0; k < 3; ++k)
+            f[k] = e[0] * inverse[k] + e[1] * inverse[3 + k] + e[2] * inverse[6 + k];
+        return principal_stretches_of<T>(f);
+    }
+
+    /// From SᵀS = FᵀF: v_iᵀ δS v_j = (s_i u_iᵀ δF v_j + s_j u_jᵀ δF v_i) / (s_i + s_j). The share
+    /// of the first term, ½ where i = j.
+    template <class T>
+    static void turning_shares(T (&share)[3][3], const T (&stretch)[3]) {
+        for (int i = 0; i < 3; ++i) {
+            share[i][i] = T(0.5);
+            for (int j = 0; j < i; ++j) {
+                const T inverse = T(1) / max(T(stretch[i] + stretch[j]), T(kLeastSum));
+                share[i][j] = stretch[i] * inverse, share[j][i] = stretch[j] * inverse;
+            }
+        }
+    }
+
+    /// vᵀ D v of a row.
+    template <class T>
+    static void principal_row(int row, T (&d)[3][3], const Vector3<T> (&v)[3]) {
+        const int y = (row + 2) % 3, z = row % 3;  // of rows 2, 3 and 4
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j <= i; ++j) {
+                const T one(i == j ? 1 : 0);
+                d[i][j] = row == 0   ? v[i][0] * v[j][0] - v[i][1] * v[j][1]
+                          : row == 1 ? one - T(3) * (v[i][2] * v[j][2])
+                          : row == 5 ? one
+                                     : v[i][y] * v[j][z] + v[i][z] * v[j][y];
+                d[j][i] = d[i][j];
+            }
     }
 };
 

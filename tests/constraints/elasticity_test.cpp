@@ -83,6 +83,29 @@ TEST(Elasticity, OfASolidIsHookes) {
     }
 }
 
+/// Stretched to several times its size, pressed flat or turned inside out, and turned in space:
+/// still V (μ |S − 1|² + ½ λ tr²(S − 1)), of stretches that are told apart from a rotation.
+TEST(Elasticity, OfASolidIsHookesInAxesThatTurnWithIt) {
+    Random random(3);
+    for (int draw = 0; draw < 60; ++draw) {
+        DeformableSpec spec = block({0.5, 0.3, 0.4}, {2, 2, 3});
+        const double young = std::pow(10, random.number(4, 9)), nu = random.number(-0.5, 0.48);
+        spec.elasticity.youngs_modulus = young, spec.elasticity.poissons_ratio = nu;
+        const double least = draw % 3 == 0 ? 0 : random.number(-0.3, 0.3);
+        const Vector3d stretch(random.number(0.4, 4), random.number(0.4, 4), least);
+        const Matrix3d axes = random.rotation().toRotationMatrix(),
+                       turn = random.rotation().toRotationMatrix(),
+                       s = axes * stretch.asDiagonal() * axes.transpose();
+        const Vector3d e = stretch - Vector3d::Ones();
+        const double volume = 8 * 0.5 * 0.3 * 0.4, mu = young / (2 * (1 + nu)),
+                     lame = young * nu / ((1 + nu) * (1 - 2 * nu));
+        const double law = volume * (mu * e.squaredNorm() + 0.5 * lame * e.sum() * e.sum());
+        const double seen =
+            energy<Tetrahedron>(spec, [&](const Vector3d& p) -> Vector3d { return turn * s * p; });
+        EXPECT_NEAR(seen / law, 1, 1e-9) << "draw " << draw;
+    }
+}
+
 /// E, ν and thickness of a sheet in plane stress; in-plane strains, turned in space.
 TEST(Elasticity, OfASheetIsHookesInPlaneStress) {
     Random random(2);

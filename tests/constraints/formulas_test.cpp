@@ -5,6 +5,7 @@
 #include "support/random.h"
 
 #include <gtest/gtest.h>
+#include <Eigen/SVD>
 
 #include <cmath>
 
@@ -83,15 +84,57 @@ TEST(Membrane, GradientIsThatOfTheStrain) {
     }
 }
 
-TEST(Tetrahedron, GradientIsThatOfBothRows) {
+/// How the corners of a tetrahedron with the inverse of its edges at rest are mapped.
+Matrix3d map_of(const Vector3d (&p)[4], const Numbers<Tetrahedron>& inverse) {
+    Matrix3d edges;
+    for (int k = 0; k < 3; ++k) edges.col(k) = p[k + 1] - p[0];
+    return edges * Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(inverse);
+}
+
+TEST(Tetrahedron, GradientIsThatOfTheStretches) {
     Random random(3);
-    for (int i = 0; i < 200; ++i) {
+    int seen = 0;
+    for (int i = 0; i < 400; ++i) {
         Vector3d p[4];
         draw(random, p);  // half of them inside out
         Numbers<Tetrahedron> numbers;
         for (double& x : numbers) x = random.number(-1, 1);
-        EXPECT_LT(gradient_error<Tetrahedron>(p, numbers), 1e-6);
         EXPECT_LT(gradient_sum<Tetrahedron>(p, numbers), 1e-13);
+        const Matrix3d f = map_of(p, numbers);
+        const Vector3d s = Eigen::JacobiSVD<Matrix3d>(f).singularValues();
+        // where a face turns over, S changes without bound
+        if (s[1] + (f.determinant() < 0 ? -s[2] : s[2]) < 0.11) continue;
+        ++seen;
+        EXPECT_LT(gradient_error<Tetrahedron>(p, numbers), 1e-6);
+    }
+    EXPECT_GT(seen, 200);
+}
+
+/// Turned as a whole, also where it is flat, thin or inside out, no row changes: no torque.
+TEST(Tetrahedron, NoRowHasATorque) {
+    Random random(8);
+    for (int i = 0; i < 400; ++i) {
+        Vector3d p[4];
+        draw(random, p);
+        if (i % 4 == 1) p[3] = p[0] + 0.3 * (p[1] - p[0]) - 2 * (p[2] - p[0]);
+        if (i % 4 == 2) p[2] = p[0] - 2 * (p[1] - p[0]), p[3] = 0.5 * (p[0] + p[1]);
+        if (i % 4 == 3) p[3] = p[0] - 0.01 * (p[3] - p[0]);
+        Numbers<Tetrahedron> numbers;
+        for (double& x : numbers) x = random.number(-1, 1);
+        const auto rows = Tetrahedron::rows(p, numbers);
+        for (int r = 0; r < 6; ++r) {
+            Vector3d torque = Vector3d::Zero();
+            double size = 0;
+            for (int k = 0; k < 4; ++k) {
+                ASSERT_TRUE(rows.gradient[r][k].allFinite());
+                torque += p[k].cross(rows.gradient[r][k]);
+                size += p[k].norm() * rows.gradient[r][k].norm();
+            }
+            EXPECT_LT(torque.norm(), 2e-6 * size) << "draw " << i << " row " << r;
+            if (i % 4 == 0) {
+                EXPECT_LT(torque.norm(), 1e-12 * size) << "draw " << i << " row " << r;
+            }
+        }
     }
 }
 
