@@ -3,7 +3,7 @@ set(PLUMB_CORE_SOURCES
   math/block_cholesky.cpp math/fill.cpp math/least_degree.cpp math/row_graph.cpp math/sparse_ldlt.cpp
   world/body_row.cpp world/build_joints.cpp world/build_links.cpp world/build_particles.cpp world/build_world.cpp world/derived.cpp
   world/edit_world.cpp world/motion_script.cpp world/shape_store.cpp world/sleep.cpp world/tears.cpp
-  schedule/box_grid.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
+  schedule/box_tree.cpp schedule/contact_islands.cpp schedule/joint_forest.cpp schedule/joint_trees.cpp schedule/tree_levels.cpp schedule/workers.cpp
   ties/joint_state.cpp ties/tie_list.cpp ties/tie_load.cpp ties/tie_rows.cpp ties/tied_couplings.cpp ties/tied_joints.cpp ties/tied_links.cpp
   kernels/dispatch.cpp
   effects/filter_reachability.cpp effects/plan.cpp

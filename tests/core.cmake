@@ -8,7 +8,7 @@ plumb_add_tests(plumb_unit_tests unit
   constraints/tree_block_test.cpp constraints/volume_test.cpp schedule/joint_forest_test.cpp schedule/tree_levels_test.cpp world/slot_map_test.cpp
   geometry/hull_test.cpp geometry/overlap_test.cpp
   effects/filter_reachability_test.cpp effects/plan_test.cpp
-  schedule/colouring_test.cpp schedule/contact_batches_test.cpp schedule/contact_islands_test.cpp schedule/workers_test.cpp
+  schedule/box_tree_test.cpp schedule/colouring_test.cpp schedule/contact_batches_test.cpp schedule/contact_islands_test.cpp schedule/workers_test.cpp
   measure/contact_comparison_test.cpp measure/deformation_test.cpp measure/mesh_resolution_test.cpp host/choose_collider_test.cpp host/remote_source_test.cpp
   host/edit_bodies_test.cpp host/edit_equal_test.cpp host/edit_errors_test.cpp host/edit_joints_test.cpp
   host/contacts_test.cpp host/log_test.cpp host/names_test.cpp host/state_test.cpp

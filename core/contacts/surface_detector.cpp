@@ -37,6 +37,21 @@ SurfaceDetector::SurfaceDetector(const World& world) {
     }
     if (!triangles_.empty()) add_probes(world);
     low_.resize(triangles_.size()), high_.resize(triangles_.size());
+    faces_.resize(triangles_.size());
+    build_tree(world);
+}
+
+void SurfaceDetector::build_tree(const World& world) {
+    std::vector<Vector3d> middles;
+    std::vector<std::uint32_t> groups;
+    for (const Triangle& t : triangles_) {
+        const Deformable& d = world.deformables[t.deformable];
+        Vector3d sum = Vector3d::Zero();
+        for (const std::uint32_t corner : t.corners) sum += d.spec.points[corner - d.first];
+        middles.push_back(sum / 3), groups.push_back(t.deformable);
+    }
+    tree_.build(middles, groups);
+    met_.reserve(triangles_.size());
 }
 
 void SurfaceDetector::find_rims(const Deformable& d, std::size_t first) {
@@ -96,8 +111,16 @@ void SurfaceDetector::detect(World& world, double dt) {
     world.surface_contacts.clear();
     next_known_ = 0;
     if (triangles_.empty()) return;
-    const Particles& p = world.particles;
     joined_.find(world);
+    follow(world, dt);
+    world.surface_contacts.reserve(2 * probes_.size() + kUsuallyNear);
+    near_.reserve(kUsuallyNear);
+    for (const Probe& probe : probes_) look(world, probe, dt);
+}
+
+/// Where triangles are, and may come within dt [s].
+void SurfaceDetector::follow(const World& world, double dt) {
+    const Particles& p = world.particles;
     speed_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) speed_[i] = p.velocity[i].norm();
     for (std::size_t i = 0; i < triangles_.size(); ++i) {
@@ -107,50 +130,57 @@ void SurfaceDetector::detect(World& world, double dt) {
         const Vector3d by = Vector3d::Constant(std::isfinite(grown) ? grown : 0);
         low_[i] = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]) - by;
         high_[i] = p.position[a].cwiseMax(p.position[b]).cwiseMax(p.position[c]) + by;
+        faces_[i].normal = (p.position[b] - p.position[a]).cross(p.position[c] - p.position[a]);
+        faces_[i].size = faces_[i].normal.norm();
     }
-    world.surface_contacts.reserve(2 * probes_.size() + kUsuallyNear);
-    near_.reserve(kUsuallyNear);
-    grid_.build(low_, high_);
-    bounds_low_ = low_[0], bounds_high_ = high_[0];
-    for (std::size_t i = 1; i < triangles_.size(); ++i) {
-        bounds_low_ = bounds_low_.cwiseMin(low_[i]);
-        bounds_high_ = bounds_high_.cwiseMax(high_[i]);
-    }
-    for (const Probe& probe : probes_) look(world, probe, dt);
+    tree_.follow(low_, high_);
 }
 
 void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
-    const Particles& p = world.particles;
-    const Vector3d place = place_of(world, probe.point);
-    const double slack = probe.radius + speed_of(world, probe.point) * dt;
-    const Vector3d low = place - Vector3d::Constant(slack),
-                   high = place + Vector3d::Constant(slack);
-    if (!low.allFinite() || !high.allFinite() || (high.array() < bounds_low_.array()).any() ||
-        (low.array() > bounds_high_.array()).any())
-        return;
-    near_.clear();
-    grid_.each_near(low, high, [&](std::uint32_t i) {
-        const Triangle& t = triangles_[i];
-        if (!may_meet(world, probe, t)) return;  // of most that are near the point is a corner
-        if ((high.array() < low_[i].array()).any() || (low.array() > high_[i].array()).any())
-            return;
-        const Vector3d corners[3] = {p.position[t.corners[0]], p.position[t.corners[1]],
-                                     p.position[t.corners[2]]};
-        const auto w = nearest_weights(place, corners[0], corners[1], corners[2]);
-        const Vector3d apart = place - (w[0] * corners[0] + w[1] * corners[1] + w[2] * corners[2]);
-        const double distance = apart.norm();
-        if (!std::isfinite(distance)) return;
-        const Vector3d face = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-        const double facing =
-            distance > 1e-9 ? apart.dot(face) / (distance * std::max(face.norm(), 1e-300)) : 1;
-        near_.push_back({i, w, apart, distance, facing});
-    });
+    find_near(world, probe, dt);
     if (near_.empty()) return;
     if (probe.point.particle == kNoIndex || world.deformables.size() > 1) {
         const Known known = known_of(probe);
         for (Near& n : near_) find_side(world, probe, known, n, dt);
     }
     keep_nearest(world, probe);
+}
+
+/// The triangles that a probe may meet within dt [s], in their order.
+void SurfaceDetector::find_near(const World& world, const Probe& probe, double dt) {
+    near_.clear(), met_.clear();
+    const Vector3d place = place_of(world, probe.point);
+    const double slack = probe.radius + speed_of(world, probe.point) * dt;
+    const Vector3d low = place - Vector3d::Constant(slack),
+                   high = place + Vector3d::Constant(slack);
+    if (!low.allFinite() || !high.allFinite()) return;
+    tree_.each_near(low, high, [&](std::uint32_t i) {
+        if (!triangles_[i].has(probe.point.particle) && may_meet(world, probe, triangles_[i]) &&
+            !(high.array() < low_[i].array()).any() && !(low.array() > high_[i].array()).any())
+            met_.push_back(i);
+    });
+    std::sort(met_.begin(), met_.end());
+    for (const std::uint32_t i : met_) {
+        const Near near = near_point(world, i, place);
+        if (std::isfinite(near.distance)) near_.push_back(near);
+    }
+}
+
+SurfaceDetector::Near SurfaceDetector::near_point(const World& world, std::uint32_t triangle,
+                                                  const Vector3d& place) const {
+    const auto& [i, j, k] = triangles_[triangle].corners;
+    const std::vector<Vector3d>& at = world.particles.position;
+    Near near;
+    near.triangle = triangle;
+    near.weights = nearest_weights(place, at[i], at[j], at[k]);
+    const auto& w = near.weights;
+    near.apart = place - (w[0] * at[i] + w[1] * at[j] + w[2] * at[k]);
+    near.distance = near.apart.norm();
+    const Face& face = faces_[triangle];
+    near.facing = near.distance > 1e-9
+                      ? near.apart.dot(face.normal) / (near.distance * std::max(face.size, 1e-300))
+                      : 1;
+    return near;
 }
 
 /// Probes are looked at in the order in which the step before left its contacts.
@@ -187,6 +217,18 @@ void SurfaceDetector::find_side(const World& world, const Probe& probe, const Kn
     double most = 0;  // how far the two may have moved along each other
     for (const std::uint32_t corner : t.corners) most = std::max(most, speed_[corner]);
     most = (most + speed_of(world, probe.point)) * dt;
+    std::int8_t side = known.first < known.last ? known_side(world, known, n, most) : 0;
+    const std::int8_t now = n.facing > kEdgeOn ? 1 : n.facing < -kEdgeOn ? -1 : 0;
+    if (side == 0 || is_at_rim(world, n, most)) side = std::abs(n.facing) >= kFaceOn ? now : 0;
+    n.side = side;
+    n.is_beyond = side != 0 && now == -side;
+}
+
+/// That on which the point was beside the nearest part of the sheet, where both may have moved
+/// along each other by `most` [m].
+std::int8_t SurfaceDetector::known_side(const World& world, const Known& known, const Near& n,
+                                        double most) const {
+    const Triangle& t = triangles_[n.triangle];
     const Deformable& d = world.deformables[t.deformable];
     const auto at_rest = [&](const auto& corners, const auto& weights) {
         Vector3d sum = Vector3d::Zero();
@@ -204,27 +246,27 @@ void SurfaceDetector::find_side(const World& world, const Probe& probe, const Kn
         const double way = (at_rest(c.triangle, c.weights) - here).norm();
         if (way < nearest) nearest = way, side = c.side;
     }
-    bool at_rim = false;
+    return side;
+}
+
+/// Whether what is near may have come round the rim, where both may have moved along each other by
+/// `most` [m].
+bool SurfaceDetector::is_at_rim(const World& world, const Near& n, double most) const {
+    const Triangle& t = triangles_[n.triangle];
+    const std::vector<Vector3d>& at = world.particles.position;
     for (int k = 0; k < 3; ++k) {
-        const Vector3d a = world.particles.position[t.corners[(k + 1) % 3]],
-                       b = world.particles.position[t.corners[(k + 2) % 3]],
-                       c = world.particles.position[t.corners[k]];
+        if (t.on_rim[k] && n.weights[k] == 1) return true;
+        if (!t.rim[k]) continue;
+        const Vector3d &a = at[t.corners[(k + 1) % 3]], &b = at[t.corners[(k + 2) % 3]],
+                       &c = at[t.corners[k]];
         const Vector3d edge = b - a;
         const double height = edge.cross(c - a).norm() / std::max(edge.norm(), 1e-300);
-        if (t.rim[k] && n.weights[k] * height <= most) at_rim = true;
-        if (t.on_rim[k] && n.weights[k] == 1) at_rim = true;
+        if (n.weights[k] * height <= most) return true;
     }
-    const std::int8_t now = n.facing > kEdgeOn ? 1 : n.facing < -kEdgeOn ? -1 : 0;
-    if (at_rim || side == 0) side = std::abs(n.facing) >= kFaceOn ? now : 0;
-    n.side = side;
-    n.is_beyond = side != 0 && now == -side;
+    return false;
 }
 
 bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) const {
-    if (probe.point.particle != kNoIndex &&
-        (t.corners[0] == probe.point.particle || t.corners[1] == probe.point.particle ||
-         t.corners[2] == probe.point.particle))
-        return false;
     if (probe.point.body != kNoIndex)
         for (const std::uint32_t corner : t.corners)
             if (joined_.has(corner, probe.point.body)) return false;
@@ -241,9 +283,6 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
     const auto is_nearer = [](const Near& x, const Near& y) {
         return x.distance != y.distance ? x.distance < y.distance : x.triangle < y.triangle;
     };
-    if (world.deformables.size() > 1)
-        std::sort(near_.begin(), near_.end(),
-                  [&](const Near& x, const Near& y) { return surface_of(x) < surface_of(y); });
     for (auto first = near_.cbegin(), last = first; first != near_.cend(); first = last) {
         last = std::find_if(first, near_.cend(),
                             [&](const Near& n) { return surface_of(n) != surface_of(*first); });
@@ -283,12 +322,11 @@ bool SurfaceDetector::add(World& world, const Probe& probe, const Near& n) {
     const Triangle& t = triangles_[n.triangle];
     const bool is_own = probe.deformable == t.deformable;
     const bool is_inside = n.is_beyond || (closed_[t.deformable] && !is_own && n.facing < 0);
-    const Vector3d face = (p.position[t.corners[1]] - p.position[t.corners[0]])
-                              .cross(p.position[t.corners[2]] - p.position[t.corners[0]]);
+    const Face& face = faces_[n.triangle];
     // deep inside nobody can tell where it came from
-    if (is_inside && n.distance > std::sqrt(face.norm())) return false;
+    if (is_inside && n.distance > std::sqrt(face.size)) return false;
     Vector3d normal =
-        n.distance > 1e-9 ? Vector3d(n.apart / n.distance) : Vector3d(face.normalized());
+        n.distance > 1e-9 ? Vector3d(n.apart / n.distance) : Vector3d(face.normal.normalized());
     if (is_inside) normal = -normal;
     if (!normal.allFinite()) return false;
     double distance = probe.radius + p.radius[t.corners[0]];

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "geometry/corner_points.h"
-#include "schedule/box_grid.h"
+#include "schedule/box_tree.h"
 #include "world/joined_points.h"
 #include "world/world.h"
 
@@ -27,11 +27,19 @@ private:
         std::uint32_t deformable;
         std::array<bool, 3> rim;  ///< [corner] whether the edge across from it is of one triangle
         std::array<bool, 3> on_rim;  ///< [corner] whether it is the end of such an edge
+        bool has(std::uint32_t particle) const {
+            return corners[0] == particle || corners[1] == particle || corners[2] == particle;
+        }
     };
     struct Probe {
         WorldPoint point;
         std::uint32_t deformable = kNoIndex;  ///< of the point; else it is of a body
         double radius = 0;                    ///< [m]
+    };
+    /// How a triangle faces now.
+    struct Face {
+        Vector3d normal;  ///< twice its area long [m²]
+        double size;      ///< twice its area [m²]
     };
     struct Near {
         std::uint32_t triangle;
@@ -52,11 +60,18 @@ private:
     };
 
     void add_probes(const World& world);
+    void build_tree(const World& world);
     void find_rims(const Deformable& deformable, std::size_t first);
+    void follow(const World& world, double dt);
     void look(World& world, const Probe& probe, double dt);
+    void find_near(const World& world, const Probe& probe, double dt);
+    Near near_point(const World& world, std::uint32_t triangle, const Vector3d& place) const;
     Known known_of(const Probe& probe);
     void find_side(const World& world, const Probe& probe, const Known& known, Near& near,
                    double dt) const;
+    std::int8_t known_side(const World& world, const Known& known, const Near& near,
+                           double most) const;
+    bool is_at_rim(const World& world, const Near& near, double most) const;
     bool may_meet(const World& world, const Probe& probe, const Triangle& triangle) const;
     double speed_of(const World& world, const WorldPoint& point) const;  ///< [m/s]
     void keep_nearest(World& world, const Probe& probe);
@@ -69,9 +84,10 @@ private:
     std::vector<Filter> filters_;       ///< [deformable]
     JoinedPoints joined_;
     std::vector<double> speed_;  ///< [particle] [m/s]
-    BoxGrid grid_;
-    std::vector<Vector3d> low_, high_;                                         ///< [triangle]
-    Vector3d bounds_low_ = Vector3d::Zero(), bounds_high_ = Vector3d::Zero();  ///< of all
+    BoxTree tree_;
+    std::vector<Vector3d> low_, high_;  ///< [triangle]
+    std::vector<Face> faces_;           ///< [triangle]
+    std::vector<std::uint32_t> met_;    ///< triangles
     std::vector<Near> near_;
     std::vector<SurfaceContact> before_;  ///< of the step before, in the order of the probes
     std::uint32_t next_known_ = 0;        ///< in before_

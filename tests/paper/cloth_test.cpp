@@ -8,7 +8,7 @@
 /// goes round the sheet's rim passes through nothing.
 #include "geometry/torus.h"
 #include "reader/reader.h"
-#include "schedule/box_grid.h"
+#include "schedule/box_tree.h"
 #include "support/scenes.h"
 
 #include <algorithm>
@@ -150,6 +150,10 @@ public:
         corners_ = corners(), points_ = world.particles.position;
         net_.assign(corners_.size(), 0), stay_.assign(corners_.size(), 0);
         low_ = high_ = points_;
+        std::vector<Vector> middles;
+        for (const auto& t : sheet_.spec.triangles)
+            middles.push_back((points_[t[0]] + points_[t[1]] + points_[t[2]]) / 3);
+        tree_.build(middles, std::vector<std::uint32_t>(middles.size(), 0));
     }
 
     /// After each step.
@@ -207,9 +211,9 @@ private:
                 for (const Vector& p : {points[corner], points_[corner]})
                     low.back() = low.back().cwiseMin(p), high.back() = high.back().cwiseMax(p);
         }
-        grid_.build(low, high);
+        tree_.follow(low, high);
         for (std::size_t i = 0; i < now.size(); ++i)
-            grid_.each_near(now[i].cwiseMin(corners_[i]), now[i].cwiseMax(corners_[i]),
+            tree_.each_near(now[i].cwiseMin(corners_[i]), now[i].cwiseMax(corners_[i]),
                             [&](std::uint32_t triangle) {
                                 const auto& t = sheet_.spec.triangles[triangle];
                                 net_[i] += passages(corners_[i], now[i],
@@ -221,7 +225,7 @@ private:
     const World& world_;
     const Deformable& sheet_;
     Ring ring_;
-    BoxGrid grid_;
+    BoxTree tree_;  // of the triangles
     std::vector<std::uint32_t> rings_;
     std::vector<Vector> corners_, points_;  // after the step before
     std::vector<int> net_, stay_;           // [corner] passages; steps beyond the sheet
