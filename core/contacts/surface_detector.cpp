@@ -2,6 +2,7 @@
 #include "contacts/surface_detector.h"
 
 #include "geometry/triangle.h"
+#include "math/growing.h"
 #include "world/point_place.h"
 
 #include <algorithm>
@@ -51,7 +52,6 @@ void SurfaceDetector::build_tree(const World& world) {
         middles.push_back(sum / 3), groups.push_back(t.deformable);
     }
     tree_.build(middles, groups);
-    met_.reserve(triangles_.size());
 }
 
 void SurfaceDetector::find_rims(const Deformable& d, std::size_t first) {
@@ -106,24 +106,35 @@ double SurfaceDetector::speed_of(const World& world, const WorldPoint& p) const 
            world.bodies.angular_velocity[p.body].norm() * p.position.norm();
 }
 
-void SurfaceDetector::detect(World& world, double dt) {
+/// Every worker looks for its share of the probes, and what they find follows in the probes' order.
+void SurfaceDetector::detect(World& world, Workers& workers, double dt) {
     before_.swap(world.surface_contacts);
     world.surface_contacts.clear();
-    next_known_ = 0;
     if (triangles_.empty()) return;
     joined_.find(world);
-    follow(world, dt);
-    world.surface_contacts.reserve(2 * probes_.size() + kUsuallyNear);
-    near_.reserve(kUsuallyNear);
-    for (const Probe& probe : probes_) look(world, probe, dt);
+    follow(world, workers, dt);
+    searches_.resize(workers.count());
+    searches_[0].found.swap(world.surface_contacts);
+    for (Search& search : searches_) {
+        const std::size_t own = &search == &searches_[0] ? 1 : workers.count();
+        search.found.clear(), search.next_known = 0;
+        search.found.reserve(2 * probes_.size() / own + kUsuallyNear);
+        search.near.reserve(kUsuallyNear), search.met.reserve(triangles_.size());
+    }
+    workers.each(probes_.size(), [&](std::uint32_t i, std::uint32_t worker) {
+        look(world, probes_[i], dt, searches_[worker]);
+    });
+    searches_[0].found.swap(world.surface_contacts);
+    for (std::size_t i = 1; i < searches_.size(); ++i)
+        append(world.surface_contacts, searches_[i].found);
 }
 
 /// Where triangles are, and may come within dt [s].
-void SurfaceDetector::follow(const World& world, double dt) {
+void SurfaceDetector::follow(const World& world, Workers& workers, double dt) {
     const Particles& p = world.particles;
     speed_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) speed_[i] = p.velocity[i].norm();
-    for (std::size_t i = 0; i < triangles_.size(); ++i) {
+    workers.each(triangles_.size(), [&](std::uint32_t i, std::uint32_t) {
         const auto& [a, b, c] = triangles_[i].corners;
         const double fastest = std::max({speed_[a], speed_[b], speed_[c]});
         const double grown = p.radius[a] + world.settings.margin + fastest * dt;
@@ -132,23 +143,26 @@ void SurfaceDetector::follow(const World& world, double dt) {
         high_[i] = p.position[a].cwiseMax(p.position[b]).cwiseMax(p.position[c]) + by;
         faces_[i].normal = (p.position[b] - p.position[a]).cross(p.position[c] - p.position[a]);
         faces_[i].size = faces_[i].normal.norm();
-    }
+    });
     tree_.follow(low_, high_);
 }
 
-void SurfaceDetector::look(World& world, const Probe& probe, double dt) {
-    find_near(world, probe, dt);
-    if (near_.empty()) return;
+void SurfaceDetector::look(const World& world, const Probe& probe, double dt,
+                           Search& search) const {
+    find_near(world, probe, dt, search);
+    if (search.near.empty()) return;
     if (probe.point.particle == kNoIndex || world.deformables.size() > 1) {
-        const Known known = known_of(probe);
-        for (Near& n : near_) find_side(world, probe, known, n, dt);
+        const Known known = known_of(probe, search.next_known);
+        for (Near& n : search.near) find_side(world, probe, known, n, dt);
     }
-    keep_nearest(world, probe);
+    keep_nearest(world, probe, search);
 }
 
 /// The triangles that a probe may meet within dt [s], in their order.
-void SurfaceDetector::find_near(const World& world, const Probe& probe, double dt) {
-    near_.clear(), met_.clear();
+void SurfaceDetector::find_near(const World& world, const Probe& probe, double dt,
+                                Search& search) const {
+    std::vector<std::uint32_t>& met = search.met;
+    search.near.clear(), met.clear();
     const Vector3d place = place_of(world, probe.point);
     const double slack = probe.radius + speed_of(world, probe.point) * dt;
     const Vector3d low = place - Vector3d::Constant(slack),
@@ -157,12 +171,12 @@ void SurfaceDetector::find_near(const World& world, const Probe& probe, double d
     tree_.each_near(low, high, [&](std::uint32_t i) {
         if (!triangles_[i].has(probe.point.particle) && may_meet(world, probe, triangles_[i]) &&
             !(high.array() < low_[i].array()).any() && !(low.array() > high_[i].array()).any())
-            met_.push_back(i);
+            met.push_back(i);
     });
-    std::sort(met_.begin(), met_.end());
-    for (const std::uint32_t i : met_) {
+    std::sort(met.begin(), met.end());
+    for (const std::uint32_t i : met) {
         const Near near = near_point(world, i, place);
-        if (std::isfinite(near.distance)) near_.push_back(near);
+        if (std::isfinite(near.distance)) search.near.push_back(near);
     }
 }
 
@@ -184,14 +198,13 @@ SurfaceDetector::Near SurfaceDetector::near_point(const World& world, std::uint3
 }
 
 /// Probes are looked at in the order in which the step before left its contacts.
-SurfaceDetector::Known SurfaceDetector::known_of(const Probe& probe) {
+SurfaceDetector::Known SurfaceDetector::known_of(const Probe& probe, std::uint32_t& next) const {
     const auto owner = [](const WorldPoint& p) {
         return p.particle != kNoIndex ? std::pair(0u, p.particle) : std::pair(1u, p.body);
     };
     const auto size = static_cast<std::uint32_t>(before_.size());
-    while (next_known_ < size && owner(before_[next_known_].point) < owner(probe.point))
-        ++next_known_;
-    Known known{next_known_, next_known_};
+    while (next < size && owner(before_[next].point) < owner(probe.point)) ++next;
+    Known known{next, next};
     const auto is_owner = [&](std::uint32_t i) {
         return i < size && owner(before_[i].point) == owner(probe.point);
     };
@@ -202,7 +215,7 @@ SurfaceDetector::Known SurfaceDetector::known_of(const Probe& probe) {
     while (is_owner(known.first) && !is_it(known.first)) ++known.first;
     known.last = known.first;
     while (is_it(known.last)) ++known.last;
-    if (known.last > known.first) next_known_ = known.last;
+    if (known.last > known.first) next = known.first;
     return known;
 }
 
@@ -278,13 +291,15 @@ bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Tri
 }
 
 /// Of each surface the nearest triangle, and the next that the point faces from another side.
-void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
+void SurfaceDetector::keep_nearest(const World& world, const Probe& probe, Search& search) const {
+    const std::vector<Near>& near = search.near;
+    const auto keep = [&](const Near& n) { return add(world, probe, n, search.found); };
     const auto surface_of = [&](const Near& n) { return triangles_[n.triangle].deformable; };
     const auto is_nearer = [](const Near& x, const Near& y) {
         return x.distance != y.distance ? x.distance < y.distance : x.triangle < y.triangle;
     };
-    for (auto first = near_.cbegin(), last = first; first != near_.cend(); first = last) {
-        last = std::find_if(first, near_.cend(),
+    for (auto first = near.begin(), last = first; first != near.end(); first = last) {
+        last = std::find_if(first, near.end(),
                             [&](const Near& n) { return surface_of(n) != surface_of(*first); });
         // of triangles whose common edge or corner is nearest, the one that the point faces most
         // tells inside from outside
@@ -296,7 +311,7 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
             const double more = std::abs(n->facing) - std::abs(best->facing);
             if (more > 0 || (more == 0 && is_nearer(*n, *best))) best = &*n;
         }
-        if (!add(world, probe, *best)) continue;
+        if (!keep(*best)) continue;
         const auto out_of = [](const Near& n) {
             return n.is_beyond ? Vector3d(-n.apart) : n.apart;
         };
@@ -304,7 +319,7 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
         if (probe.point.body != kNoIndex && probe.radius > 0 && !closed_[surface_of(nearest)]) {
             // what is round lies on all of a sheet that it faces
             for (auto n = first; n != last; ++n)
-                if (&*n != best && std::abs(n->facing) >= kFaceOn) add(world, probe, *n);
+                if (&*n != best && std::abs(n->facing) >= kFaceOn) keep(*n);
             continue;
         }
         const Near* other = nullptr;
@@ -313,11 +328,12 @@ void SurfaceDetector::keep_nearest(World& world, const Probe& probe) {
             const Vector3d out = out_of(*n);
             if (!(out.dot(direction) > kSameSide * out.norm() * direction.norm())) other = &*n;
         }
-        if (other) add(world, probe, *other);
+        if (other) keep(*other);
     }
 }
 
-bool SurfaceDetector::add(World& world, const Probe& probe, const Near& n) {
+bool SurfaceDetector::add(const World& world, const Probe& probe, const Near& n,
+                          std::vector<SurfaceContact>& found) const {
     const Particles& p = world.particles;
     const Triangle& t = triangles_[n.triangle];
     const bool is_own = probe.deformable == t.deformable;
@@ -340,8 +356,7 @@ bool SurfaceDetector::add(World& world, const Probe& probe, const Near& n) {
                                        ? p.material[probe.point.particle]
                                        : world.bodies.material[probe.point.body];
     const double friction = world.surface_of(material, p.material[t.corners[0]]).friction;
-    world.surface_contacts.push_back(
-        {probe.point, t.corners, n.weights, normal, distance, friction, n.side});
+    found.push_back({probe.point, t.corners, n.weights, normal, distance, friction, n.side});
     return true;
 }
 

@@ -5,6 +5,7 @@
 
 #include "geometry/corner_points.h"
 #include "schedule/box_tree.h"
+#include "schedule/workers.h"
 #include "world/joined_points.h"
 #include "world/world.h"
 
@@ -19,7 +20,7 @@ public:
     explicit SurfaceDetector(const World& world);
 
     /// Fills World::surface_contacts with what may touch within dt [s].
-    void detect(World& world, double dt);
+    void detect(World& world, Workers& workers, double dt);
 
 private:
     struct Triangle {
@@ -58,15 +59,22 @@ private:
     struct Known {
         std::uint32_t first = 0, last = 0;  ///< in before_
     };
+    /// What a worker finds, probe by probe.
+    struct Search {
+        std::vector<SurfaceContact> found;
+        std::vector<std::uint32_t> met;  ///< triangles
+        std::vector<Near> near;
+        std::uint32_t next_known = 0;  ///< in before_
+    };
 
     void add_probes(const World& world);
     void build_tree(const World& world);
     void find_rims(const Deformable& deformable, std::size_t first);
-    void follow(const World& world, double dt);
-    void look(World& world, const Probe& probe, double dt);
-    void find_near(const World& world, const Probe& probe, double dt);
+    void follow(const World& world, Workers& workers, double dt);
+    void look(const World& world, const Probe& probe, double dt, Search& search) const;
+    void find_near(const World& world, const Probe& probe, double dt, Search& search) const;
     Near near_point(const World& world, std::uint32_t triangle, const Vector3d& place) const;
-    Known known_of(const Probe& probe);
+    Known known_of(const Probe& probe, std::uint32_t& next) const;
     void find_side(const World& world, const Probe& probe, const Known& known, Near& near,
                    double dt) const;
     std::int8_t known_side(const World& world, const Known& known, const Near& near,
@@ -74,9 +82,10 @@ private:
     bool is_at_rim(const World& world, const Near& near, double most) const;
     bool may_meet(const World& world, const Probe& probe, const Triangle& triangle) const;
     double speed_of(const World& world, const WorldPoint& point) const;  ///< [m/s]
-    void keep_nearest(World& world, const Probe& probe);
+    void keep_nearest(const World& world, const Probe& probe, Search& search) const;
     /// Whether it became a contact.
-    bool add(World& world, const Probe& probe, const Near& near);
+    bool add(const World& world, const Probe& probe, const Near& near,
+             std::vector<SurfaceContact>& found) const;
 
     std::vector<Triangle> triangles_;
     std::vector<Probe> probes_;
@@ -85,12 +94,10 @@ private:
     JoinedPoints joined_;
     std::vector<double> speed_;  ///< [particle] [m/s]
     BoxTree tree_;
-    std::vector<Vector3d> low_, high_;  ///< [triangle]
-    std::vector<Face> faces_;           ///< [triangle]
-    std::vector<std::uint32_t> met_;    ///< triangles
-    std::vector<Near> near_;
+    std::vector<Vector3d> low_, high_;    ///< [triangle]
+    std::vector<Face> faces_;             ///< [triangle]
+    std::vector<Search> searches_;        ///< [worker]
     std::vector<SurfaceContact> before_;  ///< of the step before, in the order of the probes
-    std::uint32_t next_known_ = 0;        ///< in before_
 };
 
 }  // namespace plumb

@@ -57,7 +57,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
                              ledger);
         });
     if (plan.runs(Effect::surface_contacts))
-        timed(Stage::surface_contacts, [&] { stepper.surfaces.detect(world, dt); });
+        timed(Stage::surface_contacts, [&] { stepper.surfaces.detect(world, stepper.workers, dt); });
     if (sleeps)
         timed(Stage::sleeping, [&] {
             renews |= stepper.sleeping.wake_disturbed(world, stepper.buffers.motions);

@@ -22,7 +22,7 @@ protected:
     /// there is none.
     Vector normal_at(const Vector& corner) {
         world().bodies.position[0] = corner + Vector(0, kLowest, 0);
-        detector_.detect(world(), 0.01);
+        detector_.detect(world(), workers_, 0.01);
         for (const SurfaceContact& c : world().surface_contacts)
             if (c.point.body == 0 &&
                 (in_world(world().bodies, 0, c.point.position) - corner).norm() < 1e-9)
@@ -44,6 +44,7 @@ private:
     }
 
     Simulation simulation_;
+    Workers workers_{1};
     SurfaceDetector detector_;
 };
 
