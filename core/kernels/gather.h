@@ -8,6 +8,7 @@
 #include "math/lanes.h"
 #include "schedule/contact_rows.h"
 
+#include <type_traits>
 #include <utility>
 
 namespace plumb::kernels {
@@ -59,59 +60,78 @@ inline Half half_of(Register whole, std::index_sequence<K...>) {
     return __builtin_shufflevector(whole, whole, (Upper ? int(sizeof...(K) + K) : int(K))...);
 }
 
-/// One row of a body, where registers are wider.
-template <class Real>
-struct RowRegister {
-    typedef Real type __attribute__((vector_size(kBodyRowSize * sizeof(Real))));
-};
+/// Items of n numbers side by side, in a register that is wider: those of `at(0)`, `at(Stride)`,
+/// and so on. And back again, calling put(k, item) for the k-th of them.
+template <int n, int Stride, class Register, class At>
+inline Register load_beside(At at, int i = 0) {
+    constexpr int size = sizeof(Register) / sizeof(Register{}[0]);
+    if constexpr (size == n) {
+        return load_register<Register>(at(i));
+    } else {
+        typedef std::remove_reference_t<decltype(Register{}[0])> Number;
+        typedef Number Half __attribute__((vector_size(sizeof(Register) / 2)));
+        return join_halves<Register>(load_beside<n, Stride, Half>(at, i),
+                                     load_beside<n, Stride, Half>(at, i + Stride * (size / 2 / n)),
+                                     std::make_index_sequence<size>());
+    }
+}
+template <int n, int Stride, class Register, class Put>
+inline void part_again(const Register& all, Put put, int i = 0) {
+    constexpr int size = sizeof(Register) / sizeof(Register{}[0]);
+    if constexpr (size == n) {
+        put(i, all);
+    } else {
+        typedef std::remove_reference_t<decltype(Register{}[0])> Number;
+        typedef Number Half __attribute__((vector_size(sizeof(Register) / 2)));
+        constexpr auto elements = std::make_index_sequence<size / 2>();
+        part_again<n, Stride>(half_of<Half, false>(all, elements), put, i);
+        part_again<n, Stride>(half_of<Half, true>(all, elements), put, i + Stride * (size / 2 / n));
+    }
+}
 
-/// Eight components of W bodies: component c of lane i.
-template <class Real, int W>
+/// The first Size components of W bodies: component c of lane i.
+template <class Real, int W, int Size = kBodyRowSize>
 struct RowLanes {
-    Lanes<Real, W> component[kBodyRowSize];
+    Lanes<Real, W> component[Size];
 };
 
-template <class Real, int W>
-inline void read_rows(const Real* rows, const std::int32_t* index, RowLanes<Real, W>& out) {
+template <class Real, int W, int Size>
+inline void read_rows(const Real* rows, const std::int32_t* index, RowLanes<Real, W, Size>& out) {
     using L = Lanes<Real, W>;
     using Register = typename L::Register;
     constexpr int n = L::kPart;
     for (int part = 0; part < L::kParts; ++part) {
         const std::int32_t* at = index + part * n;
-        if constexpr (n <= kBodyRowSize) {
-            for (int chunk = 0; chunk < kBodyRowSize / n; ++chunk) {
+        if constexpr (n <= Size) {
+            for (int chunk = 0; chunk < Size / n; ++chunk) {
                 Register m[n];
                 for (int i = 0; i < n; ++i)
                     m[i] = load_register<Register>(rows + at[i] * kBodyRowSize + chunk * n);
                 transpose<n>(m);
                 for (int i = 0; i < n; ++i) out.component[chunk * n + i].part[part] = m[i];
             }
-        } else {  // two rows to a register
-            Register m[kBodyRowSize];
-            for (int i = 0; i < kBodyRowSize; ++i) {
-                using Row = typename RowRegister<Real>::type;
-                m[i] = join_halves<Register>(
-                    load_register<Row>(rows + at[i] * kBodyRowSize),
-                    load_register<Row>(rows + at[i + kBodyRowSize] * kBodyRowSize),
-                    std::make_index_sequence<n>());
-            }
-            transpose<kBodyRowSize>(m);
-            for (int c = 0; c < kBodyRowSize; ++c) out.component[c].part[part] = m[c];
+        } else {  // several rows to a register
+            Register m[Size];
+            for (int i = 0; i < Size; ++i)
+                m[i] = load_beside<Size, Size, Register>(
+                    [&](int k) { return rows + at[k] * kBodyRowSize; }, i);
+            transpose<Size>(m);
+            for (int c = 0; c < Size; ++c) out.component[c].part[part] = m[c];
         }
     }
 }
 
 /// Writes the rows of dynamic bodies only, so that no two threads ever write one row.
-template <class Real, int W>
+template <class Real, int W, int Size>
 inline void write_rows(Real* rows, const std::int32_t* index, std::int32_t dynamic_count,
-                       const RowLanes<Real, W>& in) {
+                       const RowLanes<Real, W, Size>& in) {
     using L = Lanes<Real, W>;
     using Register = typename L::Register;
     constexpr int n = L::kPart;
     for (int part = 0; part < L::kParts; ++part) {
         const std::int32_t* at = index + part * n;
-        if constexpr (n <= kBodyRowSize) {
-            for (int chunk = 0; chunk < kBodyRowSize / n; ++chunk) {
+        if constexpr (n <= Size) {
+            for (int chunk = 0; chunk < Size / n; ++chunk) {
                 Register m[n];
                 for (int i = 0; i < n; ++i) m[i] = in.component[chunk * n + i].part[part];
                 transpose<n>(m);
@@ -120,19 +140,16 @@ inline void write_rows(Real* rows, const std::int32_t* index, std::int32_t dynam
                         store_register(rows + at[i] * kBodyRowSize + chunk * n, m[i]);
             }
         } else {
-            Register m[kBodyRowSize];
-            for (int c = 0; c < kBodyRowSize; ++c) m[c] = in.component[c].part[part];
-            transpose<kBodyRowSize>(m);
-            using Row = typename RowRegister<Real>::type;
-            constexpr auto elements = std::make_index_sequence<kBodyRowSize>();
-            for (int i = 0; i < kBodyRowSize; ++i) {
-                const int j = i + kBodyRowSize;
-                if (at[i] < dynamic_count)
-                    store_register(rows + at[i] * kBodyRowSize,
-                                   half_of<Row, false>(m[i], elements));
-                if (at[j] < dynamic_count)
-                    store_register(rows + at[j] * kBodyRowSize, half_of<Row, true>(m[i], elements));
-            }
+            Register m[Size];
+            for (int c = 0; c < Size; ++c) m[c] = in.component[c].part[part];
+            transpose<Size>(m);
+            for (int i = 0; i < Size; ++i)
+                part_again<Size, Size>(
+                    m[i],
+                    [&](int k, const auto& row) {
+                        if (at[k] < dynamic_count) store_register(rows + at[k] * kBodyRowSize, row);
+                    },
+                    i);
         }
     }
 }
@@ -146,7 +163,7 @@ inline Velocity<Number<Real, W>> read_velocities(const Real* rows, const std::in
         return {Vector3<T>(r[0], r[1], r[2]), Vector3<T>(r[4], r[5], r[6])};
     } else {
         RowLanes<Real, W> m;
-        read_rows<Real, W>(rows, index, m);
+        read_rows(rows, index, m);
         const auto& c = m.component;
         return {Vector3<T>(c[0], c[1], c[2]), Vector3<T>(c[4], c[5], c[6])};
     }
@@ -162,7 +179,7 @@ inline void read_masses(const Real* rows, const std::int32_t (&index)[W], Real (
         for (int i = 0; i < 6; ++i) inertia[i][0] = r[1 + i];
     } else {
         RowLanes<Real, W> m;
-        read_rows<Real, W>(rows, index, m);
+        read_rows(rows, index, m);
         store(mass, m.component[0]);
         for (int i = 0; i < 6; ++i) store(inertia[i], m.component[1 + i]);
     }
@@ -178,7 +195,34 @@ inline void write_velocities(Real* rows, const std::int32_t (&index)[W], std::in
     } else {
         const Lanes<Real, W> zero(Real(0));
         const RowLanes<Real, W> m{{x.v[0], x.v[1], x.v[2], zero, x.w[0], x.w[1], x.w[2], zero}};
-        write_rows<Real, W>(rows, index, dynamic_count, m);
+        write_rows(rows, index, dynamic_count, m);
+    }
+}
+
+/// The same of particles, whose rows have velocities in their first half alone.
+template <class Real, int W>
+inline Vector3<Number<Real, W>> read_points(const Real* rows, const std::int32_t (&index)[W]) {
+    using T = Number<Real, W>;
+    if constexpr (W == 1) {
+        const Real* r = rows + index[0] * kBodyRowSize;
+        return Vector3<T>(r[0], r[1], r[2]);
+    } else {
+        RowLanes<Real, W, kBodyRowSize / 2> m;
+        read_rows(rows, index, m);
+        return Vector3<T>(m.component[0], m.component[1], m.component[2]);
+    }
+}
+
+template <class Real, int W>
+inline void write_points(Real* rows, const std::int32_t (&index)[W], std::int32_t dynamic_count,
+                         const Vector3<Number<Real, W>>& x) {
+    if constexpr (W == 1) {
+        if (index[0] >= dynamic_count) return;
+        Real* r = rows + index[0] * kBodyRowSize;
+        for (int i = 0; i < 3; ++i) r[i] = x[i];
+    } else {
+        const RowLanes<Real, W, kBodyRowSize / 2> m{{x[0], x[1], x[2], Lanes<Real, W>(Real(0))}};
+        write_rows(rows, index, dynamic_count, m);
     }
 }
 

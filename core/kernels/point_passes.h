@@ -11,26 +11,42 @@
 
 namespace plumb::kernels {
 
-/// The points of W constraints, against the first of each [m].
+/// The points of W constraints, against the first of each [m], and what has changed of their
+/// velocities [m/s].
 template <int N, class T>
 struct GatheredPoints {
     Vector3<T> place[N], change[N];
+
+    /// From where the start of the substep takes them, with velocities that they lack.
+    template <class Real, int W>
+    void move(const Real* velocities, const std::int32_t (&row)[N][W], const T& h) {
+        for (int i = 0; i < N; ++i) change[i] = read_points<Real, W>(velocities, row[i]);
+        for (int i = 1; i < N; ++i) place[i] += (change[i] - change[0]) * h;
+    }
 };
 
-/// `whole`: at the end of the substep as things stand; else at its start.
+/// Where the start of the substep takes them.
 template <int N, class Real, int W, class T = Number<Real, W>>
-inline GatheredPoints<N, T> gather_points(const BodyRows<Real>& rows,
-                                          const std::int32_t (&row)[N][W], const T& h, bool whole) {
+inline GatheredPoints<N, T> gather_previews(const BodyRows<Real>& rows,
+                                            const std::int32_t (&row)[N][W]) {
     GatheredPoints<N, T> points;
     Velocity<T> preview[N];
-    for (int i = 0; i < N; ++i) {
-        preview[i] = read_velocities<Real, W>(rows.preview, row[i]);
-        points.change[i] = read_velocities<Real, W>(whole ? rows.change : rows.start, row[i]).v;
-    }
-    const T time = whole ? h : -h;
-    for (int i = 0; i < N; ++i)
-        points.place[i] = (preview[i].v - preview[0].v) + (preview[i].w - preview[0].w) +
-                          (points.change[i] - points.change[0]) * time;
+    for (int i = 0; i < N; ++i) preview[i] = read_velocities<Real, W>(rows.preview, row[i]);
+    points.place[0] = Vector3<T>(T(0), T(0), T(0));
+    for (int i = 1; i < N; ++i)
+        points.place[i] = (preview[i].v - preview[0].v) + (preview[i].w - preview[0].w);
+    return points;
+}
+
+/// At the end of the substep as things stand, of a block that has begun.
+template <class F, class Real, int W, class T = Number<Real, W>>
+inline GatheredPoints<F::kPoints, T> gather_points(const FormulaBlock<F, Real, W>& block,
+                                                   const BodyRows<Real>& rows, const T& h) {
+    GatheredPoints<F::kPoints, T> points;
+    points.place[0] = Vector3<T>(T(0), T(0), T(0));
+    for (int i = 0; i < 3 * (F::kPoints - 1); ++i)
+        points.place[1 + i / 3][i % 3] = load(block.apart[i]);
+    points.template move<Real, W>(rows.change, block.row, h);
     return points;
 }
 
@@ -66,8 +82,11 @@ template <class F, class Real, int W>
         const T damped = load(block.damped);
         T c[Size::kRows];
         for (T& row : c) row = T(0);
+        auto points = gather_previews<F::kPoints, Real, W>(rows, block.row);
+        for (int i = 0; i < 3 * (F::kPoints - 1); ++i)
+            store(block.apart[i], points.place[1 + i / 3][i % 3]);
         if (any_greater(damped, T(0))) {
-            const auto points = gather_points<F::kPoints, Real, W>(rows, block.row, T(h), false);
+            points.template move<Real, W>(rows.start, block.row, -T(h));
             evaluate<F, Real, W>(c, block, points.place);
         }
         for (int k = 0; k < Size::kRows; ++k) {
@@ -97,9 +116,8 @@ template <class F, class Real, int W, class T = Number<Real, W>>
 inline void store_points(FormulaBlock<F, Real, W>& block, const T (&impulse)[FormulaSize<F>::kRows],
                          const Vector3<T> (&change)[F::kPoints], const BodyRows<Real>& rows) {
     for (int k = 0; k < FormulaSize<F>::kRows; ++k) store(block.impulse[k], impulse[k]);
-    const Vector3<T> none(T(0), T(0), T(0));
     for (int i = 0; i < F::kPoints; ++i)
-        write_velocities<Real, W>(rows.change, block.row[i], rows.dynamic_count, {change[i], none});
+        write_points<Real, W>(rows.change, block.row[i], rows.dynamic_count, change[i]);
 }
 
 template <class F, class Real, int W>
@@ -110,7 +128,7 @@ template <class F, class Real, int W>
     constexpr int n = F::kPoints;
     for (std::uint32_t b = first; b < last; ++b) {
         FormulaBlock<F, Real, W>& block = blocks[b];
-        auto points = gather_points<n, Real, W>(rows, block.row, T(h), true);
+        auto points = gather_points<F, Real, W>(block, rows, T(h));
         LoadedItems<F, Real, W> items(block);
         if constexpr (Size::kIsLinear) {
             LinearRow<T, n> row;
@@ -141,7 +159,7 @@ template <class F, class Real, int W>
     for (std::uint32_t b = first; b < last; ++b) {
         FormulaBlock<F, Real, W>& block = blocks[b];
         FormulaPushBlock<F, Real, W>& pushed = pushes[b];
-        auto points = gather_points<n, Real, W>(rows, block.row, T(h), true);
+        auto points = gather_points<F, Real, W>(block, rows, T(h));
         LoadedItems<F, Real, W> items(block);
         Vector3<T> push[n - 1];
         for (int i = 0; i < 3 * (n - 1); ++i) push[i / 3][i % 3] = load(pushed.push[i]);
@@ -168,7 +186,8 @@ void look_at_elements(FormulaPatchBlock<F, Real, W>* blocks, Real* slopes,
     const T inverse_h = T(1) / T(h);
     for (std::uint32_t b = first; b < last; ++b) {
         FormulaPatchBlock<F, Real, W>& block = blocks[b];
-        const auto points = gather_points<n, Real, W>(rows, block.row, T(h), true);
+        auto points = gather_previews<n, Real, W>(rows, block.row);
+        points.template move<Real, W>(rows.change, block.row, T(h));
         T numbers[F::kNumbers], c[m];
         load_all<Real, F::kNumbers, W>(numbers, block.numbers);
         const T share = load(block.share), cosine = load(block.cosine), sine = load(block.sine);

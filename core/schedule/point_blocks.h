@@ -10,7 +10,9 @@ namespace plumb {
 /// `Size`: FormulaSize of the formula.
 template <class Size, int Points, class Real, int W>
 struct alignas(64) PointBlock {
-    std::int32_t row[Points][W];           // in the velocity table; the row of zeros in empty lanes
+    std::int32_t row[Points][W];  // in the velocity table; the row of zeros in empty lanes
+    // where the start of the substep takes the points but the first, against that [m]
+    Real apart[3 * (Points - 1)][W];
     Real inverse_mass[Points][W];          // [1/kg]
     Real numbers[Size::kNumbers][W];       // of the item at rest
     Real softness[Size::kCompliances][W];  // point_softness()

@@ -120,6 +120,7 @@ private:
     /// Axes against those of what an element or patch is part of: cos 2θ and sin 2θ.
     struct Turn {
         Real cosine = 1, sine = 0;
+        bool is_none() const { return cosine == 1 && sine == 0; }
         Turn back() const { return {cosine, -sine}; }
     };
     struct Bearer {
@@ -276,7 +277,7 @@ private:
         for (int k = 0; k < 2; ++k) {
             if (point.from[k] == kNoIndex) continue;
             Slope part = slopes_[point.from[k]];
-            turn_rows(part, half(patch, k).turn);
+            if (!half(patch, k).turn.is_none()) turn_rows(part, half(patch, k).turn);
             for (int r = 0; r < kRows; ++r) sum.row[r] += part.row[r];
         }
         return sum;
