@@ -12,7 +12,7 @@ plumb_add_tests(plumb_unit_tests unit
   measure/contact_comparison_test.cpp measure/deformation_test.cpp measure/mesh_resolution_test.cpp host/choose_collider_test.cpp host/remote_source_test.cpp
   host/edit_bodies_test.cpp host/edit_equal_test.cpp host/edit_errors_test.cpp host/edit_joints_test.cpp
   host/contacts_test.cpp host/log_test.cpp host/names_test.cpp host/state_test.cpp
-  contacts/contact_work_test.cpp host/kept_contacts_test.cpp solve/gaping_joints_test.cpp
+  contacts/contact_work_test.cpp contacts/facets_test.cpp host/kept_contacts_test.cpp solve/gaping_joints_test.cpp
   islands/island_account_test.cpp islands/island_effort_test.cpp islands/island_solver_test.cpp islands/island_system_test.cpp
   step/residual_test.cpp
   host/capture_test.cpp)

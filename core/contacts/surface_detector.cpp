@@ -6,7 +6,9 @@
 #include "world/point_place.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <limits>
 
 namespace plumb {
 namespace {
@@ -19,9 +21,12 @@ constexpr double kSameSide = 0.7;
 /// Room for triangles near one point.
 constexpr std::size_t kUsuallyNear = 1024;
 /// From this cosine on, a point faces a triangle and not only its rim.
-constexpr double kFaceOn = 0.99;
+constexpr double kFaceOn = Facets::kFacing;
 /// Below this cosine nobody can tell on which side of a sharp fold a point is.
 constexpr double kEdgeOn = 0.1;
+
+/// Up to what distance two triangles are equally near [m].
+double as_near_as(double distance) { return distance * (1 + 1e-6) + 1e-12; }
 
 }  // namespace
 
@@ -52,6 +57,7 @@ void SurfaceDetector::build_tree(const World& world) {
         middles.push_back(sum / 3), groups.push_back(t.deformable);
     }
     tree_.build(middles, groups);
+    facets_.resize(triangles_.size());
 }
 
 void SurfaceDetector::find_rims(const Deformable& d, std::size_t first) {
@@ -120,6 +126,7 @@ void SurfaceDetector::detect(World& world, Workers& workers, double dt) {
         search.found.clear(), search.next_known = 0;
         search.found.reserve(2 * probes_.size() / own + kUsuallyNear);
         search.near.reserve(kUsuallyNear), search.met.reserve(triangles_.size());
+        search.candidates.reserve(triangles_.size()), search.closest.resize(closed_.size());
     }
     workers.each(probes_.size(), [&](std::uint32_t i, std::uint32_t worker) {
         look(world, probes_[i], dt, searches_[worker]);
@@ -134,17 +141,24 @@ void SurfaceDetector::follow(const World& world, Workers& workers, double dt) {
     const Particles& p = world.particles;
     speed_.resize(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) speed_[i] = p.velocity[i].norm();
-    workers.each(triangles_.size(), [&](std::uint32_t i, std::uint32_t) {
+    const Vector3d& origin = p.position[0];
+    workers.each(triangles_.size(), [&](std::uint32_t place, std::uint32_t) {
+        const std::uint32_t i = tree_.box_at(place);
         const auto& [a, b, c] = triangles_[i].corners;
         const double fastest = std::max({speed_[a], speed_[b], speed_[c]});
         const double grown = p.radius[a] + world.settings.margin + fastest * dt;
         const Vector3d by = Vector3d::Constant(std::isfinite(grown) ? grown : 0);
-        low_[i] = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]) - by;
-        high_[i] = p.position[a].cwiseMax(p.position[b]).cwiseMax(p.position[c]) + by;
-        faces_[i].normal = (p.position[b] - p.position[a]).cross(p.position[c] - p.position[a]);
-        faces_[i].size = faces_[i].normal.norm();
+        const Vector3d low = p.position[a].cwiseMin(p.position[b]).cwiseMin(p.position[c]),
+                       high = p.position[a].cwiseMax(p.position[b]).cwiseMax(p.position[c]);
+        low_[i] = low - by, high_[i] = high + by;
+        Face& face = faces_[i];
+        face.normal = (p.position[b] - p.position[a]).cross(p.position[c] - p.position[a]);
+        face.size = face.normal.norm();
+        tree_.set(place, low_[i], high_[i]);
+        facets_.set(place, low - origin, high - origin, p.position[a] - origin,
+                    face.normal / std::max(face.size, 1e-300));
     });
-    tree_.follow(low_, high_);
+    tree_.close();
 }
 
 void SurfaceDetector::look(const World& world, const Probe& probe, double dt,
@@ -158,26 +172,63 @@ void SurfaceDetector::look(const World& world, const Probe& probe, double dt,
     keep_nearest(world, probe, search);
 }
 
-/// The triangles that a probe may meet within dt [s], in their order.
+/// Of the triangles that a probe may meet within dt [s], in their order, those that may be the
+/// nearest of their surface, and those that it may face.
 void SurfaceDetector::find_near(const World& world, const Probe& probe, double dt,
                                 Search& search) const {
-    std::vector<std::uint32_t>& met = search.met;
-    search.near.clear(), met.clear();
-    const Vector3d place = place_of(world, probe.point);
-    const double slack = probe.radius + speed_of(world, probe.point) * dt;
-    const Vector3d low = place - Vector3d::Constant(slack),
-                   high = place + Vector3d::Constant(slack);
-    if (!low.allFinite() || !high.allFinite()) return;
-    tree_.each_near(low, high, [&](std::uint32_t i) {
-        if (!triangles_[i].has(probe.point.particle) && may_meet(world, probe, triangles_[i]) &&
-            !(high.array() < low_[i].array()).any() && !(low.array() > high_[i].array()).any())
-            met.push_back(i);
-    });
-    std::sort(met.begin(), met.end());
-    for (const std::uint32_t i : met) {
-        const Near near = near_point(world, i, place);
+    search.near.clear(), search.met.clear();
+    const Vector3d at = place_of(world, probe.point);
+    const Vector3d slack = Vector3d::Constant(probe.radius + speed_of(world, probe.point) * dt);
+    const Place place{at, at - slack, at + slack};
+    if (!place.low.allFinite() || !place.high.allFinite()) return;
+    find_candidates(world, probe, place, search);
+    for (const Candidate& c : search.candidates) {
+        const Closest& closest = search.closest[triangles_[c.triangle].deformable];
+        if ((c.may_face || !(c.square > closest.limit)) && meets(world, probe, place, c.triangle))
+            search.met.push_back(c.triangle);
+    }
+    std::sort(search.met.begin(), search.met.end());
+    for (const std::uint32_t i : search.met) {
+        const Near& closest = search.closest[triangles_[i].deformable].near;
+        const Near near = closest.triangle == i ? closest : near_point(world, i, at);
         if (std::isfinite(near.distance)) search.near.push_back(near);
     }
+}
+
+/// All that their boxes tell may be met, and the closest of each surface.
+void SurfaceDetector::find_candidates(const World& world, const Probe& probe, const Place& place,
+                                      Search& search) const {
+    constexpr float kFar = std::numeric_limits<float>::infinity();
+    const Vector3d from_origin = place.at - world.particles.position[0];
+    search.candidates.clear();
+    for (Closest& closest : search.closest)
+        closest.square = closest.limit = kFar, closest.near.triangle = kNoIndex;
+    tree_.each_leaf_near(place.low, place.high, [&](std::uint32_t first, std::uint32_t found) {
+        const Facets::Sight sight = facets_.look(first / Facets::kGroup, from_origin);
+        for (; found != 0; found &= found - 1) {
+            const auto lane = static_cast<std::uint32_t>(std::countr_zero(found));
+            const Candidate c{tree_.box_at(first + lane), sight.square[lane],
+                              (sight.may_face >> lane & 1) != 0};
+            Closest& closest = search.closest[triangles_[c.triangle].deformable];
+            if (c.square < closest.square && meets(world, probe, place, c.triangle))
+                closest.square = c.square, closest.near.triangle = c.triangle;
+            search.candidates.push_back(c);
+        }
+    });
+    for (Closest& closest : search.closest) {
+        if (closest.near.triangle == kNoIndex) continue;
+        closest.near = near_point(world, closest.near.triangle, place.at);
+        const double limit = as_near_as(closest.near.distance) * (1 + 1e-6);
+        closest.limit = std::isfinite(limit) ? static_cast<float>(limit * limit) : kFar;
+    }
+}
+
+/// Of most that are near, the point is a corner.
+bool SurfaceDetector::meets(const World& world, const Probe& probe, const Place& place,
+                            std::uint32_t i) const {
+    return !triangles_[i].has(probe.point.particle) && may_meet(world, probe, triangles_[i]) &&
+           !(place.high.array() < low_[i].array()).any() &&
+           !(place.low.array() > high_[i].array()).any();
 }
 
 SurfaceDetector::Near SurfaceDetector::near_point(const World& world, std::uint32_t triangle,
@@ -305,7 +356,7 @@ void SurfaceDetector::keep_nearest(const World& world, const Probe& probe, Searc
         // tells inside from outside
         const Near& nearest = *std::min_element(first, last, is_nearer);
         const Near* best = &nearest;
-        const double same = nearest.distance * (1 + 1e-6) + 1e-12;
+        const double same = as_near_as(nearest.distance);
         for (auto n = first; n != last; ++n) {
             if (n->distance > same) continue;
             const double more = std::abs(n->facing) - std::abs(best->facing);

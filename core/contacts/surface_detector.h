@@ -3,6 +3,7 @@
 /// and of the same one, and the corners of bodies.
 #pragma once
 
+#include "contacts/facets.h"
 #include "geometry/corner_points.h"
 #include "schedule/box_tree.h"
 #include "schedule/workers.h"
@@ -59,10 +60,28 @@ private:
     struct Known {
         std::uint32_t first = 0, last = 0;  ///< in before_
     };
+    /// Where a probe is, and the box that it may be in within the step.
+    struct Place {
+        Vector3d at, low, high;
+    };
+    /// A triangle that a probe may come near, as the Sight of it says.
+    struct Candidate {
+        std::uint32_t triangle;
+        float square;
+        bool may_face;
+    };
+    /// The candidate of a surface whose box is nearest, and beyond what square none counts that is
+    /// not faced [m²].
+    struct Closest {
+        float square, limit;
+        Near near;
+    };
     /// What a worker finds, probe by probe.
     struct Search {
         std::vector<SurfaceContact> found;
-        std::vector<std::uint32_t> met;  ///< triangles
+        std::vector<Candidate> candidates;
+        std::vector<Closest> closest;    ///< [deformable]
+        std::vector<std::uint32_t> met;  ///< triangles that count
         std::vector<Near> near;
         std::uint32_t next_known = 0;  ///< in before_
     };
@@ -73,6 +92,8 @@ private:
     void follow(const World& world, Workers& workers, double dt);
     void look(const World& world, const Probe& probe, double dt, Search& search) const;
     void find_near(const World& world, const Probe& probe, double dt, Search& search) const;
+    void find_candidates(const World& world, const Probe& probe, const Place& place,
+                         Search& search) const;
     Near near_point(const World& world, std::uint32_t triangle, const Vector3d& place) const;
     Known known_of(const Probe& probe, std::uint32_t& next) const;
     void find_side(const World& world, const Probe& probe, const Known& known, Near& near,
@@ -80,6 +101,8 @@ private:
     std::int8_t known_side(const World& world, const Known& known, const Near& near,
                            double most) const;
     bool is_at_rim(const World& world, const Near& near, double most) const;
+    bool meets(const World& world, const Probe& probe, const Place& place,
+               std::uint32_t triangle) const;
     bool may_meet(const World& world, const Probe& probe, const Triangle& triangle) const;
     double speed_of(const World& world, const WorldPoint& point) const;  ///< [m/s]
     void keep_nearest(const World& world, const Probe& probe, Search& search) const;
@@ -96,6 +119,7 @@ private:
     BoxTree tree_;
     std::vector<Vector3d> low_, high_;    ///< [triangle]
     std::vector<Face> faces_;             ///< [triangle]
+    Facets facets_;                       ///< [place in the tree]
     std::vector<Search> searches_;        ///< [worker]
     std::vector<SurfaceContact> before_;  ///< of the step before, in the order of the probes
 };

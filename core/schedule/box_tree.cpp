@@ -63,12 +63,8 @@ BoxTree::Bounds BoxTree::bounds_of_node(const Node& node) const {
     return all;
 }
 
-void BoxTree::follow(const std::vector<Vector3d>& low, const std::vector<Vector3d>& high) {
-    if (order_.empty()) return;
-    auto level = static_cast<std::uint32_t>(levels_.size()) - 1;
-    for (std::uint32_t i = 0; i < order_.size(); ++i)
-        set(level, i, bounds_of(low[order_[i]], high[order_[i]]));
-    for (; level > 0; --level)
+void BoxTree::close() {
+    for (auto level = static_cast<std::uint32_t>(levels_.size()); level-- > 1;)
         for (std::uint32_t i = 0; i < levels_[level].count; ++i)
             set(level - 1, i, bounds_of_node(nodes_[levels_[level].first + i]));
 }

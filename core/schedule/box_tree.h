@@ -22,13 +22,32 @@ public:
     /// together.
     void build(const std::vector<Vector3d>& middles, const std::vector<std::uint32_t>& groups);
 
-    /// Takes the places [low, high] of all boxes.
-    void follow(const std::vector<Vector3d>& low, const std::vector<Vector3d>& high);
+    static constexpr std::uint32_t kChildren = 8;
+
+    /// Boxes lie at these places, in leaves of kChildren of them.
+    std::uint32_t size() const { return static_cast<std::uint32_t>(order_.size()); }
+    std::uint32_t box_at(std::uint32_t place) const { return order_[place]; }
+
+    /// Takes a box [low, high]; and once all have been, what lies above them.
+    void set(std::uint32_t place, const Vector3d& low, const Vector3d& high) {
+        set(static_cast<std::uint32_t>(levels_.size()) - 1, place, bounds_of(low, high));
+    }
+    void close();
 
     /// Calls visit(box) for each box that meets [low, high], and for some that all but do, each
     /// once; their order tells nothing.
     template <class Visit>
     void each_near(const Vector3d& low, const Vector3d& high, Visit visit) const {
+        each_leaf_near(low, high, [&](std::uint32_t first, std::uint32_t found) {
+            for (; found != 0; found &= found - 1)
+                visit(order_[first + static_cast<std::uint32_t>(std::countr_zero(found))]);
+        });
+    }
+
+    /// The same, leaf by leaf: calls visit(place, found) with its first place, and one bit for each
+    /// of its boxes.
+    template <class Visit>
+    void each_leaf_near(const Vector3d& low, const Vector3d& high, Visit visit) const {
         if (order_.empty()) return;
         const Bounds negative = bounds_of(-high, -low);
         Limits limits;
@@ -37,8 +56,6 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kChildren = 8;
-
     /// Lower bounds, then upper ones with the other sign.
     struct Bounds {
         float at[6];
@@ -86,19 +103,19 @@ private:
 
     template <class Visit>
     void look(std::uint32_t level, std::uint32_t node, const Limits& limits, Visit& visit) const {
-        const std::uint32_t end = level + 1 < levels_.size()
-                                      ? levels_[level + 1].count
-                                      : static_cast<std::uint32_t>(order_.size());
         std::uint32_t found = near(nodes_[levels_[level].first + node], limits);
-        for (; found != 0; found &= found - 1) {
-            const std::uint32_t child =
-                kChildren * node + static_cast<std::uint32_t>(std::countr_zero(found));
-            if (child >= end) return;  // a box as large as can be meets empty places too
-            if (level + 1 < levels_.size())
-                look(level + 1, child, limits, visit);
-            else
-                visit(order_[child]);
+        const bool is_leaf = level + 1 == levels_.size();
+        const std::uint32_t first = kChildren * node,
+                            end = is_leaf ? size() : levels_[level + 1].count;
+        // a box as large as can be meets empty places too
+        if (end - first < kChildren) found &= (1u << (end - first)) - 1;
+        if (is_leaf) {
+            if (found != 0) visit(first, found);
+            return;
         }
+        for (; found != 0; found &= found - 1)
+            look(level + 1, first + static_cast<std::uint32_t>(std::countr_zero(found)), limits,
+                 visit);
     }
 
     void split(const std::vector<Vector3d>& middles, const std::vector<std::uint32_t>& groups,

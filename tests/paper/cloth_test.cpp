@@ -211,7 +211,9 @@ private:
                 for (const Vector& p : {points[corner], points_[corner]})
                     low.back() = low.back().cwiseMin(p), high.back() = high.back().cwiseMax(p);
         }
-        tree_.follow(low, high);
+        for (std::uint32_t i = 0; i < tree_.size(); ++i)
+            tree_.set(i, low[tree_.box_at(i)], high[tree_.box_at(i)]);
+        tree_.close();
         for (std::size_t i = 0; i < now.size(); ++i)
             tree_.each_near(now[i].cwiseMin(corners_[i]), now[i].cwiseMax(corners_[i]),
                             [&](std::uint32_t triangle) {

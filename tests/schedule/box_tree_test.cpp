@@ -49,7 +49,9 @@ TEST_P(BoxesInATree, AreFound) {
     tree_.build(low_, groups);
     for (const double size : {1.0, 1e-3, 1e5}) {
         scatter(size);
-        tree_.follow(low_, high_);
+        for (std::uint32_t i = 0; i < tree_.size(); ++i)
+            tree_.set(i, low_[tree_.box_at(i)], high_[tree_.box_at(i)]);
+        tree_.close();
         for (int i = 0; i < 20; ++i) {
             const Vector3d middle = place(size), extent = place(0.3 * size).cwiseAbs();
             expect_found(middle - extent, middle + extent);
@@ -62,7 +64,8 @@ TEST_P(BoxesInATree, AreFound) {
 TEST(ABoxInATree, IsNotFoundFromAfar) {
     BoxTree tree;
     tree.build({Vector3d::Zero()}, {0});
-    tree.follow({Vector3d::Constant(-1)}, {Vector3d::Constant(1)});
+    tree.set(0, Vector3d::Constant(-1), Vector3d::Constant(1));
+    tree.close();
     int found = 0;
     tree.each_near({1.1, 0, 0}, {2, 0, 0}, [&](std::uint32_t) { ++found; });
     EXPECT_EQ(found, 0);
