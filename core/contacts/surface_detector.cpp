@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/surface_detector.h"
 
+#include "constraints/volume.h"
 #include "geometry/triangle.h"
 #include "math/growing.h"
 #include "world/point_place.h"
@@ -18,6 +19,9 @@ namespace {
 constexpr double kShareAtRest = 0.9;
 /// Two triangles whose directions differ by more than this cosine both hold a point off.
 constexpr double kSameSide = 0.7;
+/// Nothing within a solid that is no longer than twice its width is farther apart than so many
+/// times its volume over its surface.
+constexpr double kThicknesses = 12;
 /// Room for triangles near one point.
 constexpr std::size_t kUsuallyNear = 1024;
 /// From this cosine on, a point faces a triangle and not only its rim.
@@ -28,6 +32,23 @@ constexpr double kEdgeOn = 0.1;
 /// Up to what distance two triangles are equally near [m].
 double as_near_as(double distance) { return distance * (1 + 1e-6) + 1e-12; }
 
+/// Through how much of a solid its elements hold its surface apart; 0 of what is not solid, or in
+/// pieces [m].
+double thickness_of(const Deformable& deformable) {
+    const DeformableSpec& spec = deformable.spec;
+    if (spec.kind != DeformableKind::solid || !deformable.torn.empty()) return 0;
+    double area = 0;
+    for (const auto& t : spec.triangles)
+        area += (spec.points[t[1]] - spec.points[t[0]])
+                    .cross(spec.points[t[2]] - spec.points[t[0]])
+                    .norm() /
+                2;
+    const double volume = volume_of(spec.triangles, [&](std::uint32_t i) -> Vector3d {
+        return spec.points[i] - spec.points[0];
+    });
+    return area > 0 ? kThicknesses * volume / area : 0;
+}
+
 }  // namespace
 
 SurfaceDetector::SurfaceDetector(const World& world) {
@@ -36,6 +57,7 @@ SurfaceDetector::SurfaceDetector(const World& world) {
         filters_.push_back({d.spec.group, d.spec.mask});
         closed_.push_back(d.spec.kind == DeformableKind::balloon ||
                           d.spec.kind == DeformableKind::solid);
+        thickness_.push_back(thickness_of(d));
         const std::size_t first = triangles_.size();
         for (const auto& t : d.spec.triangles)
             triangles_.push_back({{d.first + t[0], d.first + t[1], d.first + t[2]}, i, {}, {}});
@@ -330,7 +352,25 @@ bool SurfaceDetector::is_at_rim(const World& world, const Near& n, double most) 
     return false;
 }
 
+/// What lies behind a triangle of its own solid at rest is held off by the elements between.
+/// Contacts would hold parts of a crushed solid fast that have gone through each other.
+bool SurfaceDetector::is_behind(const World& world, const Probe& probe, const Triangle& t) const {
+    const double thickness = thickness_[t.deformable];
+    if (probe.deformable != t.deformable || thickness == 0) return false;
+    const Deformable& d = world.deformables[t.deformable];
+    const auto at_rest = [&](std::uint32_t i) -> const Vector3d& {
+        return d.spec.points[i - d.first];
+    };
+    const Vector3d &a = at_rest(t.corners[0]), &b = at_rest(t.corners[1]),
+                   &c = at_rest(t.corners[2]);
+    const Vector3d normal = (b - a).cross(c - a),
+                   apart = at_rest(probe.point.particle) - (a + b + c) / 3;
+    const double distance = apart.norm();
+    return distance < thickness && apart.dot(normal) <= 1e-6 * distance * normal.norm();
+}
+
 bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) const {
+    if (is_behind(world, probe, t)) return false;
     if (probe.point.body != kNoIndex)
         for (const std::uint32_t corner : t.corners)
             if (joined_.has(corner, probe.point.body)) return false;

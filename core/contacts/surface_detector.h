@@ -103,6 +103,7 @@ private:
     bool is_at_rim(const World& world, const Near& near, double most) const;
     bool meets(const World& world, const Probe& probe, const Place& place,
                std::uint32_t triangle) const;
+    bool is_behind(const World& world, const Probe& probe, const Triangle& triangle) const;
     bool may_meet(const World& world, const Probe& probe, const Triangle& triangle) const;
     double speed_of(const World& world, const WorldPoint& point) const;  ///< [m/s]
     void keep_nearest(const World& world, const Probe& probe, Search& search) const;
@@ -113,6 +114,7 @@ private:
     std::vector<Triangle> triangles_;
     std::vector<Probe> probes_;
     std::vector<std::uint8_t> closed_;  ///< [deformable] whether its surface has an inside
+    std::vector<double> thickness_;     ///< [deformable] of solids [m]
     std::vector<Filter> filters_;       ///< [deformable]
     JoinedPoints joined_;
     std::vector<double> speed_;  ///< [particle] [m/s]

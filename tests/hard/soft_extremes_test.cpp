@@ -185,8 +185,8 @@ TEST_P(SoftExtremes, APlatePressesABalloon) {
     expect_bounded(simulation, 4, 20, 20);
 }
 
-/// A plate presses a solid flat, most of them into the ground, for half a second: nothing is fast
-/// that the plate did not load, and most of the shape comes back once it has left.
+/// A plate presses a solid flat, most of them into the ground, for half a second. What flies off is
+/// no faster than half of what the energy of a flat solid could do, and the shape comes back.
 TEST_P(SoftExtremes, APlatePressesASolidFlat) {
     Random random(41);
     for (int draw = 0; draw < 24; ++draw) {
@@ -233,8 +233,12 @@ TEST_P(SoftExtremes, APlatePressesASolidFlat) {
                             (at_rest.points[t[i]] - at_rest.points[t[j]]).norm() -
                         1);
         std::cout << "fastest " << fastest << " m/s, edges off by " << off / edges << "\n";
-        EXPECT_LT(fastest, 150);
-        EXPECT_LT(off / edges, 0.25);
+        const double young = at_rest.elasticity.youngs_modulus,
+                     nu = at_rest.elasticity.poissons_ratio, volume = 0.4 * 0.3 * 0.4;
+        // of one principal stretch that is 0
+        const double energy = volume * young * (1 - nu) / (2 * (1 + nu) * (1 - 2 * nu));
+        EXPECT_LT(fastest, std::max(5.0, 0.5 * std::sqrt(2 * energy / *at_rest.mass)));
+        EXPECT_LT(off / edges, 0.006);
     }
 }
 
