@@ -14,7 +14,7 @@ plumb_add_tests(plumb_unit_tests unit
   host/contacts_test.cpp host/log_test.cpp host/names_test.cpp host/state_test.cpp
   contacts/contact_work_test.cpp contacts/facets_test.cpp host/kept_contacts_test.cpp solve/gaping_joints_test.cpp
   islands/island_account_test.cpp islands/island_effort_test.cpp islands/island_solver_test.cpp islands/island_system_test.cpp
-  step/residual_test.cpp
+  step/residual_test.cpp step/whirled_trees_test.cpp
   host/capture_test.cpp)
 # Deformables take the reader's shapes; what frames tell is followed into recordings.
 target_link_libraries(plumb_unit_tests PRIVATE plumb::reader plumb::output)

@@ -129,6 +129,7 @@ StepReport step(World& world, Stepper& stepper, Proximity& proximity) {
             move(world, *moving, h);
             move_particles(world, h);
             stepper.fast_joints.note_open(world, h, report);
+            stepper.whirled.close(world, h);
         });
         report.count_open_trees();
         if (watches) timed(Stage::still_ground, [&] { stepper.still_ground.take_back(world, h); });

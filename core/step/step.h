@@ -17,6 +17,7 @@
 #include "step/row_solver.h"
 #include "step/sleeping.h"
 #include "step/stages.h"
+#include "step/whirled_trees.h"
 #include "ties/joint_state.h"
 #include "world/world.h"
 
@@ -41,6 +42,7 @@ struct Stepper {
           air(plan.runs(Effect::air_drag) ? Air(world) : Air()),
           divided(plan.runs(Effect::divided_trees) ? DividedTrees(world, plan) : DividedTrees()),
           fast_joints(world, plan),
+          whirled(world, plan),
           solver(make_row_solver(world, plan, workers)) {}
 
     /// After a change of the world that calls for other effects, or of its joints, rows or elements
@@ -61,6 +63,7 @@ struct Stepper {
         motion = sort_by_motion(world, plan.runs(Effect::gyroscopic));
         if (plan.runs(Effect::divided_trees)) divided = DividedTrees(world, plan);
         fast_joints = FastJoints(world, plan);
+        whirled = WhirledTrees(world, plan);
         const bool holds =
             plan.runs(Effect::joints) || plan.runs(Effect::deformables) || plan.runs(Effect::links);
         if (holds || anew) solver = make_row_solver(world, plan, workers);
@@ -75,6 +78,7 @@ struct Stepper {
     Air air;
     DividedTrees divided;
     FastJoints fast_joints;
+    WhirledTrees whirled;
     std::unique_ptr<RowSolver> solver;
     DetectBuffers buffers;
     GhostContacts ghosts;
