@@ -185,11 +185,11 @@ TEST_P(SoftExtremes, APlatePressesABalloon) {
     expect_bounded(simulation, 4, 20, 20);
 }
 
-/// A plate presses a solid flat, most of them into the ground, for half a second. What flies off is
-/// no faster than half of what the energy of a flat solid could do, and the shape comes back.
+/// A plate presses a solid flat, most of them into the ground, for half a second. No point gets
+/// faster than the energy of a flat solid would make all of it, and the shape comes back.
 TEST_P(SoftExtremes, APlatePressesASolidFlat) {
     Random random(41);
-    for (int draw = 0; draw < 24; ++draw) {
+    for (int draw = 0; draw < 16; ++draw) {
         SCOPED_TRACE(draw);
         Scene s;
         s.settings.precision = GetParam();
@@ -237,7 +237,7 @@ TEST_P(SoftExtremes, APlatePressesASolidFlat) {
                      nu = at_rest.elasticity.poissons_ratio, volume = 0.4 * 0.3 * 0.4;
         // of one principal stretch that is 0
         const double energy = volume * young * (1 - nu) / (2 * (1 + nu) * (1 - 2 * nu));
-        EXPECT_LT(fastest, std::max(5.0, 0.5 * std::sqrt(2 * energy / *at_rest.mass)));
+        EXPECT_LT(fastest, std::sqrt(2 * energy / *at_rest.mass));
         EXPECT_LT(off / edges, 0.006);
     }
 }
