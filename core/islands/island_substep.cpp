@@ -84,14 +84,22 @@ bool IslandSubstep::close() {
     return was_solved;
 }
 
-/// Returns whether it is solved.
+/// Returns whether it is solved. What led to no numbers is swept, from the start.
 bool IslandSubstep::solve_system(IslandEffort effort) {
     const IslandReport report =
         solver_.solve(all_, island_.system, island_.speed, effort,
                       island_.settling > 0 || island_.stirred, island_.account.left());
     island_.stirred |= report.stirred;
     island_.account.take(report.factorisations * island_.system.block_products());
-    return report.solved;
+    if (is_finite()) return report.solved;
+    IslandSolver::forget(all_);
+    give_way();
+    return false;
+}
+
+bool IslandSubstep::is_finite() const {
+    return std::all_of(all_.velocity.begin(), all_.velocity.end(),
+                       [](const Vector6d& x) { return x.allFinite(); });
 }
 
 /// Its levers turn by their loads (TiedJoints::stiffen).
