@@ -9,9 +9,10 @@
 /// That is Hooke's solid, with the shear modulus μ and the bulk modulus K, in axes that turn with
 /// the tetrahedron. Each row is a matrix D of numbers: C = D : S + const. R is a rotation also
 /// where the tetrahedron is flat or inside out (Irving et al. 2004), so that it is pushed back to
-/// its shape from any other, and by forces that do not grow faster than it is deformed. All rows
-/// are 0 at rest: those of a solid under stress of its own would have to be turned with it within a
-/// substep.
+/// its shape from any other, and by forces that do not grow faster than it is deformed. Volume is
+/// kept as far as strains are small: a bar that is pulled to λ keeps λ (1 − ν (λ − 1))² of it. All
+/// rows are 0 at rest: those of a solid under stress of its own would have to be turned with it
+/// within a substep.
 #pragma once
 
 #include "constraints/points.h"
@@ -101,8 +102,8 @@ struct Tetrahedron {
     }
 
 private:
-    /// The least s_i + s_j by which S is taken to turn: of those of a face that turns over, next to
-    /// nothing is left.
+    /// Below this s_i + s_j the gradients of shear fade out: S turns without bound where a face
+    /// turns over. Forces stay finite, and without a torque.
     static constexpr double kLeastSum = 0.1;
 
     template <class T>

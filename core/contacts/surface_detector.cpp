@@ -19,9 +19,13 @@ namespace {
 constexpr double kShareAtRest = 0.9;
 /// Two triangles whose directions differ by more than this cosine both hold a point off.
 constexpr double kSameSide = 0.7;
-/// Nothing within a solid that is no longer than twice its width is farther apart than so many
-/// times its volume over its surface.
+/// Nothing within a cube is farther apart than so many times its volume over its surface.
 constexpr double kThicknesses = 12;
+/// What is behind a triangle is so by more than this cosine.
+constexpr double kBehind = 0.1;
+/// What is beside it, and nearer than this share of that distance, counts as well: all of a cube's
+/// face.
+constexpr double kNearby = 0.75;
 /// Room for triangles near one point.
 constexpr std::size_t kUsuallyNear = 1024;
 /// From this cosine on, a point faces a triangle and not only its rim.
@@ -32,8 +36,8 @@ constexpr double kEdgeOn = 0.1;
 /// Up to what distance two triangles are equally near [m].
 double as_near_as(double distance) { return distance * (1 + 1e-6) + 1e-12; }
 
-/// Through how much of a solid its elements hold its surface apart; 0 of what is not solid, or in
-/// pieces [m].
+/// Up to what distance at rest no point is held off a triangle of its own solid that it is behind;
+/// 0 of what is not solid, or in pieces [m].
 double thickness_of(const Deformable& deformable) {
     const DeformableSpec& spec = deformable.spec;
     if (spec.kind != DeformableKind::solid || !deformable.torn.empty()) return 0;
@@ -225,6 +229,7 @@ void SurfaceDetector::find_candidates(const World& world, const Probe& probe, co
     search.candidates.clear();
     for (Closest& closest : search.closest)
         closest.square = closest.limit = kFar, closest.near.triangle = kNoIndex;
+    static_assert(Facets::kGroup == BoxTree::kChildren, "a group of facets is a leaf");
     tree_.each_leaf_near(place.low, place.high, [&](std::uint32_t first, std::uint32_t found) {
         const Facets::Sight sight = facets_.look(first / Facets::kGroup, from_origin);
         for (; found != 0; found &= found - 1) {
@@ -353,7 +358,8 @@ bool SurfaceDetector::is_at_rim(const World& world, const Near& n, double most) 
 }
 
 /// What lies behind a triangle of its own solid at rest is held off by the elements between.
-/// Contacts would hold parts of a crushed solid fast that have gone through each other.
+/// Contacts would hold parts of a crushed solid fast that have gone through each other. So does
+/// what is near beside the triangle; farther away, a face may be folded onto itself.
 bool SurfaceDetector::is_behind(const World& world, const Probe& probe, const Triangle& t) const {
     const double thickness = thickness_[t.deformable];
     if (probe.deformable != t.deformable || thickness == 0) return false;
@@ -366,7 +372,8 @@ bool SurfaceDetector::is_behind(const World& world, const Probe& probe, const Tr
     const Vector3d normal = (b - a).cross(c - a),
                    apart = at_rest(probe.point.particle) - (a + b + c) / 3;
     const double distance = apart.norm();
-    return distance < thickness && apart.dot(normal) <= 1e-6 * distance * normal.norm();
+    const double most = distance < kNearby * thickness ? 1e-6 : -kBehind;
+    return distance < thickness && apart.dot(normal) <= most * distance * normal.norm();
 }
 
 bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) const {

@@ -21,9 +21,7 @@ struct PrincipalStretches {
 
 namespace principal_stretches {
 
-/// To rounding.
-template <class T>
-inline constexpr int kSweeps = sizeof(ScalarOf<T>) == sizeof(float) ? 3 : 4;
+inline constexpr int kSweeps = 4;  ///< to rounding, of doubles too
 /// The square of a stretch below which no direction is read off it.
 inline constexpr double kNone = 1e-12;
 inline constexpr double kTiny = 1e-30;  ///< keeps quotients of zeros finite
@@ -89,7 +87,7 @@ inline PrincipalStretches<T> principal_stretches_of(const Vector3<T> (&f)[3]) {
     Vector3<T> g[3] = {f[0], f[1], f[2]};  // F v_k
     for (int k = 0; k < 3; ++k)
         p.rest[k] = Vector3<T>(T(k == 0 ? 1 : 0), T(k == 1 ? 1 : 0), T(k == 2 ? 1 : 0));
-    for (int sweep = 0; sweep < kSweeps<T>; ++sweep)
+    for (int sweep = 0; sweep < kSweeps; ++sweep)
         for (int k = 0; k < 3; ++k) {
             const int i = k == 2 ? 1 : 0, j = k == 0 ? 1 : 2;
             straighten(g[i], g[j], p.rest[i], p.rest[j]);

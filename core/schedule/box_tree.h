@@ -107,7 +107,7 @@ private:
         const bool is_leaf = level + 1 == levels_.size();
         const std::uint32_t first = kChildren * node,
                             end = is_leaf ? size() : levels_[level + 1].count;
-        // a box as large as can be meets empty places too
+        // what is no number is not beyond empty places either
         if (end - first < kChildren) found &= (1u << (end - first)) - 1;
         if (is_leaf) {
             if (found != 0) visit(first, found);

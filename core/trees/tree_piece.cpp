@@ -136,7 +136,8 @@ bool TreePiece::keep_energy(World& world, double before) const {
     RigidMotion ahead = rest;
     ahead.motion.w.setZero();
     const double turning = energy_against(b, ahead);
-    slow(b, ahead, std::sqrt(std::max(0.0, 1 - (gained - moving) / turning)));
+    if (gained - moving > turning) return false;
+    slow(b, ahead, turning > 0 ? std::sqrt(1 - (gained - moving) / turning) : 0);
     return true;
 }
 

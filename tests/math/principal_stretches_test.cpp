@@ -55,7 +55,7 @@ TYPED_TEST(PrincipalStretchesOf, MapsOfAllKinds) {
         for (int k = 0; k < 3; ++k) f.col(k) = random.vector(2);
         return f;
     };
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < 5000; ++i) {
         SCOPED_TRACE(i);
         const Matrix3d f = drawn(), turn = random.rotation().toRotationMatrix();
         expect_stretches<TypeParam>(f);
