@@ -37,6 +37,7 @@ WhirledTrees::WhirledTrees(const World& world, const Plan& plan) {
     }
     piece_.reserve(largest);
     among_particles_.resize(world.bodies.size());
+    in_contact_.resize(world.bodies.size());
     place_.resize(world.bodies.size(), kNoIndex);
 }
 
@@ -70,9 +71,9 @@ void WhirledTrees::close(World& world, double h) {
     bool any = false;
     for (const Range& tree : trees_) {
         if (!whirls(world.bodies, tree, h) || !is_open(world, tree)) continue;
-        if (!any) find_among_particles(world);
+        if (!any) find_neighbours(world);
         any = true;
-        if (is_among_particles(tree)) continue;
+        if (has_any(tree, among_particles_) || !has_any(tree, in_contact_)) continue;
         find_pieces(world, tree);
         for (std::uint32_t root = tree.first; root < tree.last; ++root)
             if (nodes_[root].root == root) close(world, tree, root, h);
@@ -101,15 +102,18 @@ bool WhirledTrees::is_open(const World& world, const Range& tree) const {
         });
 }
 
-/// What deforms is solved with the bodies that it touches, where they were.
-void WhirledTrees::find_among_particles(const World& world) {
+/// What deforms is solved with the bodies that it touches, where they were. What is near nothing
+/// closes with the next substep, and better: tops and gyroscopes precess by their law.
+void WhirledTrees::find_neighbours(const World& world) {
     std::fill(among_particles_.begin(), among_particles_.end(), 0);
     world.each_body_among_particles([&](std::uint32_t body) { among_particles_[body] = 1; });
+    std::fill(in_contact_.begin(), in_contact_.end(), 0);
+    for (const Contact& c : world.contacts.found) in_contact_[c.a] = in_contact_[c.b] = 1;
 }
 
-bool WhirledTrees::is_among_particles(const Range& tree) const {
+bool WhirledTrees::has_any(const Range& tree, const std::vector<std::uint8_t>& marks) const {
     return std::any_of(nodes_.begin() + tree.first, nodes_.begin() + tree.last,
-                       [&](const Node& node) { return among_particles_[node.body] != 0; });
+                       [&](const Node& node) { return marks[node.body] != 0; });
 }
 
 void WhirledTrees::find_pieces(const World& world, const Range& tree) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-/// Trees of joints whose bodies whirl, closed once they have moved (trees/tree_piece.h).
+/// Trees of joints that whirl in contact, closed once they have moved (trees/tree_piece.h).
 ///
 /// What turns far within a substep does not come to where its joints were solved for: contacts,
 /// which have the last word over them, ask for velocities that are right for small turns alone,
@@ -38,8 +38,8 @@ private:
     void add(const World& world, const JointForest& tree);
     bool whirls(const Bodies& bodies, const Range& tree, double h) const;
     bool is_open(const World& world, const Range& tree) const;
-    void find_among_particles(const World& world);
-    bool is_among_particles(const Range& tree) const;
+    void find_neighbours(const World& world);
+    bool has_any(const Range& tree, const std::vector<std::uint8_t>& marks) const;
     void find_pieces(const World& world, const Range& tree);
     void close(World& world, const Range& tree, std::uint32_t root, double h);
     void add_obstacles(const World& world, double h);
@@ -47,8 +47,8 @@ private:
 
     std::vector<Node> nodes_;  ///< parents before their children
     std::vector<Range> trees_;
-    std::vector<std::uint8_t> among_particles_;  ///< [body] once a tree is closed
-    std::vector<std::uint32_t> place_;           ///< [body] in piece_, or kNoIndex
+    std::vector<std::uint8_t> among_particles_, in_contact_;  ///< [body] once a tree is open
+    std::vector<std::uint32_t> place_;                        ///< [body] in piece_, or kNoIndex
     TreePiece piece_;
 };
 

@@ -28,12 +28,15 @@ TEST(Facets, NeitherMissWhatIsNearNorWhatIsFaced) {
             Facets facets;
             facets.resize(8);
             const auto place = static_cast<std::uint32_t>(i % 8);
-            facets.set(place, a.cwiseMin(b).cwiseMin(c), a.cwiseMax(b).cwiseMax(c), a, normal);
+            const Vector3d low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+            facets.set(place, low, high, a, normal);
             const Facets::Sight sight = facets.look(0, point);
 
             const auto w = nearest_weights(point, a, b, c);
             const Vector3d apart = point - (w[0] * a + w[1] * b + w[2] * c);
             EXPECT_LE(sight.square[place], apart.squaredNorm());
+            const double to_box = (low - point).cwiseMax(point - high).cwiseMax(0.0).norm();
+            EXPECT_GE(std::sqrt(sight.square[place]), 0.99 * to_box - 1e-4 * (1 + far));
             const bool may_face = (sight.may_face >> place & 1) != 0;
             if (std::abs(apart.dot(normal)) >= Facets::kFacing * apart.norm()) {
                 ++faced;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
-/// On which side of a sheet a corner of a body belongs.
+/// On which side of a sheet a corner of a body belongs, and what of a solid is held off itself.
 #include "contacts/surface_detector.h"
 
 #include "support/scenes.h"
 #include "support/soft.h"
 #include "world/edit_world.h"
+
+#include <cmath>
+#include <vector>
 
 namespace plumb::test {
 namespace {
@@ -70,6 +73,49 @@ TEST_F(ACornerOverASheet, IsForgottenWithItsBody) {
     EXPECT_GT(normal_at({0.03, 0.004, 0.02}).y(), 0.99);
     forget_contacts(world(), 0);
     EXPECT_LT(normal_at({0.03, -0.004, 0.02}).y(), -0.99);
+}
+
+/// A solid whose points are where `place` takes them: the points that are held off its own surface,
+/// by where they are at rest.
+template <class Place>
+std::vector<Vector> held_off(DeformableSpec solid, Place place) {
+    Scene s;
+    s.settings.gravity.setZero();
+    solid.radius = kThick;
+    const std::vector<Vector> rest = add_soft(s, std::move(solid)).points;
+    const Simulation simulation(s, colliders(), "reference");
+    World& world = const_cast<World&>(simulation.world());
+    for (std::size_t i = 0; i < rest.size(); ++i) world.particles.position[i] = place(rest[i]);
+    Workers workers(1);
+    SurfaceDetector(world).detect(world, workers, 0.01);
+    std::vector<Vector> held;
+    for (const SurfaceContact& c : world.surface_contacts) held.push_back(rest[c.point.particle]);
+    return held;
+}
+
+TEST(ASolid, IsNotHeldOffWhatIsBehindItsSurface) {
+    for (const double share : {0.0, 0.01, -0.5})
+        for (const Vector& half : {Vector(0.2, 0.15, 0.2), Vector(0.1, 0.2, 0.1)}) {
+            const auto crushed = [&](const Vector& p) {
+                return Vector(p.x(), share * p.y(), p.z());
+            };
+            EXPECT_TRUE(held_off(block(half, {4, 4, 4}), crushed).empty()) << share;
+        }
+}
+
+/// A mat, 1 m by 0.1 m by 0.3 m, folded over its top by half a turn.
+TEST(ASolid, IsHeldOffAFaceThatIsFoldedOntoIt) {
+    const auto folded = [](const Vector& p) {
+        return p.x() > 0 ? Vector(-p.x(), 0.115 - p.y(), p.z()) : p;
+    };
+    const std::vector<Vector> held = held_off(block({0.5, 0.05, 0.15}, {20, 2, 6}), folded);
+    int left = 0, right = 0;
+    for (const Vector& p : held) {
+        if (p.y() < 0.049 || std::abs(p.x()) < 0.25) continue;
+        ++(p.x() > 0 ? right : left);
+    }
+    EXPECT_GT(left, 20);
+    EXPECT_GT(right, 20);
 }
 
 }  // namespace

@@ -35,9 +35,12 @@ Scene drawn_tree(Random& random, bool held) {
     return s;
 }
 
-/// All bodies move about, and whirl.
+/// All bodies move about, and whirl; two of them touch, as what is closed must.
 void stir(World& world, Random& random, double apart) {
     Bodies& b = world.bodies;
+    Contact contact{};
+    contact.a = 0, contact.b = 1;
+    world.contacts.found.push_back(contact);
     for (std::size_t i = 0; i < b.size(); ++i) {
         b.position[i] += random.vector(apart);
         const Vector turn = random.vector(apart);
@@ -119,6 +122,16 @@ TEST(WhirledTrees, ThatHangAreClosedAndGainNoEnergy) {
         EXPECT_LT(widest(world), 1e-12) << draw;
         EXPECT_LT(Moving(world).energy, before + 1e-10 * std::abs(before)) << draw;
     }
+}
+
+TEST(WhirledTrees, ThatTouchNothingAreLeft) {
+    Random random(35);
+    World world = build_world(drawn_tree(random, false));
+    stir(world, random, 0.02);
+    world.contacts.found.clear();
+    const std::vector<Vector> places = world.bodies.position;
+    WhirledTrees(world, make_plan(world)).close(world, kSubstep);
+    EXPECT_EQ(world.bodies.position, places);
 }
 
 TEST(WhirledTrees, ThatTurnLittleAreLeft) {
