@@ -33,9 +33,8 @@ struct Tetrahedron {
     static PointRows<T, 4, 6> rows(const Vector3<T> (&p)[4], const T (&inverse)[kNumbers]) {
         const PrincipalStretches<T> at = stretches_of<T>(p, inverse);
         const T(&s)[3] = at.stretch;
-        Vector3<T> edge[3];  // vᵀ ∂F/∂p of corners 1 … 3
-        for (int i = 0; i < 3; ++i)
-            for (int k = 0; k < 3; ++k) edge[i][k] = dot(at.rest[k], corner(inverse, i));
+        Vector3<T> edge[3];
+        principal_edges<T>(edge, inverse, at.rest);
         T share[3][3];
         turning_shares<T>(share, s);
         PointRows<T, 4, 6> r;
@@ -65,14 +64,12 @@ struct Tetrahedron {
             principal_row<double>(row, d, at.rest);
             for (int k = 0; k < 3; ++k) pull[k] += force[row] * d[k][k];
         }
+        Vector3d edge[3];
+        principal_edges<double>(edge, inverse, at.rest);
         Eigen::Matrix4d sum = Eigen::Matrix4d::Zero();
         for (int k = 0; k < 3; ++k) {
-            Eigen::Vector4d along;  // v_kᵀ ∂F/∂p
-            along[0] = 0;
-            for (int i = 0; i < 3; ++i) {
-                along[i + 1] = dot(at.rest[k], corner(inverse, i));
-                along[0] -= along[i + 1];
-            }
+            const Eigen::Vector4d along(-edge[0][k] - edge[1][k] - edge[2][k], edge[0][k],
+                                        edge[1][k], edge[2][k]);
             sum += std::max(pull[k], 0.0) / std::max(at.stretch[k], kLeastSum) * along *
                    along.transpose();
         }
@@ -106,9 +103,14 @@ private:
     /// turns over. Forces stay finite, and without a torque.
     static constexpr double kLeastSum = 0.1;
 
+    /// vᵀ ∂F/∂p of corners 1 … 3.
     template <class T>
-    static Vector3<T> corner(const T (&inverse)[kNumbers], int i) {
-        return Vector3<T>(inverse[3 * i], inverse[3 * i + 1], inverse[3 * i + 2]);
+    static void principal_edges(Vector3<T> (&edge)[3], const T (&inverse)[kNumbers],
+                                const Vector3<T> (&v)[3]) {
+        for (int i = 0; i < 3; ++i) {
+            const Vector3<T> corner(inverse[3 * i], inverse[3 * i + 1], inverse[3 * i + 2]);
+            for (int k = 0; k < 3; ++k) edge[i][k] = dot(v[k], corner);
+        }
     }
 
     template <class T>

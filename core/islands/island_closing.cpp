@@ -94,9 +94,7 @@ void IslandSubstep::draw_together() {
     const double most = ties_.open_at_start(island_.ties) + h_ * ties_.scripted_speed(island_.ties);
     solver_.close_apart(all_, shift_, [&] { ties_.ask(island_.ties, shift_); });
     island_.open = ties_.open_at_end(island_.ties, shift_);
-    const bool is_worse =
-        !(island_.open <= most) ||
-        !std::all_of(shift_.begin(), shift_.end(), [](const Vector6d& x) { return x.allFinite(); });
+    const bool is_worse = !(island_.open <= most) || !is_finite(shift_);
     for (std::size_t i = 0; i < shift_.size(); ++i)
         shift_[i] = is_worse ? Vector6d(Vector6d::Zero()) : Vector6d(shift_[i] - all_.velocity[i]);
 }

@@ -91,14 +91,14 @@ bool IslandSubstep::solve_system(IslandEffort effort) {
                       island_.settling > 0 || island_.stirred, island_.account.left());
     island_.stirred |= report.stirred;
     island_.account.take(report.factorisations * island_.system.block_products());
-    if (is_finite()) return report.solved;
+    if (is_finite(all_.velocity)) return report.solved;
     IslandSolver::forget(all_);
     give_way();
     return false;
 }
 
-bool IslandSubstep::is_finite() const {
-    return std::all_of(all_.velocity.begin(), all_.velocity.end(),
+bool IslandSubstep::is_finite(std::span<const Vector6d> velocities) {
+    return std::all_of(velocities.begin(), velocities.end(),
                        [](const Vector6d& x) { return x.allFinite(); });
 }
 

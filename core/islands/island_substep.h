@@ -37,7 +37,7 @@ private:
     void sweep();
     void solve_exactly();
     bool close();
-    bool is_finite() const;
+    static bool is_finite(std::span<const Vector6d> velocities);
     bool solve_system(IslandEffort effort);
     void give_up_if_in_vain();
     void turn_back();

@@ -52,6 +52,12 @@ double strain_energy(const DeformableSpec& spec, const Matrix3d& strain) {
     return 0.5 * (at(1) + at(-1)) - at(0);
 }
 
+/// Hooke's energy of a solid, over its volume [J/m³].
+double hookes_density(double young, double nu, const Matrix3d& strain) {
+    const double mu = young / (2 * (1 + nu)), lame = young * nu / ((1 + nu) * (1 - 2 * nu));
+    return mu * strain.squaredNorm() + 0.5 * lame * strain.trace() * strain.trace();
+}
+
 Matrix3d random_strain(Random& random, double size) {
     Matrix3d e;
     for (int i = 0; i < 3; ++i) e.col(i) = size * random.vector();
@@ -70,9 +76,7 @@ TEST(Elasticity, OfASolidIsHookes) {
         if (draw % 4 == 2) e << 0, 1e-4, 0, 1e-4, 0, 0, 0, 0, 0;  // shear: 2 G ε²
         if (draw % 4 == 3)                                        // uniaxial stress: E ε² / 2
             e = Vector3d(1e-4, -nu * 1e-4, -nu * 1e-4).asDiagonal();
-        const double volume = 8 * 0.5 * 0.3 * 0.4, mu = young / (2 * (1 + nu)),
-                     lame = young * nu / ((1 + nu) * (1 - 2 * nu));
-        const double law = volume * (mu * e.squaredNorm() + 0.5 * lame * e.trace() * e.trace());
+        const double volume = 8 * 0.5 * 0.3 * 0.4, law = volume * hookes_density(young, nu, e);
         EXPECT_NEAR(strain_energy<Tetrahedron>(spec, e) / law, 1, 1e-4) << "draw " << draw;
         if (draw % 4 == 1) {
             EXPECT_NEAR(law, 4.5 * young / (3 * (1 - 2 * nu)) * 1e-8 * volume, 1e-9 * law);
@@ -97,9 +101,7 @@ TEST(Elasticity, OfASolidIsHookesInAxesThatTurnWithIt) {
                        turn = random.rotation().toRotationMatrix(),
                        s = axes * stretch.asDiagonal() * axes.transpose();
         const Vector3d e = stretch - Vector3d::Ones();
-        const double volume = 8 * 0.5 * 0.3 * 0.4, mu = young / (2 * (1 + nu)),
-                     lame = young * nu / ((1 + nu) * (1 - 2 * nu));
-        const double law = volume * (mu * e.squaredNorm() + 0.5 * lame * e.sum() * e.sum());
+        const double law = 8 * 0.5 * 0.3 * 0.4 * hookes_density(young, nu, e.asDiagonal());
         const double seen =
             energy<Tetrahedron>(spec, [&](const Vector3d& p) -> Vector3d { return turn * s * p; });
         EXPECT_NEAR(seen / law, 1, 1e-9) << "draw " << draw;
