@@ -19,13 +19,11 @@ namespace {
 constexpr double kShareAtRest = 0.9;
 /// Two triangles whose directions differ by more than this cosine both hold a point off.
 constexpr double kSameSide = 0.7;
-/// Nothing within a cube is farther apart than so many times its volume over its surface.
+/// Nothing within a cube, or on a face of a bar twice as long as wide, is farther apart than so many
+/// times its volume over its surface.
 constexpr double kThicknesses = 12;
-/// What is behind a triangle is so by more than this cosine.
-constexpr double kBehind = 0.1;
-/// What is beside it, and nearer than this share of that distance, counts as well: all of a cube's
-/// face.
-constexpr double kNearby = 0.75;
+/// Up to this cosine, rounding, a point lies beside a triangle and not before it.
+constexpr double kInPlane = 1e-6;
 /// Room for triangles near one point.
 constexpr std::size_t kUsuallyNear = 1024;
 /// From this cosine on, a point faces a triangle and not only its rim.
@@ -358,8 +356,8 @@ bool SurfaceDetector::is_at_rim(const World& world, const Near& n, double most) 
 }
 
 /// What lies behind a triangle of its own solid at rest is held off by the elements between.
-/// Contacts would hold parts of a crushed solid fast that have gone through each other. So does
-/// what is near beside the triangle; farther away, a face may be folded onto itself.
+/// Contacts would hold parts of a crushed solid fast that have gone through each other. The same
+/// goes for what is beside the triangle; farther away, a face may be folded onto itself.
 bool SurfaceDetector::is_behind(const World& world, const Probe& probe, const Triangle& t) const {
     const double thickness = thickness_[t.deformable];
     if (probe.deformable != t.deformable || thickness == 0) return false;
@@ -372,8 +370,7 @@ bool SurfaceDetector::is_behind(const World& world, const Probe& probe, const Tr
     const Vector3d normal = (b - a).cross(c - a),
                    apart = at_rest(probe.point.particle) - (a + b + c) / 3;
     const double distance = apart.norm();
-    const double most = distance < kNearby * thickness ? 1e-6 : -kBehind;
-    return distance < thickness && apart.dot(normal) <= most * distance * normal.norm();
+    return distance < thickness && apart.dot(normal) <= kInPlane * distance * normal.norm();
 }
 
 bool SurfaceDetector::may_meet(const World& world, const Probe& probe, const Triangle& t) const {
