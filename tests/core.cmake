@@ -1,6 +1,6 @@
 # Pieces of the solver one by one, against formulas: a mirror of core/, one program.
 plumb_add_tests(plumb_unit_tests unit
-  math/anderson_test.cpp math/block_cholesky_test.cpp math/fill_test.cpp math/fnv1a_test.cpp math/free_rotation_test.cpp math/lanes_test.cpp math/least_degree_test.cpp math/pivot_test.cpp math/principal_stretches_test.cpp math/rotation_test.cpp math/root_test.cpp
+  math/anderson_test.cpp math/block_cholesky_test.cpp math/fill_test.cpp math/fnv1a_test.cpp math/free_rotation_test.cpp math/lanes_test.cpp math/least_degree_test.cpp math/logarithm_test.cpp math/pivot_test.cpp math/principal_stretches_test.cpp math/rotation_test.cpp math/root_test.cpp
   math/sparse_ldlt_test.cpp math/symmetric_test.cpp
   scene/deformable_faults_test.cpp scene/joint_faults_test.cpp scene/nearest_test.cpp
   constraints/air_drag_test.cpp constraints/axis_drive_test.cpp constraints/bending_test.cpp constraints/contact_cone_test.cpp constraints/connector_test.cpp

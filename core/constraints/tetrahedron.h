@@ -3,19 +3,23 @@
 ///
 ///   F  how the tetrahedron is mapped; F = R S, with a rotation R and S symmetric
 ///
-///   C  S_xx − S_yy, 2 S_yz, 2 S_zx, 2 S_xy with compliance 1/(μ V),
-///      S_xx + S_yy − 2 S_zz with 3/(μ V), S_xx + S_yy + S_zz − 3 with 1/(K V)
+///   s  stretches, which are S along its axes
 ///
-/// That is Hooke's solid, with the shear modulus μ and the bulk modulus K, in axes that turn with
-/// the tetrahedron. Each row is a matrix D of numbers: C = D : S + const. R is a rotation also
-/// where the tetrahedron is flat or inside out (Irving et al. 2004), so that it is pushed back to
-/// its shape from any other, and by forces that do not grow faster than it is deformed. Volume is
-/// kept as far as strains are small: a bar that is pulled to λ keeps λ (1 − ν (λ − 1))² of it. All
-/// rows are 0 at rest: those of a solid under stress of its own would have to be turned with it
-/// within a substep.
+///   C  S_xx − S_yy, 2 S_yz, 2 S_zx, 2 S_xy with compliance 1/(μ V),
+///      S_xx + S_yy − 2 S_zz with 3/(μ V), Σ (w log s + (1 − w) (s − 1)) with 1/(K V)
+///
+/// That is Hooke's solid at small strains, with the shear modulus μ and the bulk modulus K, in axes
+/// that turn with the tetrahedron. R is a rotation also where that is flat or inside out (Irving et
+/// al. 2004), so that it is pushed back to its shape from any other, by forces that neither vanish
+/// nor grow without bound. Σ log s is the logarithm of the volume (Hencky), which what is next to
+/// incompressible keeps at any strain; Σ (s − 1), its like at small strains, lets what has no
+/// lateral contraction have none. w = 3 ν / (1 + ν) is the share of λ in K = λ + ⅔ μ; of auxetic
+/// solids, 0. Below kLeastStretch a logarithm goes on straight. All rows are 0 at rest: those of a
+/// solid under stress of its own would have to be turned with it within a substep.
 #pragma once
 
 #include "constraints/points.h"
+#include "math/logarithm.h"
 #include "math/principal_stretches.h"
 #include "world/particles.h"
 
@@ -27,7 +31,8 @@ namespace plumb {
 
 struct Tetrahedron {
     static constexpr int kPoints = 4, kRows = 6;
-    static constexpr int kNumbers = 9;  ///< the inverse of the edges at rest, by rows [1/m]
+    /// The inverse of the edges at rest, by rows [1/m], and w.
+    static constexpr int kNumbers = 10;
 
     template <class T>
     static PointRows<T, 4, 6> rows(const Vector3<T> (&p)[4], const T (&inverse)[kNumbers]) {
@@ -39,9 +44,13 @@ struct Tetrahedron {
         turning_shares<T>(share, s);
         PointRows<T, 4, 6> r;
         for (int row = 0; row < 6; ++row) {
-            T d[3][3];
-            principal_row<T>(row, d, at.rest);
-            r.c[row] = (d[0][0] * s[0] + d[1][1] * s[1]) + d[2][2] * s[2] - T(row == 5 ? 3 : 0);
+            T d[3][3];  // vᵀ ∂C/∂S v
+            if (row == kVolume) {
+                r.c[row] = volume_row<T>(d, s, inverse[9]);
+            } else {
+                shear_row<T>(row, d, at.rest);
+                r.c[row] = (d[0][0] * s[0] + d[1][1] * s[1]) + d[2][2] * s[2];
+            }
             Vector3<T> slope[3];  // uᵀ ∂C/∂F v
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j) slope[i][j] = T(2) * (share[i][j] * d[i][j]);
@@ -61,7 +70,10 @@ struct Tetrahedron {
         double pull[3] = {};
         for (int row = 0; row < 6; ++row) {
             double d[3][3];
-            principal_row<double>(row, d, at.rest);
+            if (row == kVolume)
+                volume_row<double>(d, at.stretch, inverse[9]);
+            else
+                shear_row<double>(row, d, at.rest);
             for (int k = 0; k < 3; ++k) pull[k] += force[row] * d[k][k];
         }
         Vector3d edge[3];
@@ -91,6 +103,7 @@ struct Tetrahedron {
             const double volume = edges.determinant() / 6;
             double numbers[kNumbers];
             for (int i = 0; i < 9; ++i) numbers[i] = inverse(i / 3, i % 3);
+            numbers[9] = std::max(0.0, 3 * nu / (1 + nu));
             const double soft = 1 / (shear * volume);
             const double compliances[kRows] = {soft, 3 * soft, soft,
                                                soft, soft,     1 / (bulk * volume)};
@@ -99,6 +112,10 @@ struct Tetrahedron {
     }
 
 private:
+    static constexpr int kVolume = 5;  ///< that row
+    /// A logarithm that went on to 0 would let no force be finite.
+    static constexpr double kLeastStretch = 0.2;
+    static constexpr double kMostVolume = 1e6;  ///< keeps products of stretches finite
     /// Below this s_i + s_j the gradients of shear fade out: S turns without bound where a face
     /// turns over. Forces stay finite, and without a torque.
     static constexpr double kLeastSum = 0.1;
@@ -136,19 +153,33 @@ private:
         }
     }
 
-    /// vᵀ D v of a row.
     template <class T>
-    static void principal_row(int row, T (&d)[3][3], const Vector3<T> (&v)[3]) {
+    static void shear_row(int row, T (&d)[3][3], const Vector3<T> (&v)[3]) {
         const int y = (row + 2) % 3, z = row % 3;  // of rows 2, 3 and 4
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j <= i; ++j) {
                 const T one(i == j ? 1 : 0);
                 d[i][j] = row == 0   ? v[i][0] * v[j][0] - v[i][1] * v[j][1]
                           : row == 1 ? one - T(3) * (v[i][2] * v[j][2])
-                          : row == 5 ? one
                                      : v[i][y] * v[j][z] + v[i][z] * v[j][y];
                 d[j][i] = d[i][j];
             }
+    }
+
+    /// Returns C; `share` is w.
+    template <class T>
+    static T volume_row(T (&d)[3][3], const T (&stretch)[3], const T& share) {
+        constexpr double kSlope = 1 / kLeastStretch;
+        T volume(1), below(0);
+        for (int i = 0; i < 3; ++i) {
+            const T some = max(stretch[i], T(kLeastStretch));
+            volume *= some, below += stretch[i] - some;
+            for (int j = 0; j < 3; ++j) d[i][j] = T(0);
+            d[i][i] = share / some + (T(1) - share);
+        }
+        const T logarithm = natural_log(T(min(volume, T(kMostVolume)))) + T(kSlope) * below;
+        const T sum = (stretch[0] + stretch[1]) + (stretch[2] - T(3));
+        return share * logarithm + (T(1) - share) * sum;
     }
 };
 

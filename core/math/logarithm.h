@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+/// The natural logarithm over any number type, by the same operations in each lane.
+#pragma once
+
+#include "math/lanes.h"
+
+namespace plumb {
+
+/// log(x) of 10⁻³ … 10⁴ to 5·10⁻⁶, of 0.01 … 100 to 10⁻⁹; near 1 to rounding.
+///
+///   log x = 8 log y = 16 artanh z,  y = x^⅛,  z = (y − 1)/(y + 1)
+template <class T>
+inline T natural_log(const T& x) {
+    constexpr int kTerms = 9;
+    const T y = sqrt(T(sqrt(T(sqrt(x)))));
+    const T z = (y - T(1)) / (y + T(1)), square = z * z;
+    T series(1.0 / (2 * kTerms - 1));
+    for (int i = kTerms - 1; i > 0; --i) series = series * square + T(1.0 / (2 * i - 1));
+    return T(16) * z * series;
+}
+
+}  // namespace plumb
