@@ -14,8 +14,8 @@
 /// nor grow without bound. Σ log s is the logarithm of the volume (Hencky), which what is next to
 /// incompressible keeps at any strain; Σ (s − 1), its like at small strains, lets what has no
 /// lateral contraction have none. w = 3 ν / (1 + ν) is the share of λ in K = λ + ⅔ μ; of auxetic
-/// solids, 0. Below kLeastStretch a logarithm goes on straight. All rows are 0 at rest: those of a
-/// solid under stress of its own would have to be turned with it within a substep.
+/// solids, 0. Outside of the range of kLogarithm a logarithm goes on straight. All rows are 0 at
+/// rest: those of a solid under stress of its own would have to be turned with it within a substep.
 #pragma once
 
 #include "constraints/points.h"
@@ -113,9 +113,10 @@ struct Tetrahedron {
 
 private:
     static constexpr int kVolume = 5;  ///< that row
-    /// A logarithm that went on to 0 would let no force be finite.
-    static constexpr double kLeastStretch = 0.2;
-    static constexpr double kMostVolume = 1e6;  ///< keeps products of stretches finite
+    /// Stretches between which a logarithm is one: forces of what is flat stay finite, and a step
+    /// of Newton's method from any stretch goes no farther than to 0, where the logarithm's own
+    /// would lead beyond, and farther each time.
+    static constexpr double kLogarithm[2] = {0.2, 2.5};
     /// Below this s_i + s_j the gradients of shear fade out: S turns without bound where a face
     /// turns over. Forces stay finite, and without a torque.
     static constexpr double kLeastSum = 0.1;
@@ -169,15 +170,15 @@ private:
     /// Returns C; `share` is w.
     template <class T>
     static T volume_row(T (&d)[3][3], const T (&stretch)[3], const T& share) {
-        constexpr double kSlope = 1 / kLeastStretch;
-        T volume(1), below(0);
+        T volume(1), beyond(0);
         for (int i = 0; i < 3; ++i) {
-            const T some = max(stretch[i], T(kLeastStretch));
-            volume *= some, below += stretch[i] - some;
+            const T some = min(max(stretch[i], T(kLogarithm[0])), T(kLogarithm[1]));
+            const T slope = T(1) / some;
+            volume *= some, beyond += (stretch[i] - some) * slope;
             for (int j = 0; j < 3; ++j) d[i][j] = T(0);
-            d[i][i] = share / some + (T(1) - share);
+            d[i][i] = share * slope + (T(1) - share);
         }
-        const T logarithm = natural_log(T(min(volume, T(kMostVolume)))) + T(kSlope) * below;
+        const T logarithm = natural_log(volume) + beyond;
         const T sum = (stretch[0] + stretch[1]) + (stretch[2] - T(3));
         return share * logarithm + (T(1) - share) * sum;
     }

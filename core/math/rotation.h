@@ -21,10 +21,11 @@ inline double angle_of(double sine, double cosine) {
 
 /// ϑ, whose square is given, without the whole turns in it where that is more than `greatest`.
 template <class T>
-inline Vector3<T> without_whole_turns(const Vector3<T>& theta, const T& square,
-                                      const T& greatest) {
+inline Vector3<T> without_whole_turns(const Vector3<T>& theta, const T& square, const T& greatest) {
     constexpr double kTurn = 6.283185307179586;
-    constexpr double kWhole = 6755399441055744.0;  // 1.5 · 2⁵²: a sum with it has no fraction
+    // 1.5 · 2⁵² or 1.5 · 2²³: a sum with it has no fraction
+    constexpr double kWhole =
+        sizeof(ScalarOf<T>) == sizeof(float) ? 12582912.0 : 6755399441055744.0;
     const T angle = sqrt(square);
     const T turns = (angle * T(1 / kTurn) + T(kWhole)) - T(kWhole);
     const T shorter = (angle - turns * T(kTurn)) / max(angle, T(1));
@@ -80,8 +81,9 @@ inline Quaterniond turned(const Quaterniond& q, const Vector3d& theta) {
 /// exp(ϑ) − 1 over any number type, by Rodrigues' formula with the series of sin(x)/x and (1 − cos
 /// x)/x².
 ///
-/// Good to 1e-7 of |r| in single and to 1e-13 in double precision while |ϑ| ≤ 1.5 rad, a step's
-/// turn.
+/// Good to 1e-7 of |r| in single and to 1e-13 in double precision. Beyond 1.5 rad, more than what
+/// is resolved turns in a substep, it is that of exp(ϑ) as a quaternion: the series would grow
+/// without bound.
 template <class T>
 class Turn {
 public:
@@ -97,6 +99,13 @@ public:
             sine_ = sine_ + term_sine;
             cosine_ = cosine_ + term_cosine;
         }
+        if (any_greater(x, T(kGreatest))) {
+            const UnitQuaternion<T> q = unit_exponential<T>(theta);
+            for (int k = 0; k < 3; ++k)
+                theta_[k] = select_greater(x, T(kGreatest), q.v[k], theta_[k]);
+            sine_ = select_greater(x, T(kGreatest), T(T(2) * q.w), sine_);
+            cosine_ = select_greater(x, T(kGreatest), T(2), cosine_);
+        }
     }
 
     /// exp(ϑ) r − r.
@@ -108,9 +117,10 @@ public:
     Vector3<T> operator()(const Vector3<T>& r) const { return r + change(r); }
 
 private:
+    static constexpr double kGreatest = 2.25;  ///< of |ϑ|², where the series are good [rad²]
     static constexpr int kTerms = sizeof(ScalarOf<T>) == sizeof(float) ? 5 : 9;
 
-    Vector3<T> theta_;
+    Vector3<T> theta_;  ///< or the quaternion's vector
     T sine_, cosine_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -87,8 +88,11 @@ TEST(Elasticity, OfASolidIsHookes) {
     }
 }
 
-/// log s, which goes on straight below 0.2.
-double straightened_log(double s) { return s > 0.2 ? std::log(s) : std::log(0.2) + 5 * (s - 0.2); }
+/// log s, which goes on straight below 0.2 and above 2.5.
+double straightened_log(double s) {
+    const double some = std::clamp(s, 0.2, 2.5);
+    return std::log(some) + (s - some) / some;
+}
 
 /// Stretched to several times its size, pressed flat or turned inside out, and turned in space:
 /// still V (μ |dev (S − 1)|² + ½ K C²), of stretches that are told apart from a rotation, with C
