@@ -113,10 +113,10 @@ struct Tetrahedron {
 
 private:
     static constexpr int kVolume = 5;  ///< that row
-    /// Stretches between which a logarithm is one: forces of what is flat stay finite, and a step
-    /// of Newton's method from any stretch goes no farther than to 0, where the logarithm's own
-    /// would lead beyond, and farther each time.
-    static constexpr double kLogarithm[2] = {0.2, 2.5};
+    /// Stretches between which a logarithm is one. Below, a steeper one would hold crushed elements
+    /// of little compressibility where they are inside out beside each other; above, a step of
+    /// Newton's method would lead beyond 0, and farther each time.
+    static constexpr double kLogarithm[2] = {0.5, 2.5};
     /// Below this s_i + s_j the gradients of shear fade out: S turns without bound where a face
     /// turns over. Forces stay finite, and without a torque.
     static constexpr double kLeastSum = 0.1;

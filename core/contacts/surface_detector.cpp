@@ -19,8 +19,8 @@ namespace {
 constexpr double kShareAtRest = 0.9;
 /// Two triangles whose directions differ by more than this cosine both hold a point off.
 constexpr double kSameSide = 0.7;
-/// Nothing within a cube, or on a face of a bar twice as long as wide, is farther apart than so many
-/// times its volume over its surface.
+/// Nothing within a cube, or on a face of a bar twice as long as wide, is farther apart than so
+/// many times its volume over its surface.
 constexpr double kThicknesses = 12;
 /// Up to this cosine, rounding, a point lies beside a triangle and not before it.
 constexpr double kInPlane = 1e-6;

@@ -88,9 +88,9 @@ TEST(Elasticity, OfASolidIsHookes) {
     }
 }
 
-/// log s, which goes on straight below 0.2 and above 2.5.
+/// log s, which goes on straight below 0.5 and above 2.5.
 double straightened_log(double s) {
-    const double some = std::clamp(s, 0.2, 2.5);
+    const double some = std::clamp(s, 0.5, 2.5);
     return std::log(some) + (s - some) / some;
 }
 

@@ -16,10 +16,16 @@ TEST(NaturalLog, IsThatOfTheLibrary) {
     }
 }
 
-TEST(NaturalLog, IsExactNearOne) {
+TEST(NaturalLog, HasAllDigitsNearOne) {
     EXPECT_EQ(natural_log(1.0), 0);
-    for (const double e : {1e-3, -1e-6, 1e-9})
-        EXPECT_NEAR(natural_log(1 + e), std::log1p(e), 1e-14) << e;
+    for (const double e : {1e-3, -1e-6, 1e-9, 1e-15}) {
+        const double x = 1 + e, law = std::log1p(x - 1);
+        EXPECT_NEAR(natural_log(x) / law, 1, 1e-14) << e;
+    }
+    for (const float e : {1e-3f, -1e-4f, 1e-6f}) {
+        const float x = 1 + e;
+        EXPECT_NEAR(natural_log(x) / std::log1p(x - 1), 1, 1e-6) << e;
+    }
 }
 
 TEST(NaturalLog, IsTheSameInEachLane) {

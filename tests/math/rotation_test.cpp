@@ -76,7 +76,7 @@ TEST(Turned, StaysAUnitQuaternionOverManySmallTurns) {
     EXPECT_LT((q.toRotationMatrix() - law).norm(), 1e-10);
 }
 
-/// The bound that the function states: |ϑ| up to 1.5 rad.
+/// Over |ϑ| from `least` to `greatest` [rad].
 template <class T>
 double worst_error_of_turns(double least, double greatest) {
     Random random(3);
