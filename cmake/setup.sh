@@ -3,7 +3,7 @@
 
 build_packages="cmake ninja-build g++ ccache pkg-config binutils libeigen3-dev libspdlog-dev libode-dev libbullet-dev
   libfcl-dev libccd-dev nlohmann-json3-dev libcli11-dev libtinyobjloader-dev libqhull-dev liburdfdom-dev libembree-dev libstb-dev zlib1g-dev"
-test_packages="libgtest-dev qemu-user"
+test_packages="libgtest-dev libgmock-dev qemu-user"
 
 # Perl and apt complain where no locale is set up; this one is always there.
 export LC_ALL=C.UTF-8
