@@ -45,12 +45,7 @@ struct Tetrahedron {
         PointRows<T, 4, 6> r;
         for (int row = 0; row < 6; ++row) {
             T d[3][3];  // vᵀ ∂C/∂S v
-            if (row == kVolume) {
-                r.c[row] = volume_row<T>(d, s, inverse[9]);
-            } else {
-                shear_row<T>(row, d, at.rest);
-                r.c[row] = (d[0][0] * s[0] + d[1][1] * s[1]) + d[2][2] * s[2];
-            }
+            r.c[row] = principal_row<T>(row, d, at, inverse[9]);
             Vector3<T> slope[3];  // uᵀ ∂C/∂F v
             for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j) slope[i][j] = T(2) * (share[i][j] * d[i][j]);
@@ -70,10 +65,7 @@ struct Tetrahedron {
         double pull[3] = {};
         for (int row = 0; row < 6; ++row) {
             double d[3][3];
-            if (row == kVolume)
-                volume_row<double>(d, at.stretch, inverse[9]);
-            else
-                shear_row<double>(row, d, at.rest);
+            principal_row<double>(row, d, at, inverse[9]);
             for (int k = 0; k < 3; ++k) pull[k] += force[row] * d[k][k];
         }
         Vector3d edge[3];
@@ -154,8 +146,15 @@ private:
         }
     }
 
+    /// Returns C, and vᵀ ∂C/∂S v; `share` is w.
     template <class T>
-    static void shear_row(int row, T (&d)[3][3], const Vector3<T> (&v)[3]) {
+    static T principal_row(int row, T (&d)[3][3], const PrincipalStretches<T>& at, const T& share) {
+        return row == kVolume ? volume_row<T>(d, at.stretch, share)
+                              : shear_row<T>(row, d, at.rest, at.stretch);
+    }
+
+    template <class T>
+    static T shear_row(int row, T (&d)[3][3], const Vector3<T> (&v)[3], const T (&s)[3]) {
         const int y = (row + 2) % 3, z = row % 3;  // of rows 2, 3 and 4
         for (int i = 0; i < 3; ++i)
             for (int j = 0; j <= i; ++j) {
@@ -165,9 +164,9 @@ private:
                                      : v[i][y] * v[j][z] + v[i][z] * v[j][y];
                 d[j][i] = d[i][j];
             }
+        return (d[0][0] * s[0] + d[1][1] * s[1]) + d[2][2] * s[2];
     }
 
-    /// Returns C; `share` is w.
     template <class T>
     static T volume_row(T (&d)[3][3], const T (&stretch)[3], const T& share) {
         T volume(1), beyond(0);

@@ -47,8 +47,8 @@ struct Stepper {
 
     /// After a change of the world that calls for other effects, or of its joints, rows or elements
     /// of deformables. What a step leaves for the next is in the world's tables, so that nothing is
-    /// lost. A solver without
-    /// joints, deformables and links holds nothing of the world, and its memory serves on.
+    /// lost. A solver without joints, deformables and links holds nothing of the world, and its
+    /// memory serves on.
     void renew(const World& world) {
         const Plan before = std::exchange(plan, make_plan(world));
         revolute = revolute_joints(world);
