@@ -73,6 +73,7 @@ void foresee_bend(World& world, const GroundTouch& ground, const Plan& plan, Wor
             else
                 c.bend[i] = carried ? bend_of_material(world, i, h) : Vector3d(Vector3d::Zero());
         }
+        if (rims) leave_to_rolling(world, pair, h);
     });
 }
 

@@ -11,12 +11,14 @@ namespace plumb {
 namespace {
 
 /// Whether the surfaces of a contact meet within h, too fast to be a contact at rest. What comes
-/// through before it bounces does not.
+/// through before it bounces does not; nor does what turns with a body, if its arc ends above.
 bool collides(const World& world, std::size_t i, double threshold, double h) {
     const ContactTable& c = world.contacts;
     if (c.is_passing(i)) return false;
     const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
-    return -u > threshold && c.gap[i] + h * u < 0;
+    if (!(-u > threshold)) return false;
+    const double arc = c.bend.empty() ? 0 : to_eigen(c.found[i].normal).dot(c.bend[i]);
+    return c.gap[i] + h * (u + arc) < 0;
 }
 
 }  // namespace
@@ -27,6 +29,7 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     hit_.reserve(pairs.size());
     islands_.find(pairs, {}, 0, world.dynamic_count);
     colliding_.reserve(bodies);
+    left_.reserve(bodies);
     shares_.reserve(bodies);
     changes_.resize(bodies);
     start_.reserve(world.bodies.size());
@@ -69,8 +72,22 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
         std::for_each(first, last, [&](std::uint32_t p) { hit_[p] = 1; });
         colliding_.push_back(island);
     }
+    left_.assign(colliding_.size(), 0);
     choose_start(world);
     return true;
+}
+
+std::size_t Impacts::swept_pairs() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < colliding_.size(); ++i)
+        if (!left_[i]) count += colliding_[i].last_pair - colliding_[i].first_pair;
+    return count;
+}
+
+void Impacts::leave(std::size_t island) {
+    left_[island] = 1;
+    for (std::uint32_t p = colliding_[island].first_pair; p < colliding_[island].last_pair; ++p)
+        hit_[islands_.pairs()[p]] = 0;
 }
 
 void Impacts::choose_start(const World& world) {
@@ -85,17 +102,22 @@ void Impacts::choose_start(const World& world) {
     }
 }
 
+bool Impacts::is_driven(const World& world, const ContactIsland& island,
+                        const std::vector<BodyPair>& pairs) const {
+    const auto moves = [&](std::int32_t row) {
+        return row >= world.dynamic_count && row != world.zero_row();
+    };
+    const auto first = islands_.pairs().begin();
+    return std::any_of(first + island.first_pair, first + island.last_pair, [&](std::uint32_t p) {
+        return moves(pairs[p].row_a) || moves(pairs[p].row_b);
+    });
+}
+
 /// The greatest share of the changes, at most 1, with which the island has no more energy than
 /// before. What moves by itself may add energy.
 double Impacts::bounded_share(const World& world, const ContactIsland& island,
                               const std::vector<BodyPair>& pairs) const {
-    const auto is_driven = [&](std::int32_t row) {
-        return row >= world.dynamic_count && row != world.zero_row();
-    };
-    for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
-        const BodyPair& pair = pairs[islands_.pairs()[i]];
-        if (is_driven(pair.row_a) || is_driven(pair.row_b)) return 1;
-    }
+    if (is_driven(world, island, pairs)) return 1;
     const Bodies& bodies = world.bodies;
     ContactWork work;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
@@ -146,6 +168,20 @@ void Impacts::take(World& world, const std::vector<BodyPair>& pairs, double h) {
             b.angular_momentum[body] += spin_momentum(b, body, dw);
         }
     }
+}
+
+double restitution(const World& world, std::size_t contact, double lambda, double mass) {
+    const Contact& found = world.contacts.found[contact];
+    const bool collides = lambda > collision_threshold(world.settings) * mass;
+    if (!collides || is_open(world, contact)) return 0;
+    return world.surface_pair(found.a, found.b).restitution * lambda;
+}
+
+void mark_parting(World& world, const std::vector<std::size_t>& contacts) {
+    ContactTable& c = world.contacts;
+    for (const std::size_t i : contacts)
+        if (separating_velocity(world.bodies, c.found[i], c.point[i]) > 0)
+            c.set_restitution(i, ContactTable::kParting);
 }
 
 }  // namespace plumb

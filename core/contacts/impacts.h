@@ -36,49 +36,62 @@ public:
     /// √(2 g ε) and 2 g h. Returns whether there is one.
     bool find(const World& world, const std::vector<BodyPair>& pairs, double h);
 
-    /// How many pairs such islands have; at least 1 where there is one.
-    std::size_t hit_count() const {
-        std::size_t count = 0;
-        for (const ContactIsland& island : colliding_)
-            count += island.last_pair - island.first_pair;
-        return count;
-    }
-    /// Whether a pair belongs to such an island.
+    /// These islands, and what they are ranges of.
+    const std::vector<ContactIsland>& colliding() const { return colliding_; }
+    const ContactIslands& islands() const { return islands_; }
+
+    /// How many pairs of them are swept.
+    std::size_t swept_pairs() const;
+    /// Whether a pair is: it belongs to such an island.
     bool is_hit(std::size_t pair) const { return hit_[pair] != 0; }
+
+    /// Leaves an island to others (islands/exact_impacts.h): it is swept no more.
+    void leave(std::size_t island);
+    bool is_left(std::size_t island) const { return left_[island] != 0; }
+
+    /// Whether what moves by itself touches it.
+    bool is_driven(const World& world, std::size_t island,
+                   const std::vector<BodyPair>& pairs) const {
+        return is_driven(world, colliding_[island], pairs);
+    }
 
     /// Velocities from which collisions begin, [body] [m/s]. A pair for itself has half of what
     /// forces do in the substep, in the middle of which it collides: so it keeps its energy. Among
     /// others that would take what rests out of its rest.
     const std::vector<Vector3d>& start() const { return start_; }
 
-    /// Calls visit(row) for their bodies.
+    /// Calls visit(row) for the bodies of an island.
     template <class Visit>
-    void each_row(Visit visit) const {
-        for (const ContactIsland& island : colliding_)
-            for (std::uint32_t i = island.first_body; i < island.last_body; ++i)
-                visit(islands_.bodies()[i]);
+    void each_row(std::size_t island, Visit visit) const {
+        const ContactIsland& from = colliding_[island];
+        for (std::uint32_t i = from.first_body; i < from.last_body; ++i)
+            visit(islands_.bodies()[i]);
     }
 
-    /// By row, for the rows above.
+    /// By row, for the bodies of all of them.
     std::vector<Change>& changes() { return changes_; }
 
     /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities;
     /// those that carry their momentum turn over h [s] as it then asks.
     void take(World& world, const std::vector<BodyPair>& pairs, double h);
 
-    /// Calls visit(pair, share) for the pairs of these islands, with the share of their impulses
-    /// that was taken.
+    /// The share of an island's changes, and so of its impulses, that was taken.
+    double share(std::size_t island) const { return shares_[island]; }
+
+    /// Calls visit(pair, share) for the pairs that were swept.
     template <class Visit>
-    void each_taken(Visit visit) const {
+    void each_swept(Visit visit) const {
         for (std::size_t i = 0; i < colliding_.size(); ++i)
             for (std::uint32_t p = colliding_[i].first_pair; p < colliding_[i].last_pair; ++p)
-                visit(islands_.pairs()[p], shares_[i]);
+                if (!left_[i]) visit(islands_.pairs()[p], shares_[i]);
     }
 
 private:
     /// Marks the bodies that are fast enough to collide with another; whether any is.
     bool find_fast(const Bodies& bodies, double threshold);
     void choose_start(const World& world);
+    bool is_driven(const World& world, const ContactIsland& island,
+                   const std::vector<BodyPair>& pairs) const;
     Vector3d drift(const World& world, const ContactIsland& island,
                    const std::vector<BodyPair>& pairs) const;
     double bounded_share(const World& world, const ContactIsland& island,
@@ -87,11 +100,20 @@ private:
     bool gyroscopic_;
     ContactIslands islands_;
     std::vector<ContactIsland> colliding_;
+    std::vector<std::uint8_t> left_;  // [colliding_] to others
     std::vector<double> shares_;      // [colliding_] of the changes that were taken
     std::vector<std::uint8_t> fast_;  // [body]
-    std::vector<std::uint8_t> hit_;   // [pair]
+    std::vector<std::uint8_t> hit_;   // [pair] whether it is swept
     std::vector<Vector3d> start_;     // [body]
     std::vector<Change> changes_;     // [row]
 };
+
+/// What a contact gives back of the impulse λ that it bore in compression: e λ, if it collided and
+/// touches [N s]. mass: its effective mass along the normal [kg].
+double restitution(const World& world, std::size_t contact, double lambda, double mass);
+
+/// Of contacts that collided, those that part do so at their own speed: the recovery of overlap
+/// adds nothing, for it would come on top of it.
+void mark_parting(World& world, const std::vector<std::size_t>& contacts);
 
 }  // namespace plumb

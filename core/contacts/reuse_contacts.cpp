@@ -38,7 +38,7 @@ Watched watched(const Bodies& b, std::uint32_t i, std::uint32_t j) {
 
 /// Twice the sine of half the angle by which the smaller body has turned in the other's frame: a
 /// point at distance r has moved by r times it.
-double turned(const PairPose& then, const PairPose& now) {
+double turn_between(const PairPose& then, const PairPose& now) {
     return 2 * (then.turn.conjugate() * now.turn).vec().norm();
 }
 
@@ -156,7 +156,7 @@ private:
                  const Allowed& most) const {
         pair.moved = (now.offset - then.offset).norm();
         if (pair.moved > most.moved) return false;
-        const double turn = turned(then, now) * smaller_radius(pair);
+        const double turn = turn_between(then, now) * smaller_radius(pair);
         pair.moved += turn;
         return turn <= most.turned && pair.moved <= most.moved;
     }

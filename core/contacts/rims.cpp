@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/rims.h"
 
+#include "contacts/contact_measures.h"
 #include "math/rotation.h"
 #include "world/round_shapes.h"
 
@@ -67,6 +68,12 @@ ContactRim rim_at(const World& world, std::uint32_t body, std::uint32_t part, co
     return {rim, body, tilted && beside.squaredNorm() < near * near};
 }
 
+/// The normal of a contact on a rim, from the rim to what it touches.
+Vector3d outward_at(const ContactTable& c, std::size_t contact) {
+    const Vector3d n = to_eigen(c.found[contact].normal);
+    return c.rims[contact].body == c.found[contact].a ? Vector3d(-n) : n;
+}
+
 /// From the centre of mass to a contact's point on its rim [m], in the world, with the body at an
 /// orientation q; n points from the rim to what it touches.
 Vector3d arm_at(const ContactRim& at, const Quaterniond& q, const Vector3d& n,
@@ -77,6 +84,18 @@ Vector3d arm_at(const ContactRim& at, const Quaterniond& q, const Vector3d& n,
 /// How far a rim's axis may swing in a substep [rad]: beyond, its lowest point at the end is not to
 /// be foreseen from the rate at the start, and contacts that ask for it make energy.
 constexpr double kFarSwing = 0.25;
+
+/// How far a contact runs along its rim in a substep of h [s], on the body [m].
+double run_along(const Bodies& b, const ContactRim& at, const Vector3d& n, double h) {
+    const Quaterniond& q = b.orientation[at.body];
+    const Quaterniond end = turned(q, Vector3d(h * b.angular_velocity[at.body]));
+    const Vector3d from = farthest_on(at.rim, q.conjugate() * n, Vector3d::Zero());
+    return (farthest_on(at.rim, end.conjugate() * n, from) - from).norm();
+}
+
+/// From which angle on in a substep a rim rolls on [rad], and how near other points of it are to
+/// come into its way, in radii.
+constexpr double kRollsOn = 0.01, kNear = 0.5;
 
 }  // namespace
 
@@ -106,7 +125,7 @@ Vector3d bend_at_rim(const World& world, std::size_t contact, double h) {
     const Bodies& b = world.bodies;
     const ContactRim& at = c.rims[contact];
     const double sign = at.body == c.found[contact].a ? 1 : -1;
-    const Vector3d n = -sign * to_eigen(c.found[contact].normal), w = b.angular_velocity[at.body];
+    const Vector3d n = outward_at(c, contact), w = b.angular_velocity[at.body];
     const Quaterniond& q = b.orientation[at.body];
     if (h * w.cross(q * at.rim.axis).norm() > kFarSwing) return Vector3d::Zero();
     const Vector3d point = in_body(b, at.body, c.point[contact]);
@@ -121,6 +140,22 @@ Vector3d bend_at_rim(const World& world, std::size_t contact, double h) {
     return sign * (across + (along - n.dot(across)) * n);
 }
 
+void leave_to_rolling(World& world, const ContactPair& pair, double h) {
+    ContactTable& c = world.contacts;
+    const Bodies& b = world.bodies;
+    for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
+        const ContactRim& at = c.rims[i];
+        if (!at.runs || run_along(b, at, outward_at(c, i), h) < kRollsOn * at.rim.radius) continue;
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
+            const ContactRim& other = c.rims[k];
+            const bool same = other.rim.radius == at.rim.radius && other.body == at.body &&
+                              other.rim.axis.dot(at.rim.axis) > 0;
+            if (k != i && same && (c.point[k] - c.point[i]).norm() < kNear * at.rim.radius)
+                c.gap[k] = kOutOfReach;
+        }
+    }
+}
+
 void follow_rims(World& world) {
     ContactTable& c = world.contacts;
     const Bodies& b = world.bodies;
@@ -133,8 +168,8 @@ void follow_rims(World& world) {
                             other = of_a ? contact.b : contact.a;
         Vector3d &on_round = of_a ? c.track[i].a : c.track[i].b,
                  &on_other = of_a ? c.track[i].b : c.track[i].a;
-        const Vector3d n = to_eigen(contact.normal), outward = of_a ? Vector3d(-n) : n;
-        on_round = farthest_on(rim, b.orientation[round].conjugate() * outward, on_round);
+        const Vector3d n = outward_at(c, i);
+        on_round = farthest_on(rim, b.orientation[round].conjugate() * n, on_round);
         // its opposite is in the plane across the normal in which it was
         const Vector3d at = in_world(b, round, on_round), was = in_world(b, other, on_other);
         on_other = in_body(b, other, at + n.dot(was - at) * n);

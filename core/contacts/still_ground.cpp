@@ -14,7 +14,7 @@ constexpr double kEnergyRounding = 1e-12;
 
 /// Share of its energy, as if it stood on its end, by which a body may be above what it had, for as
 /// long as the sum half a substep back is not: small swings are left alone, and cannot add up.
-constexpr double kSlack = 4e-4;
+constexpr double kSlack = 2.5e-4;
 
 /// Share of its kinetic energy up to which a body may regain what it lost in no impact, and for how
 /// long [s].

@@ -64,6 +64,11 @@ inline ContactVector<N> velocity_of(const IslandPoint& p, std::span<const Vector
     return all;
 }
 
+/// What friction bears at a point, on a, in the world's frame [N s].
+inline Vector3d friction_of(const IslandPoint& p) {
+    return p.frame.rightCols<2>() * p.impulse.segment<2>(1);
+}
+
 /// An impulse at a point as a force on a, and a torque beside that of its arm.
 struct PointForce {
     Vector3d along, about;

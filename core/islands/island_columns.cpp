@@ -24,10 +24,6 @@ bool does_stick(const IslandPoint& p) {
     return plumb::does_stick(p.impulse[0], p.impulse.segment<2>(1).squaredNorm(), p.cone.friction);
 }
 
-Vector3d friction_of(const IslandPoint& p) {
-    return p.frame.rightCols<2>() * p.impulse.segment<2>(1);
-}
-
 }  // namespace
 
 IslandColumns::IslandColumns(const Plan& plan)

@@ -3,6 +3,7 @@
 
 #include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
+#include "islands/own_motion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -32,26 +33,6 @@ double greatest_impulse(const TieRow& row) {
         for (const double bound : {row.drive->rows[i].lowest, row.drive->rows[i].highest})
             if (std::isfinite(bound)) most = std::max(most, std::abs(bound));
     return most;
-}
-
-/// What is immovable to an island may move by itself, and a rim runs on: the velocity at a point
-/// that this makes, and the rate of turning.
-struct OwnMotion {
-    Vector3d moving = Vector3d::Zero(), turning = Vector3d::Zero();
-};
-
-OwnMotion own_motion(const World& world, const IslandPoint& p, std::uint32_t contact) {
-    OwnMotion motion;
-    if (!world.contacts.bend.empty()) motion.moving = world.contacts.bend[contact];
-    const auto add = [&](std::uint32_t body, const Vector3d& arm, double sign) {
-        const Velocity<double> of{world.bodies.velocity[body], world.bodies.angular_velocity[body]};
-        motion.moving += sign * velocity_at(of, arm);
-        motion.turning += sign * of.w;
-    };
-    const Contact& c = world.contacts.found[contact];
-    if (p.a == kImmovable) add(c.a, p.arm_a, 1);
-    if (p.b == kImmovable) add(c.b, p.arm_b, -1);
-    return motion;
 }
 
 }  // namespace
@@ -155,11 +136,12 @@ bool IslandDemands::ask(const ExactIsland& island, std::size_t k) {
     IslandPoint& p = columns_.points[k];
     const double gap = gap_to_solve_for(world_, contact, push_out_.most);
     const double normal = asked_along(island, k, gap);
-    const OwnMotion own = own_motion(world_, p, contact);
-    p.wanted.setZero();
-    p.wanted.head<3>() = asked_across(island, k) - p.frame.transpose() * own.moving;
+    const Bodies& b = world_.bodies;
+    OwnMotion own(world_, p, contact, b.velocity, b.angular_velocity);
+    if (!c.bend.empty()) own.moving += c.bend[contact];
+    p.wanted << asked_across(island, k), Vector3d::Zero();
     p.wanted[0] += normal;
-    if (p.cone.turns()) p.wanted.tail<3>() = -p.length * (p.frame.transpose() * own.turning);
+    own.take_from(p);
     return is_clamped(c.gap[contact], gap, push_out_.most);
 }
 

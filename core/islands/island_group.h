@@ -30,6 +30,10 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
+    /// The pairs of its islands that no tie holds, of those in which something bounces: they
+    /// collide before the forces of a substep (contacts/impacts.h).
+    const std::vector<BodyPair>& bouncing() const { return bouncing_; }
+
     /// Of what is left to sweeps, and why.
     const IslandChoice& choice() const { return choice_; }
 
@@ -71,6 +75,8 @@ private:
                      const std::vector<BodyPair>& pairs);
     void find_nature(const World& world, ExactIsland& island, const ContactIsland& from,
                      const std::vector<BodyPair>& pairs) const;
+    void note_bouncing(const World& world, const ContactIsland& from,
+                       const std::vector<BodyPair>& pairs);
     void fill_columns(const World& world, ExactIsland& island, const ContactIsland& from,
                       const std::vector<BodyPair>& pairs);
     IslandAccount account_of(const World& world, const ExactIsland& island) const;
@@ -85,6 +91,7 @@ private:
     SolvedTies& solved_;
     IslandChoice choice_;
     std::vector<std::uint8_t> is_taken_;  // [pair]
+    std::vector<BodyPair> bouncing_;
     std::vector<BodyPair> set_aside_;     // whose islands would take too much
     std::uint32_t costly_ = 0;            // of those islands
     IslandSystem::Pattern pattern_;       // memory of find_system, as the next

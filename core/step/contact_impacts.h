@@ -59,11 +59,13 @@ public:
         each_hit(impacts, pairs, batches, [&](const ContactPlace& at) {
             if (c.is_passing(at.contact)) return;
             c.set_restitution(at.contact, 0);
-            const Real impulse = restitution(world, rows, at);
+            NormalRow<Real, W>& row = rows.normals[at.row];
+            const auto impulse = static_cast<Real>(
+                restitution(world, at.contact, double(row.lambda_velocity[at.lane]),
+                            double(row.effective_mass[at.lane])));
             hit_.push_back(at.contact);
             if (!(impulse > 0)) return;
             given_.push_back(at);
-            NormalRow<Real, W>& row = rows.normals[at.row];
             push(bodies, sides_of(rows, at), impulse);
             row.lambda_velocity[at.lane] += impulse;
         });
@@ -77,14 +79,10 @@ public:
         return !given_.empty();
     }
 
-    /// Takes the impulses that were put aside up again. What parts after an impact does so at its
-    /// own speed: the recovery of overlap adds nothing, for it would come on top of it.
+    /// Takes the impulses that were put aside up again.
     void end(World& world, Batches& batches) {
         resting_.give(batches.arrays(), blocks_);
-        ContactTable& c = world.contacts;
-        for (const std::size_t contact : hit_)
-            if (separating_velocity(world.bodies, c.found[contact], c.point[contact]) > 0)
-                c.set_restitution(contact, ContactTable::kParting);
+        mark_parting(world, hit_);
         hit_.clear();
     }
 
@@ -108,18 +106,6 @@ private:
                 for (last = first; last < range.last && is_hit_[last];) ++last;
                 if (last > first) blocks_.push_back({first, last, range.independent});
             }
-    }
-
-    /// e times what a contact bore in compression, if it collided and touches [N s].
-    static Real restitution(const World& world, const ContactArrays<Real, W>& rows,
-                            const ContactPlace& at) {
-        const Contact& found = world.contacts.found[at.contact];
-        const double e = world.surface_pair(found.a, found.b).restitution;
-        const NormalRow<Real, W>& row = rows.normals[at.row];
-        const double lambda = double(row.lambda_velocity[at.lane]);
-        const bool collides =
-            lambda > collision_threshold(world.settings) * double(row.effective_mass[at.lane]);
-        return collides && !is_open(world, at.contact) ? static_cast<Real>(e * lambda) : 0;
     }
 
     /// Opposite impulses along the normal [N s].

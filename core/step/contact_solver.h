@@ -169,7 +169,7 @@ public:
 
     /// Adds what the contacts of impacts bore, before their end.
     void add_impacts(const Impacts& impacts, ContactSums& sums) {
-        impacts.each_taken([&](std::size_t pair, double share) {
+        impacts.each_swept([&](std::size_t pair, double share) {
             each_place(pair, [&](const ContactPlace& at) {
                 const RowImpulse p = impulse_of(batches_.arrays(), at.row, at.lane);
                 sums.add(at.contact, share * p.normal, share * p.friction());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "step/row_solver.h"
 
-#include "contacts/impacts.h"
 #include "islands/large_islands.h"
 #include "scene/error.h"
 #include "schedule/joint_trees.h"
@@ -14,6 +13,7 @@
 #include "step/contact_solver.h"
 #include "step/energy_bound.h"
 #include "step/free_islands.h"
+#include "step/impact_stage.h"
 #include "step/joint_energy_bound.h"
 #include "step/joint_solver.h"
 #include "step/push_out_shares.h"
@@ -34,13 +34,6 @@ namespace {
 /// pair agree, for the error that is left at one level tips over all that stands on it.
 constexpr std::uint32_t kShockRounds = 16;
 
-/// Iterations of each phase of an impact: these, and as many again until velocities change by no
-/// more than a share of the greatest, or that comes to so many solutions of a pair. What runs along
-/// a row takes as many as the square of its length. Joints would have to take part in that; and
-/// where friction wedges what does not bounce, iterations that are not enough only delay its rest.
-constexpr std::size_t kImpactIterations = 10, kImpactWork = 10000, kImpactLook = 500;
-constexpr double kImpactSettled = 1e-5;
-
 template <class Real, int W>
 class RowSolverOf final : public RowSolver {
 public:
@@ -48,13 +41,11 @@ public:
         : settings_(world.settings),
           workers_(workers),
           shocks_(plan.runs(Effect::shock_propagation)),
-          has_impacts_(plan.runs(Effect::impacts)),
-          has_friction_(plan.runs(Effect::friction)),
           warm_start_(settings_.warm_start && !shocks_),
           solved_ties_(world),
-          impacts_(carry_momentum(settings_, plan.runs(Effect::gyroscopic))),
           substeps_(static_cast<std::uint32_t>(world.steps * settings_.substeps)) {
         make_groups(world, plan);
+        if (plan.runs(Effect::impacts)) impacts_.emplace(settings_, plan, workers);
         if (shocks_) shock_.emplace(plan, workers);
         if (plan.runs(Effect::exact_islands)) islands_.emplace(plan, workers, solved_ties_);
     }
@@ -65,15 +56,12 @@ public:
         contacts_->load(world, nullptr, exact, [&](std::vector<BodyPair>& pairs) {
             if (exact_deformables_) exact_deformables_->take(world, pairs, solved_ties_);
         });
-        if (has_impacts_) energy_.load(world, contacts_->pairs());
+        if (impacts_) energy_.load(world, contacts_->pairs());
         free_islands_.load(world, contacts_->pairs());
         for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
-        if (has_impacts_) {
-            impacts_.reserve(world, contacts_->pairs());
-            contacts_->reserve_impacts(world.contacts.found.size());
-            settled_.resize(static_cast<std::size_t>(world.dynamic_count));
-        }
+        if (impacts_)
+            impacts_->load(world, *contacts_, exact ? exact->bouncing() : std::vector<BodyPair>());
         if (!shocks_) return;
         find_levels(world, levels_);
         shock_->load(world, &levels_, nullptr, [](std::vector<BodyPair>&) {});
@@ -104,22 +92,7 @@ public:
     }
 
     void solve_impacts(World& world, double h, ContactSums* sums) override {
-        if (contacts_->empty() || !impacts_.find(world, contacts_->pairs(), h)) return;
-        const Bodies& b = world.bodies;
-        table_.begin(world, impacts_.start(), b.angular_velocity_now);
-        PassSettings<Real> pass{};
-        pass.h = static_cast<Real>(h), pass.inverse_h = static_cast<Real>(1 / h);
-        contacts_->begin_impacts(world, impacts_, table_.rows(), pass);
-        iterate_impacts(world, pass);
-        if (contacts_->give_back(world, impacts_, table_.rows())) iterate_impacts(world, pass);
-        impacts_.each_row([&](std::int32_t row) {
-            const Velocity<Real> change = velocity_in(table_.rows().change, row);
-            impacts_.changes()[row] = {change.v.template cast<double>(),
-                                       change.w.template cast<double>()};
-        });
-        impacts_.take(world, contacts_->pairs(), h);
-        if (sums) contacts_->add_impacts(impacts_, *sums);
-        contacts_->end_impacts(world);
+        impacts_->solve(world, *contacts_, table_, h, sums);
     }
 
     void solve_velocities() override {
@@ -342,47 +315,13 @@ private:
         return apart ? Share(std::in_place, ledger, group.stage(), around) : Share(std::nullopt);
     }
 
-    void iterate_impacts(const World& world, PassSettings<Real> pass) {
-        const std::size_t hits = impacts_.hit_count();
-        const bool rubs = has_friction_ && world.contacts.restitution.empty();
-        const bool settles =
-            world.joints.size() == 0 && (!rubs || hits * hits * hits <= kImpactWork);
-        const std::size_t most = settles ? kImpactWork / hits : 0;
-        impact_change_ = std::numeric_limits<Real>::infinity();
-        for (std::size_t done = 0; done == 0 || (done < most && impacts_go_on(done));
-             done += kImpactIterations)
-            workers_.run([&](std::uint32_t worker) {
-                PassSettings<Real> mine = pass;
-                for (std::size_t i = 0; i < kImpactIterations; ++i) {
-                    mine.forwards = i % 2 == 0;
-                    contacts_->iterate_impacts(table_.rows(), mine, worker);
-                }
-            });
-    }
-
-    /// Whether the velocities of what collides have changed since the last call, and from one look
-    /// at that to another by less: what moving bodies jam never settles.
-    bool impacts_go_on(std::size_t done) {
-        Real change = 0, greatest = 0;
-        impacts_.each_row([&](std::int32_t row) {
-            const Velocity<Real> now = velocity_in(table_.rows().change, row);
-            Velocity<Real>& before = settled_[row];
-            change = std::max(change, (now.v - before.v).squaredNorm());
-            greatest = std::max(greatest, now.v.squaredNorm());
-            before = now;
-        });
-        if (!(change > static_cast<Real>(kImpactSettled * kImpactSettled) * greatest)) return false;
-        if (done % kImpactLook != 0) return true;
-        return change < std::exchange(impact_change_, change) / 4;
-    }
-
     bool forwards(std::uint32_t iteration) const {
         return !settings_.alternate_sweeps || iteration % 2 == 0;
     }
 
     const Settings settings_;
     Workers& workers_;
-    bool shocks_, has_impacts_, has_friction_;
+    bool shocks_;
     /// Shock propagation carries each level by itself; impulses of the step before would only stand
     /// in its way.
     bool warm_start_;
@@ -398,9 +337,7 @@ private:
     Group *joints_ = nullptr, *trees_ = nullptr;  // iterated; solved exactly
     std::optional<ContactSolver<Real, W>> shock_;
     std::optional<IslandGroup> islands_;
-    Impacts impacts_;
-    std::vector<Velocity<Real>> settled_;  // [row], of what collides
-    Real impact_change_ = 0;               // of their velocities when last looked at, squared
+    std::optional<ImpactStage<Real, W>> impacts_;
     EnergyBound<Real, W> energy_;
     FreeIslands<Real> free_islands_;
     bool turned_ = false;  // one of them, after the last iteration
