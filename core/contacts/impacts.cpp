@@ -10,15 +10,20 @@
 namespace plumb {
 namespace {
 
-/// Whether the surfaces of a contact meet within h, too fast to be a contact at rest. What comes
-/// through before it bounces does not; nor does what turns with a body, if its arc ends above.
-bool collides(const World& world, std::size_t i, double threshold, double h) {
+/// What is farther apart than comes together within a substep at so many times the speed of the
+/// fastest collision takes no part in any.
+constexpr double kReach = 2;
+
+/// How fast the surfaces of a contact meet within h [m/s], if that is too fast for a contact at
+/// rest, else 0. What comes through before it bounces does not meet; nor does what turns with a
+/// body, if its arc ends above.
+double speed_of_collision(const World& world, std::size_t i, double threshold, double h) {
     const ContactTable& c = world.contacts;
-    if (c.is_passing(i)) return false;
+    if (c.is_passing(i)) return 0;
     const double u = separating_velocity(world.bodies, c.found[i], c.point[i]);
-    if (!(-u > threshold)) return false;
+    if (!(-u > threshold)) return 0;
     const double arc = c.bend.empty() ? 0 : to_eigen(c.found[i].normal).dot(c.bend[i]);
-    return c.gap[i] + h * (u + arc) < 0;
+    return c.gap[i] + h * (u + arc) < 0 ? -u : 0;
 }
 
 }  // namespace
@@ -26,8 +31,9 @@ bool collides(const World& world, std::size_t i, double threshold, double h) {
 void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     const auto bodies = static_cast<std::size_t>(world.dynamic_count);
     if (hit_.capacity() >= pairs.size() && changes_.size() == bodies) return;
-    hit_.reserve(pairs.size());
+    hit_.reserve(pairs.size()), near_.reserve(pairs.size()), place_.reserve(pairs.size());
     islands_.find(pairs, {}, 0, world.dynamic_count);
+    islands_.reserve(bodies);
     colliding_.reserve(bodies);
     left_.reserve(bodies);
     shares_.reserve(bodies);
@@ -49,27 +55,47 @@ bool Impacts::find_fast(const Bodies& b, double threshold) {
     return any;
 }
 
-bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, double h) {
-    colliding_.clear();
+double Impacts::find_hits(const World& world, const std::vector<BodyPair>& pairs, double h) {
     const double threshold = resting_speed(world.settings, h);
-    if (!find_fast(world.bodies, threshold)) return false;
+    double fastest = 0;
     hit_.assign(pairs.size(), 0);
-    bool any = false;
+    if (!find_fast(world.bodies, threshold)) return 0;
     for (std::size_t p = 0; p < pairs.size(); ++p) {
         const Contact& contact = world.contacts.found[pairs[p].first];
         if (!fast_[contact.a] && !fast_[contact.b]) continue;
-        for (std::uint32_t k = 0; k < pairs[p].count && !hit_[p]; ++k)
-            any |= hit_[p] = collides(world, pairs[p].first + k, threshold, h);
+        for (std::uint32_t k = 0; k < pairs[p].count; ++k) {
+            const double speed = speed_of_collision(world, pairs[p].first + k, threshold, h);
+            if (speed > 0) hit_[p] = 1;
+            fastest = std::max(fastest, speed);
+        }
     }
-    if (!any) return false;
+    return fastest;
+}
 
-    islands_.find(pairs, {}, 0, world.dynamic_count);
+void Impacts::find_near(const World& world, const std::vector<BodyPair>& pairs, double reach) {
+    near_.clear(), place_.clear();
+    for (std::size_t p = 0; p < pairs.size(); ++p) {
+        double gap = kOutOfReach;
+        for (std::uint32_t k = pairs[p].first; k < pairs[p].first + pairs[p].count; ++k)
+            gap = std::min(gap, gap_in_substep(world.contacts, k));
+        if (gap > reach) continue;
+        near_.push_back(pairs[p]);
+        place_.push_back(static_cast<std::uint32_t>(p));
+    }
+}
+
+bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, double h) {
+    colliding_.clear();
+    const double fastest = find_hits(world, pairs, h);
+    if (fastest == 0) return false;
+    find_near(world, pairs, kReach * h * fastest);
+
+    islands_.find(near_, {}, 0, world.dynamic_count);
     for (const ContactIsland& island : islands_.islands()) {
-        const auto first = islands_.pairs().begin() + island.first_pair,
-                   last = islands_.pairs().begin() + island.last_pair;
-        const bool hit = std::any_of(first, last, [&](std::uint32_t p) { return hit_[p] != 0; });
+        bool hit = false;
+        each_pair(island, [&](std::size_t pair) { hit |= hit_[pair] != 0; });
         if (!hit) continue;
-        std::for_each(first, last, [&](std::uint32_t p) { hit_[p] = 1; });
+        each_pair(island, [&](std::size_t pair) { hit_[pair] = 1; });
         colliding_.push_back(island);
     }
     left_.assign(colliding_.size(), 0);
@@ -86,8 +112,7 @@ std::size_t Impacts::swept_pairs() const {
 
 void Impacts::leave(std::size_t island) {
     left_[island] = 1;
-    for (std::uint32_t p = colliding_[island].first_pair; p < colliding_[island].last_pair; ++p)
-        hit_[islands_.pairs()[p]] = 0;
+    each_pair(colliding_[island], [&](std::size_t pair) { hit_[pair] = 0; });
 }
 
 void Impacts::choose_start(const World& world) {
@@ -102,22 +127,21 @@ void Impacts::choose_start(const World& world) {
     }
 }
 
-bool Impacts::is_driven(const World& world, const ContactIsland& island,
-                        const std::vector<BodyPair>& pairs) const {
+bool Impacts::is_driven(const World& world, std::size_t island) const {
     const auto moves = [&](std::int32_t row) {
         return row >= world.dynamic_count && row != world.zero_row();
     };
     const auto first = islands_.pairs().begin();
-    return std::any_of(first + island.first_pair, first + island.last_pair, [&](std::uint32_t p) {
-        return moves(pairs[p].row_a) || moves(pairs[p].row_b);
-    });
+    return std::any_of(
+        first + colliding_[island].first_pair, first + colliding_[island].last_pair,
+        [&](std::uint32_t i) { return moves(near_[i].row_a) || moves(near_[i].row_b); });
 }
 
 /// The greatest share of the changes, at most 1, with which the island has no more energy than
 /// before. What moves by itself may add energy.
-double Impacts::bounded_share(const World& world, const ContactIsland& island,
-                              const std::vector<BodyPair>& pairs) const {
-    if (is_driven(world, island, pairs)) return 1;
+double Impacts::bounded_share(const World& world, std::size_t which) const {
+    if (is_driven(world, which)) return 1;
+    const ContactIsland& island = colliding_[which];
     const Bodies& bodies = world.bodies;
     ContactWork work;
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
@@ -133,10 +157,9 @@ double Impacts::bounded_share(const World& world, const ContactIsland& island,
 
 /// The velocity that roundings of single precision have given an island which touches nothing that
 /// is immovable: impulses leave its momentum as it is.
-Vector3d Impacts::drift(const World& world, const ContactIsland& island,
-                        const std::vector<BodyPair>& pairs) const {
+Vector3d Impacts::drift(const World& world, const ContactIsland& island) const {
     for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i) {
-        const BodyPair& pair = pairs[islands_.pairs()[i]];
+        const BodyPair& pair = near_[islands_.pairs()[i]];
         if (std::max(pair.row_a, pair.row_b) >= world.dynamic_count) return Vector3d::Zero();
     }
     Vector3d momentum = Vector3d::Zero();
@@ -149,12 +172,13 @@ Vector3d Impacts::drift(const World& world, const ContactIsland& island,
     return momentum / mass;
 }
 
-void Impacts::take(World& world, const std::vector<BodyPair>& pairs, double h) {
+void Impacts::take(World& world, double h) {
     Bodies& b = world.bodies;
     shares_.clear();
-    for (const ContactIsland& island : colliding_) {
-        const double share = shares_.emplace_back(bounded_share(world, island, pairs));
-        const Vector3d drifted = drift(world, island, pairs);
+    for (std::size_t which = 0; which < colliding_.size(); ++which) {
+        const ContactIsland& island = colliding_[which];
+        const double share = shares_.emplace_back(bounded_share(world, which));
+        const Vector3d drifted = drift(world, island);
         for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
             const std::int32_t row = islands_.bodies()[i];
             const std::uint32_t body = world.body_of_row[row];

@@ -36,9 +36,13 @@ public:
     /// √(2 g ε) and 2 g h. Returns whether there is one.
     bool find(const World& world, const std::vector<BodyPair>& pairs, double h);
 
-    /// These islands, and what they are ranges of.
+    /// These islands, what they are ranges of, and the pairs of which that is made: what cannot
+    /// come together is left out.
     const std::vector<ContactIsland>& colliding() const { return colliding_; }
     const ContactIslands& islands() const { return islands_; }
+    const std::vector<BodyPair>& near() const { return near_; }
+    /// The index in `pairs` of one of them.
+    std::size_t place(std::size_t near) const { return place_[near]; }
 
     /// How many pairs of them are swept.
     std::size_t swept_pairs() const;
@@ -50,10 +54,7 @@ public:
     bool is_left(std::size_t island) const { return left_[island] != 0; }
 
     /// Whether what moves by itself touches it.
-    bool is_driven(const World& world, std::size_t island,
-                   const std::vector<BodyPair>& pairs) const {
-        return is_driven(world, colliding_[island], pairs);
-    }
+    bool is_driven(const World& world, std::size_t island) const;
 
     /// Velocities from which collisions begin, [body] [m/s]. A pair for itself has half of what
     /// forces do in the substep, in the middle of which it collides: so it keeps its energy. Among
@@ -73,7 +74,7 @@ public:
 
     /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities;
     /// those that carry their momentum turn over h [s] as it then asks.
-    void take(World& world, const std::vector<BodyPair>& pairs, double h);
+    void take(World& world, double h);
 
     /// The share of an island's changes, and so of its impulses, that was taken.
     double share(std::size_t island) const { return shares_[island]; }
@@ -82,23 +83,32 @@ public:
     template <class Visit>
     void each_swept(Visit visit) const {
         for (std::size_t i = 0; i < colliding_.size(); ++i)
-            for (std::uint32_t p = colliding_[i].first_pair; p < colliding_[i].last_pair; ++p)
-                if (!left_[i]) visit(islands_.pairs()[p], shares_[i]);
+            if (!left_[i])
+                each_pair(colliding_[i], [&](std::size_t pair) { visit(pair, shares_[i]); });
     }
 
 private:
+    /// Calls visit(pair) for those of an island.
+    template <class Visit>
+    void each_pair(const ContactIsland& island, Visit visit) const {
+        for (std::uint32_t i = island.first_pair; i < island.last_pair; ++i)
+            visit(std::size_t{place_[islands_.pairs()[i]]});
+    }
+
+    /// Marks the pairs that collide; returns the greatest speed at which any does [m/s].
+    double find_hits(const World& world, const std::vector<BodyPair>& pairs, double h);
+    /// Those that are no farther apart than `reach` [m].
+    void find_near(const World& world, const std::vector<BodyPair>& pairs, double reach);
     /// Marks the bodies that are fast enough to collide with another; whether any is.
     bool find_fast(const Bodies& bodies, double threshold);
     void choose_start(const World& world);
-    bool is_driven(const World& world, const ContactIsland& island,
-                   const std::vector<BodyPair>& pairs) const;
-    Vector3d drift(const World& world, const ContactIsland& island,
-                   const std::vector<BodyPair>& pairs) const;
-    double bounded_share(const World& world, const ContactIsland& island,
-                         const std::vector<BodyPair>& pairs) const;
+    Vector3d drift(const World& world, const ContactIsland& island) const;
+    double bounded_share(const World& world, std::size_t island) const;
 
     bool gyroscopic_;
-    ContactIslands islands_;
+    std::vector<BodyPair> near_;
+    std::vector<std::uint32_t> place_;  // [near_]
+    ContactIslands islands_;            // of near_
     std::vector<ContactIsland> colliding_;
     std::vector<std::uint8_t> left_;  // [colliding_] to others
     std::vector<double> shares_;      // [colliding_] of the changes that were taken

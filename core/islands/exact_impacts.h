@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-/// Collisions (contacts/impacts.h) of islands that sweeps do not settle, or whose contacts are
-/// solved exactly anyway: compression and restitution, each solved until its laws hold.
+/// Collisions (contacts/impacts.h) of small islands that sweeps do not settle, or that are solved
+/// exactly anyway: compression and restitution, each solved until its laws hold.
 ///
 /// What sweeps leave of an approach becomes overlap. Where a light body lies between heavy ones
 /// that is much in a substep, and its push-out is energy from nowhere.
@@ -18,6 +18,9 @@
 
 namespace plumb {
 
+/// Of islands of at most so many bodies.
+inline constexpr std::uint32_t kMostExactlyHit = 64;
+
 class ExactImpacts {
 public:
     explicit ExactImpacts(const Plan& plan) : columns_(plan) {}
@@ -27,18 +30,26 @@ public:
 
     /// Writes what the collision of an island changes into `impacts`. `island`: its index among
     /// those that collide; h: the substep [s].
-    void solve(World& world, const std::vector<BodyPair>& pairs, Impacts& impacts,
-               std::size_t island, double h);
+    void solve(World& world, Impacts& impacts, std::size_t island, double h);
 
     /// After Impacts::take: marks the contacts that part, and adds what all bear to the sums, if
     /// there are any.
     void end(World& world, const Impacts& impacts, ContactSums* sums) const;
 
 private:
-    void fill(const World& world, const std::vector<BodyPair>& pairs, const Impacts& impacts,
-              std::size_t island);
+    void fill(const World& world, const Impacts& impacts, std::size_t island);
     void ask(const World& world, const Impacts& impacts, double h);
     bool give_back(World& world);
+    void settle();
+    void bound_energy();
+
+    struct State {
+        std::vector<Vector6d> velocity;  // [body]
+        std::vector<Vector6d> impulse;   // [point]
+    };
+    void keep(State& state) const;
+    void take(const State& state);
+    Island all() { return {columns_.bodies, columns_.velocity, columns_.points, {}}; }
 
     // of one island
     IslandColumns columns_;
@@ -47,6 +58,7 @@ private:
     IslandSystem::Spare spare_;
     IslandSolver solver_;
     double speed_ = 0;  // at which its contacts approach [m/s]
+    State before_, compressed_;
     struct Given {
         std::size_t point;
         double impulse;  // [N s]

@@ -28,11 +28,7 @@ double energy_of_centre(std::span<const SolvedBody> bodies, std::span<const Vect
 /// same.
 void IslandSubstep::bound_energy() {
     const double before = energy_at_start(), whole = energy();
-    if (whole <= before) return;
-    if (!island_.bounces) {
-        const double centre = energy_of_centre(all_.bodies, start_);
-        if (before - centre < kAtRest * (whole - centre)) return;
-    }
+    if (whole <= before || (!island_.bounces && rests(before, whole))) return;
     const auto ask_for_more = [&](double share) {
         for (std::size_t k = 0; k < all_.points.size(); ++k)
             all_.points[k].wanted[0] += share * parting_[k];
@@ -43,6 +39,26 @@ void IslandSubstep::bound_energy() {
     if (least < before) ask_for_more((before - least) / (whole - least));
 }
 
+/// Whether what is to have the energy `whole` [J] moved by little `before`.
+bool IslandSubstep::rests(double before, double whole) const {
+    const double centre = energy_of_centre(all_.bodies, start_);
+    return before - centre < kAtRest * (whole - centre);
+}
+
+/// Sweeps of what flies about and touches nothing else do not give it energy, either: slip that is
+/// taken back, and overlap, are worth no more than a share of their impulses that gives none.
+void IslandSubstep::bound_swept_energy() {
+    const double before = energy_at_start(), whole = energy();
+    if (whole <= before || rests(before, whole)) return;
+    ContactWork work;
+    for (std::size_t i = 0; i < start_.size(); ++i) {
+        const Vector6d change = all_.velocity[i] - start_[i];
+        const Vector6d more = momentum(all_.bodies[i], change);
+        work.at_start += start_[i].dot(more), work.of_change += 0.5 * change.dot(more);
+    }
+    keep(work.share(0));
+}
+
 /// What is wedged between surfaces that are all but parallel leaves many times as fast as these
 /// part. Sweeps of a heap that was squeezed, and is left to itself, fling nothing out of it: only
 /// such a share of their impulses is taken.
@@ -51,7 +67,11 @@ void IslandSubstep::bound_speed() {
         for (std::size_t i = 0; i < start_.size(); ++i)
             visit(start_[i].head<3>(), (all_.velocity[i] - start_[i]).head<3>());
     });
-    if (!(share < 1)) return;
+    if (share < 1) keep(share);
+}
+
+/// Keeps a share of its impulses.
+void IslandSubstep::keep(double share) {
     for (IslandPoint& p : all_.points) p.impulse *= share;
     for (std::size_t i = 0; i < start_.size(); ++i)
         all_.velocity[i] = start_[i] + share * (all_.velocity[i] - start_[i]);

@@ -3,6 +3,7 @@
 
 #include "constraints/substep_time.h"
 #include "contacts/contact_measures.h"
+#include "islands/exact_impacts.h"
 #include "islands/island_demands.h"
 #include "islands/island_loan.h"
 #include "islands/island_substep.h"
@@ -37,7 +38,7 @@ IslandGroup::IslandGroup(const Plan& plan, Workers& workers, SolvedTies& solved)
 
 void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     count_ = 0, costly_ = 0;
-    set_aside_.clear(), bouncing_.clear(), columns_.clear();
+    set_aside_.clear(), loose_.clear(), columns_.clear();
     const ContactIslands& found = choice_.find(world, pairs, solved_);
     is_taken_.assign(pairs.size(), 0);
     for (const ContactIsland& from : found.islands()) {
@@ -69,7 +70,7 @@ bool IslandGroup::take(const World& world, const ContactIsland& from,
     ++count_;
     find_nature(world, island, from, pairs);
     fill_columns(world, island, from, pairs);
-    note_bouncing(world, from, pairs);
+    note_loose(from, pairs);
     island.account = account_of(world, island);
     island.given_up = false;
     island.open = 0;
@@ -121,17 +122,12 @@ void IslandGroup::find_nature(const World& world, ExactIsland& island, const Con
     island.moved_on = island.moves && choice_.moved_on(world, from, pairs);
 }
 
-void IslandGroup::note_bouncing(const World& world, const ContactIsland& from,
-                                const std::vector<BodyPair>& pairs) {
-    if (from.first_tie < from.last_tie) return;
-    const auto first = choice_.islands().pairs().begin() + from.first_pair,
-               last = choice_.islands().pairs().begin() + from.last_pair;
-    const bool bounces = std::any_of(first, last, [&](std::uint32_t i) {
-        const Contact& c = world.contacts.found[pairs[i].first];
-        return world.surface_pair(c.a, c.b).restitution > 0;
-    });
-    if (!bounces) return;
-    std::for_each(first, last, [&](std::uint32_t i) { bouncing_.push_back(pairs[i]); });
+void IslandGroup::note_loose(const ContactIsland& from, const std::vector<BodyPair>& pairs) {
+    const bool is_tied = from.first_tie < from.last_tie;
+    const std::uint32_t n = from.last_body - from.first_body;
+    if (is_tied || n == 1 || n > kMostExactlyHit) return;
+    for (std::uint32_t i = from.first_pair; i < from.last_pair; ++i)
+        loose_.push_back(pairs[choice_.islands().pairs()[i]]);
 }
 
 /// Its bodies, contacts and ties go into the columns, and nobody else solves them in this step.

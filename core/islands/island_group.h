@@ -30,9 +30,9 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
-    /// The pairs of its islands that no tie holds, of those in which something bounces: they
-    /// collide before the forces of a substep (contacts/impacts.h).
-    const std::vector<BodyPair>& bouncing() const { return bouncing_; }
+    /// The pairs of its islands of more than one body that no tie holds, if these are small: they
+    /// collide before the forces of a substep (islands/exact_impacts.h).
+    const std::vector<BodyPair>& loose() const { return loose_; }
 
     /// Of what is left to sweeps, and why.
     const IslandChoice& choice() const { return choice_; }
@@ -75,8 +75,7 @@ private:
                      const std::vector<BodyPair>& pairs);
     void find_nature(const World& world, ExactIsland& island, const ContactIsland& from,
                      const std::vector<BodyPair>& pairs) const;
-    void note_bouncing(const World& world, const ContactIsland& from,
-                       const std::vector<BodyPair>& pairs);
+    void note_loose(const ContactIsland& from, const std::vector<BodyPair>& pairs);
     void fill_columns(const World& world, ExactIsland& island, const ContactIsland& from,
                       const std::vector<BodyPair>& pairs);
     IslandAccount account_of(const World& world, const ExactIsland& island) const;
@@ -91,12 +90,12 @@ private:
     SolvedTies& solved_;
     IslandChoice choice_;
     std::vector<std::uint8_t> is_taken_;  // [pair]
-    std::vector<BodyPair> bouncing_;
-    std::vector<BodyPair> set_aside_;     // whose islands would take too much
-    std::uint32_t costly_ = 0;            // of those islands
-    IslandSystem::Pattern pattern_;       // memory of find_system, as the next
-    IslandSystem::Spare spare_;           // memory of a large one
-    std::vector<std::uint32_t> tied_;     // bodies of one tie
+    std::vector<BodyPair> loose_;
+    std::vector<BodyPair> set_aside_;  // whose islands would take too much
+    std::uint32_t costly_ = 0;         // of those islands
+    IslandSystem::Pattern pattern_;    // memory of find_system, as the next
+    IslandSystem::Spare spare_;        // memory of a large one
+    std::vector<std::uint32_t> tied_;  // bodies of one tie
 
     std::vector<ExactIsland> islands_;  // the first count_ are in use
     std::size_t count_ = 0;

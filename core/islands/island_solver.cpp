@@ -88,6 +88,16 @@ void IslandSolver::sweep(const Island& island) {
     for (int i = 0; i < kSweeps; ++i) sweep_both_ways();
 }
 
+bool IslandSolver::sweep_until(const Island& island, double speed, int most) {
+    take(island);
+    creep_ = kCreep * speed, shifts_ = true;
+    for (int i = 1; i <= most; ++i) {
+        sweep_both_ways();
+        if (i % kSweepsOn == 0 && residual() <= kSolved * speed) return true;
+    }
+    return false;
+}
+
 void IslandSolver::open_apart(const Island& island, std::span<const double> opening,
                               std::span<Vector6d> shift) {
     apart_.assign(island.points.begin(), island.points.end());

@@ -49,6 +49,10 @@ public:
     /// Sweeps from the impulses and velocities that there are.
     void sweep(const Island& island);
 
+    /// The same until the law of contact holds at its speed [m/s], and there and back no more than
+    /// `most` times. Returns whether it does.
+    bool sweep_until(const Island& island, double speed, int most);
+
     /// How the bodies are shifted apart over the substep, as velocities: sweeps from nothing and
     /// without friction, in which all contacts yield a little. `opening`: [point] on top of what is
     /// wanted of its velocity [m/s]; `shift`: 0 before.

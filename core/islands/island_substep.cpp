@@ -50,7 +50,9 @@ void IslandSubstep::sweep() {
     island_.solved = true;
     if (is_flung()) return hold_torn();
     if (island_.is_meshed && gains()) close_gently();
-    if (island_.may_be_disputed) bound_speed();
+    if (!island_.may_be_disputed) return;
+    if (island_.flies && island_.gains_nothing) bound_swept_energy();
+    bound_speed();
 }
 
 void IslandSubstep::solve_exactly() {

@@ -61,8 +61,11 @@ private:
     double energy_at_start() const { return kinetic_energy(all_.bodies, start_); }
     double energy() const { return kinetic_energy(all_.bodies, all_.velocity); }
     bool gains(double share = 0) const { return !(energy() <= (1 + share) * energy_at_start()); }
+    bool rests(double before, double whole) const;
     void bound_energy();
+    void bound_swept_energy();
     void bound_speed();
+    void keep(double share);
 
     const Bodies& bodies_;
     const Settings& settings_;

@@ -22,6 +22,9 @@ struct ContactIsland {
 /// and ties of an island in their own.
 class ContactIslands {
 public:
+    /// Memory for so many islands, however the pairs fall into them.
+    void reserve(std::size_t islands) { islands_.reserve(islands); }
+
     /// `ties`: bodies that are held together. Where nothing touches there is no island, but for
     /// what the ties from `first_seed` on hold. What rests is mostly asked for as it was the last
     /// time, and then nothing is done.

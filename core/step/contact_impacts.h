@@ -34,6 +34,10 @@ public:
         find_blocks(impacts, pairs, batches);
         const ContactArrays<Real, W> rows = batches.arrays();
         resting_.take(rows, blocks_);
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            if (impacts.is_hit(p) || !is_hit_[batches.slot(p).block]) continue;
+            batches.each_contact(pairs, p, [&](const ContactPlace& at) { put_apart(rows, at); });
+        }
         each_hit(impacts, pairs, batches, [&](const ContactPlace& at) {
             NormalRow<Real, W>& row = rows.normals[at.row];
             row.gap[at.lane] = static_cast<Real>(gap_in_substep(c, at.contact));
@@ -45,7 +49,7 @@ public:
     }
 
     /// The blocks in which there is a pair of an island in which bodies collide: the others are
-    /// left alone, and what else is in these is solved along and not taken.
+    /// left alone, and what else is in these bears nothing.
     const std::vector<BlockRange>& blocks() const { return blocks_; }
 
     /// Restitution of the contacts that collided, after their compression. Returns whether there
@@ -93,6 +97,11 @@ private:
                          const Batches& batches, Visit visit) {
         for (std::size_t p = 0; p < pairs.size(); ++p)
             if (impacts.is_hit(p)) batches.each_contact(pairs, p, visit);
+    }
+
+    static void put_apart(const ContactArrays<Real, W>& rows, const ContactPlace& at) {
+        rows.normals[at.row].gap[at.lane] = static_cast<Real>(kOutOfReach);
+        rows.normals[at.row].restitution_velocity[at.lane] = 0;
     }
 
     void find_blocks(const Impacts& impacts, const std::vector<BodyPair>& pairs,

@@ -23,9 +23,6 @@ namespace plumb {
 inline constexpr std::size_t kImpactSweeps = 10, kImpactWork = 10000, kImpactLook = 500;
 inline constexpr double kImpactSettled = 1e-6;
 
-/// Islands of at most so many bodies that sweeps have not settled by then are solved exactly.
-inline constexpr std::uint32_t kMostExactlyHit = 64;
-
 template <class Real, int W>
 class ImpactStage {
 public:
@@ -40,11 +37,11 @@ public:
           impacts_(carry_momentum(settings, plan.runs(Effect::gyroscopic))),
           exact_(plan) {}
 
-    /// Once a step. `apart`: pairs that are not among the contacts' rows, and bounce.
-    void load(const World& world, Contacts& contacts, const std::vector<BodyPair>& apart) {
+    /// Once a step. `exact` (may be null): has pairs that are not among the contacts' rows.
+    void load(const World& world, Contacts& contacts, const IslandGroup* exact) {
         swept_ = contacts.pairs().size();
         pairs_ = contacts.pairs();
-        pairs_.insert(pairs_.end(), apart.begin(), apart.end());
+        if (exact) pairs_.insert(pairs_.end(), exact->loose().begin(), exact->loose().end());
         impacts_.reserve(world, pairs_);
         contacts.reserve_impacts(world.contacts.found.size());
         before_.resize(static_cast<std::size_t>(world.dynamic_count));
@@ -59,8 +56,8 @@ public:
         exact_.begin();
         sweep_all(world, contacts, table, h);
         for (std::size_t i = 0; i < impacts_.colliding().size(); ++i)
-            if (impacts_.is_left(i)) exact_.solve(world, pairs_, impacts_, i, h);
-        impacts_.take(world, pairs_, h);
+            if (impacts_.is_left(i)) exact_.solve(world, impacts_, i, h);
+        impacts_.take(world, h);
         if (sums) contacts.add_impacts(impacts_, *sums);
         contacts.end_impacts(world);
         exact_.end(world, impacts_, sums);
@@ -71,7 +68,8 @@ private:
     void leave_apart() {
         for (std::size_t i = 0; i < impacts_.colliding().size(); ++i) {
             const ContactIsland& island = impacts_.colliding()[i];
-            if (impacts_.islands().pairs()[island.first_pair] >= swept_) impacts_.leave(i);
+            const std::size_t near = impacts_.islands().pairs()[island.first_pair];
+            if (impacts_.place(near) >= swept_) impacts_.leave(i);
         }
     }
 
@@ -130,9 +128,8 @@ private:
 
     void note_velocities(const BodyRows<Real>& bodies) {
         each_swept([&](std::size_t island) {
-            impacts_.each_row(island, [&](std::int32_t row) {
-                before_[row] = velocity_in(bodies.change, row);
-            });
+            impacts_.each_row(
+                island, [&](std::int32_t row) { before_[row] = velocity_in(bodies.change, row); });
         });
     }
 
@@ -161,7 +158,7 @@ private:
     bool is_solvable(const World& world, std::size_t island) const {
         const ContactIsland& from = impacts_.colliding()[island];
         return from.last_body - from.first_body <= most_exact_ && world.joints.size() == 0 &&
-               !impacts_.is_driven(world, island, pairs_);
+               !impacts_.is_driven(world, island);
     }
 
     Workers& workers_;

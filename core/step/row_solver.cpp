@@ -60,8 +60,7 @@ public:
         free_islands_.load(world, contacts_->pairs());
         for (const auto& group : groups_) group->load(world);
         if (warm_start_) contacts_->load_impulses(world, exact);
-        if (impacts_)
-            impacts_->load(world, *contacts_, exact ? exact->bouncing() : std::vector<BodyPair>());
+        if (impacts_) impacts_->load(world, *contacts_, exact);
         if (!shocks_) return;
         find_levels(world, levels_);
         shock_->load(world, &levels_, nullptr, [](std::vector<BodyPair>&) {});

@@ -104,6 +104,35 @@ TEST_P(Impacts, NeverAddEnergyAndKeepMomentum) {
         }
 }
 
+/// Rows, triangles and boxes, in which one body may be a thousand times as heavy as its neighbour:
+/// what sweeps would leave of an approach is energy as soon as it has become overlap.
+TEST_P(Impacts, OfUnevenMassesGainNothing) {
+    Random random(16);
+    const std::function<void(Scene&, Random&)> shapes[] = {row, triangle, boxes};
+    for (int draw = 0; draw < 60; ++draw) {
+        Scene s = free_scene(draw % 3 == 2 ? random.number(0, 1) : 1);
+        if (draw % 2 == 0) s.materials[0].friction = random.number(0.1, 1.5);
+        shapes[random.below(3)](s, random);
+        for (BodySpec& body : s.bodies) body.mass = std::pow(1000, random.number(0, 1));
+        choose_step(s.settings, draw % 5, random);
+        s.settings.exact_islands = Settings{}.exact_islands;
+        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << s.bodies.size() << " bodies, "
+                                        << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), collider());
+        const World& world = simulation.world();
+        const double before = kinetic_energy(world);
+        const Vector momentum = linear_momentum(world);
+        double most = 0;
+        while (simulation.time() < 0.8) {
+            simulation.step();
+            most = std::max(most, kinetic_energy(world));
+        }
+        EXPECT_LT(most, 1.001 * before);
+        const double bound = s.settings.precision == Precision::single ? 1e-6 : 1e-10;
+        EXPECT_LT((linear_momentum(world) - momentum).norm(), bound * momentum.norm());
+    }
+}
+
 /// A prism of so many sides, as long as wide.
 Geometry prism(int sides, double radius) {
     std::vector<Vector> corners;
@@ -198,6 +227,24 @@ TEST_P(Impacts, WithoutRestitutionRowsStayAtAWall) {
         if (draw % 3 != 0) empty.materials[0].friction = random.number(0.1, 1);
         const Geometry shape = draw % 4 < 2 ? sphere(0.1) : box(0.1, 0.1, 0.1);
         const RowBeforeWall row = row_before_wall(empty, shape, random, draw, 3 + random.below(18));
+        SCOPED_TRACE(row.text);
+        Simulation simulation(row.scene, colliders(), collider());
+        run_for(simulation, 0.5);
+        EXPECT_LT(fastest_point(simulation.world()), 0.01 * row.speed);
+    }
+}
+
+/// Nor of uneven masses in long rows.
+TEST_P(Impacts, WithoutRestitutionLongUnevenRowsStayAtAWall) {
+    Random random(18);
+    for (int draw = 0; draw < 30; ++draw) {
+        Scene empty = free_scene(0);
+        if (draw % 3 != 0) empty.materials[0].friction = random.number(0.1, 1.5);
+        const Geometry shape = draw % 4 < 2 ? sphere(0.1) : box(0.1, 0.1, 0.1);
+        RowBeforeWall row = row_before_wall(empty, shape, random, draw % 5, 10 + random.below(34));
+        row.scene.settings.exact_islands = Settings{}.exact_islands;
+        if (draw % 2 == 0)
+            for (BodySpec& body : row.scene.bodies) body.mass = std::pow(1000, random.number(0, 1));
         SCOPED_TRACE(row.text);
         Simulation simulation(row.scene, colliders(), collider());
         run_for(simulation, 0.5);
