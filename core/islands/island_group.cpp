@@ -123,9 +123,9 @@ void IslandGroup::find_nature(const World& world, ExactIsland& island, const Con
 }
 
 void IslandGroup::note_loose(const ContactIsland& from, const std::vector<BodyPair>& pairs) {
-    const bool is_tied = from.first_tie < from.last_tie;
+    const bool is_loose = from.first_tie == from.last_tie && !choice_.is_driven(from);
     const std::uint32_t n = from.last_body - from.first_body;
-    if (is_tied || n == 1 || n > kMostExactlyHit) return;
+    if (!is_loose || n == 1 || n > kMostExactlyHit) return;
     for (std::uint32_t i = from.first_pair; i < from.last_pair; ++i)
         loose_.push_back(pairs[choice_.islands().pairs()[i]]);
 }

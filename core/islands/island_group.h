@@ -30,8 +30,8 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
-    /// The pairs of its islands of more than one body that no tie holds, if these are small: they
-    /// collide before the forces of a substep (islands/exact_impacts.h).
+    /// The pairs of small islands of more than one body that nothing ties or drives: they collide
+    /// before the forces of a substep (islands/exact_impacts.h).
     const std::vector<BodyPair>& loose() const { return loose_; }
 
     /// Of what is left to sweeps, and why.
