@@ -78,7 +78,7 @@ void Impacts::find_near(const World& world, const std::vector<BodyPair>& pairs, 
         double gap = kOutOfReach;
         for (std::uint32_t k = pairs[p].first; k < pairs[p].first + pairs[p].count; ++k)
             gap = std::min(gap, gap_in_substep(world.contacts, k));
-        if (gap > reach) continue;
+        if (gap > reach && !hit_[p]) continue;
         near_.push_back(pairs[p]);
         place_.push_back(static_cast<std::uint32_t>(p));
     }

@@ -93,9 +93,25 @@ double run_along(const Bodies& b, const ContactRim& at, const Vector3d& n, doubl
     return (farthest_on(at.rim, end.conjugate() * n, from) - from).norm();
 }
 
-/// From which angle on in a substep a rim rolls on [rad], and how near other points of it are to
-/// come into its way, in radii.
-constexpr double kRollsOn = 0.01, kNear = 0.5;
+/// From which angle on in a substep a rim rolls on [rad], and up to which: all but flat, its
+/// contact whirls about, and where that comes to is not foreseen. Other points that come into the
+/// place of its deepest one are this near to it and to its rim, in radii, and their normals as
+/// parallel.
+constexpr double kRollsOn = 0.01, kWhirls = 0.2, kNear = 0.5, kOnRim = 1e-3, kParallel = 1 - 1e-4;
+
+/// Whether a contact is one of those points: of the same rim against the same face. A rim's centre
+/// is where its contact is as deep as it is: that differs along the normal.
+bool rolls_into(const World& world, std::uint32_t other, std::uint32_t deepest) {
+    const ContactTable& c = world.contacts;
+    const ContactRim &of = c.rims[other], &at = c.rims[deepest];
+    if (of.body != at.body || of.rim.radius != at.rim.radius) return false;
+    const Vector3d n = outward_at(c, deepest);
+    const Vector3d beside =
+        (world.bodies.orientation[at.body] * (of.rim.centre - at.rim.centre)).cross(n);
+    return beside.norm() < kOnRim * at.rim.radius &&
+           (c.point[other] - c.point[deepest]).norm() < kNear * at.rim.radius &&
+           outward_at(c, other).dot(n) > kParallel;
+}
 
 }  // namespace
 
@@ -142,17 +158,13 @@ Vector3d bend_at_rim(const World& world, std::size_t contact, double h) {
 
 void leave_to_rolling(World& world, const ContactPair& pair, double h) {
     ContactTable& c = world.contacts;
-    const Bodies& b = world.bodies;
     for (std::uint32_t i = pair.first; i < pair.first + pair.count; ++i) {
         const ContactRim& at = c.rims[i];
-        if (!at.runs || run_along(b, at, outward_at(c, i), h) < kRollsOn * at.rim.radius) continue;
-        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k) {
-            const ContactRim& other = c.rims[k];
-            const bool same = other.rim.radius == at.rim.radius && other.body == at.body &&
-                              other.rim.axis.dot(at.rim.axis) > 0;
-            if (k != i && same && (c.point[k] - c.point[i]).norm() < kNear * at.rim.radius)
-                c.gap[k] = kOutOfReach;
-        }
+        if (!at.runs || c.gap[i] == kOutOfReach) continue;
+        const double run = run_along(world.bodies, at, outward_at(c, i), h);
+        if (run < kRollsOn * at.rim.radius || run > kWhirls * at.rim.radius) continue;
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
+            if (k != i && rolls_into(world, k, i)) c.gap[k] = kOutOfReach;
     }
 }
 

@@ -24,8 +24,9 @@ Vector3d farthest_on(const Rim& rim, const Vector3d& direction, const Vector3d& 
 /// less b's [m/s].
 Vector3d bend_at_rim(const World& world, std::size_t contact, double h);
 
-/// Where a rim of a pair rolls on, its deepest point alone bears in the coming substep: others that
-/// roll into its place would touch as early, and bear with arms of where they are now.
+/// Where a rim of a pair rolls on along a face, its deepest point alone bears in the coming
+/// substep: others that roll into its place would touch as early, and bear with arms of where they
+/// are now.
 void leave_to_rolling(World& world, const ContactPair& pair, double h);
 
 /// Moves the points of contacts on rims to where the rims are deepest now.

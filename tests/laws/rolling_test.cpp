@@ -313,6 +313,38 @@ TEST_P(Rolling, SmallDisksGoRoundInTheirCircles) {
     }
 }
 
+/// A wheel in a shallow groove stands on both of its rims, and rolls on upright.
+TEST_P(Rolling, AWheelRollsAlongAGroove) {
+    if (!has_cylinders(collider())) GTEST_SKIP() << "no cylinders";
+    const double radius = 0.1, half_width = 0.01, seconds = 2;
+    for (const double slope : {0.02, 0.1, 0.24})
+        for (const double speed : {0.3, 1.0, 3.0}) {
+            Scene s = scene();
+            s.materials[0].friction = 0.8;
+            Geometry groove;
+            groove.kind = ShapeKind::compound;
+            for (const double side : {-1.0, 1.0}) {
+                const Rotation turn(Eigen::AngleAxisd(-side * slope, Vector::UnitX()));
+                groove.parts.push_back({box(20, 0.5, 1), {turn * Vector(0, -0.5, side), turn}});
+            }
+            add_body(s, groove, Vector::Zero(), Motion::fixed);
+            BodySpec& wheel = add_body(s, round_about_y(ShapeKind::cylinder, radius, half_width),
+                                       {0, radius + half_width * slope + 1e-4, 0});
+            wheel.placement.rotation = Eigen::AngleAxisd(90 * kDegree, Vector::UnitX());
+            wheel.velocity = {speed, 0, 0}, wheel.angular_velocity = {0, 0, -speed / radius};
+            SCOPED_TRACE(testing::Message() << "slope " << slope << ", " << speed << " m/s");
+            Simulation simulation(s, colliders(), collider());
+            const World& world = simulation.world();
+            while (simulation.time() < seconds) {
+                simulation.step();
+                ASSERT_GT(world.bodies.position[1].y(), radius - 1e-3);
+            }
+            const Vector axis = geometry_placement(world.bodies, 1).rotation * Vector::UnitY();
+            EXPECT_LT(std::abs(axis.y()), 0.1);
+            EXPECT_NEAR(world.bodies.position[1].x() / (speed * seconds), 1, 0.05);
+        }
+}
+
 /// On floors up to 2000 times as wide as the disk, too, whose contacts are cut from their faces.
 TEST_P(Rolling, ItGoesRoundOnAWideFloorAsOnAPlane) {
     if (!has_cylinders(collider())) GTEST_SKIP() << "no cylinders";
