@@ -44,10 +44,12 @@ void IslandGroup::load(const World& world, std::vector<BodyPair>& pairs) {
     for (const ContactIsland& from : found.islands()) {
         const IslandWay way = choice_.way_of(world, from, pairs);
         if (way == IslandWay::left) continue;
-        if (take(world, from, pairs))
-            choose_effort(world, taken().back(), way == IslandWay::swept);
-        else
+        if (!take(world, from, pairs)) {
             set_aside(world, from, pairs);
+            continue;
+        }
+        choose_effort(world, taken().back(), way == IslandWay::swept);
+        note_loose(world, taken().back(), from, pairs);
     }
 
     std::size_t kept = 0;
@@ -70,7 +72,6 @@ bool IslandGroup::take(const World& world, const ContactIsland& from,
     ++count_;
     find_nature(world, island, from, pairs);
     fill_columns(world, island, from, pairs);
-    note_loose(from, pairs);
     island.account = account_of(world, island);
     island.given_up = false;
     island.open = 0;
@@ -122,12 +123,21 @@ void IslandGroup::find_nature(const World& world, ExactIsland& island, const Con
     island.moved_on = island.moves && choice_.moved_on(world, from, pairs);
 }
 
-void IslandGroup::note_loose(const ContactIsland& from, const std::vector<BodyPair>& pairs) {
-    const bool is_loose = from.first_tie == from.last_tie && !choice_.is_driven(from);
-    const std::uint32_t n = from.last_body - from.first_body;
+/// What does not bounce is brought to rest with its forces, unless its solution cannot be relied
+/// on.
+void IslandGroup::note_loose(const World& world, const ExactIsland& island,
+                             const ContactIsland& from, const std::vector<BodyPair>& pairs) {
+    const bool is_loose = from.first_tie == from.last_tie && !island.is_driven;
+    const std::uint32_t n = island.body_count();
     if (!is_loose || n == 1 || n > kMostExactlyHit) return;
-    for (std::uint32_t i = from.first_pair; i < from.last_pair; ++i)
-        loose_.push_back(pairs[choice_.islands().pairs()[i]]);
+    const auto first = choice_.islands().pairs().begin() + from.first_pair,
+               last = choice_.islands().pairs().begin() + from.last_pair;
+    const bool bounces = std::any_of(first, last, [&](std::uint32_t i) {
+        const Contact& c = world.contacts.found[pairs[i].first];
+        return world.surface_pair(c.a, c.b).restitution > 0;
+    });
+    if (!bounces && island.effort == IslandEffort::full) return;
+    std::for_each(first, last, [&](std::uint32_t i) { loose_.push_back(pairs[i]); });
 }
 
 /// Its bodies, contacts and ties go into the columns, and nobody else solves them in this step.

@@ -30,8 +30,8 @@ public:
     /// contacts remember.
     void load(const World& world, std::vector<BodyPair>& pairs);
 
-    /// The pairs of small islands of more than one body that nothing ties or drives: they collide
-    /// before the forces of a substep (islands/exact_impacts.h).
+    /// The pairs of small islands of more than one body that nothing ties or drives, and that bounce
+    /// or are disputed: they collide before the forces of a substep (islands/exact_impacts.h).
     const std::vector<BodyPair>& loose() const { return loose_; }
 
     /// Of what is left to sweeps, and why.
@@ -75,7 +75,8 @@ private:
                      const std::vector<BodyPair>& pairs);
     void find_nature(const World& world, ExactIsland& island, const ContactIsland& from,
                      const std::vector<BodyPair>& pairs) const;
-    void note_loose(const ContactIsland& from, const std::vector<BodyPair>& pairs);
+    void note_loose(const World& world, const ExactIsland& island, const ContactIsland& from,
+                    const std::vector<BodyPair>& pairs);
     void fill_columns(const World& world, ExactIsland& island, const ContactIsland& from,
                       const std::vector<BodyPair>& pairs);
     IslandAccount account_of(const World& world, const ExactIsland& island) const;
