@@ -11,7 +11,8 @@ namespace plumb {
 namespace {
 
 /// What is farther apart than comes together within a substep at so many times the speed of the
-/// fastest collision takes no part in any.
+/// fastest collision takes no part in any, where something bounces. What does not comes to rest the
+/// sooner the more is swept along with it.
 constexpr double kReach = 2;
 
 /// How fast the surfaces of a contact meet within h [m/s], if that is too fast for a contact at
@@ -88,7 +89,8 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
     colliding_.clear();
     const double fastest = find_hits(world, pairs, h);
     if (fastest == 0) return false;
-    find_near(world, pairs, kReach * h * fastest);
+    const bool bounces = !world.contacts.restitution.empty();
+    find_near(world, pairs, bounces ? kReach * h * fastest : kOutOfReach);
 
     islands_.find(near_, {}, 0, world.dynamic_count);
     for (const ContactIsland& island : islands_.islands()) {
