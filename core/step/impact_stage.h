@@ -102,19 +102,19 @@ private:
         const std::size_t most = settles ? kImpactWork / hits : 0;
         change_ = std::numeric_limits<Real>::infinity();
         for (std::size_t done = kImpactSweeps;; done += kImpactSweeps) {
-            sweep(contacts, bodies, pass, 0, kImpactSweeps - 1);
+            sweep(contacts, bodies, pass, kImpactSweeps - 1);
             note_velocities(bodies);
-            sweep(contacts, bodies, pass, kImpactSweeps - 1, kImpactSweeps);
+            sweep(contacts, bodies, pass, 1);
             if (!goes_on(world, bodies, done) || done >= most) return;
         }
     }
 
     void sweep(Contacts& contacts, const BodyRows<Real>& bodies, PassSettings<Real> pass,
-               std::size_t first, std::size_t last) {
+               std::size_t count) {
         workers_.run([&](std::uint32_t worker) {
             PassSettings<Real> mine = pass;
-            for (std::size_t i = first; i < last; ++i) {
-                mine.forwards = i % 2 == 0;
+            for (std::size_t i = 0; i < count; ++i) {
+                mine.forwards = (count - i) % 2 == 0;
                 contacts.iterate_impacts(bodies, mine, worker);
             }
         });
