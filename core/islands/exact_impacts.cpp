@@ -2,8 +2,8 @@
 #include "islands/exact_impacts.h"
 
 #include "contacts/contact_measures.h"
-#include "contacts/contact_work.h"
 #include "islands/own_motion.h"
+#include "islands/work_of_change.h"
 
 #include <algorithm>
 #include <limits>
@@ -117,13 +117,7 @@ void ExactImpacts::settle() {
 /// than there was: then only a share of it is given.
 void ExactImpacts::bound_energy() {
     const std::span<const SolvedBody> bodies = columns_.bodies;
-    ContactWork work;
-    for (std::size_t i = 0; i < bodies.size(); ++i) {
-        const Vector6d& from = compressed_.velocity[i];
-        const Vector6d change = columns_.velocity[i] - from;
-        const Vector6d more = momentum(bodies[i], change);
-        work.at_start += from.dot(more), work.of_change += 0.5 * change.dot(more);
-    }
+    ContactWork work = work_of_change(bodies, compressed_.velocity, columns_.velocity);
     const double taken =
         kinetic_energy(bodies, columns_.start) - kinetic_energy(bodies, compressed_.velocity);
     work.granted = std::numeric_limits<double>::infinity();

@@ -2,6 +2,7 @@
 /// What keeps the contacts of an island from giving it energy that nothing gives them.
 #include "contacts/contact_work.h"
 #include "islands/island_substep.h"
+#include "islands/work_of_change.h"
 
 namespace plumb {
 namespace {
@@ -50,13 +51,7 @@ bool IslandSubstep::rests(double before, double whole) const {
 void IslandSubstep::bound_swept_energy() {
     const double before = energy_at_start(), whole = energy();
     if (whole <= before || rests(before, whole)) return;
-    ContactWork work;
-    for (std::size_t i = 0; i < start_.size(); ++i) {
-        const Vector6d change = all_.velocity[i] - start_[i];
-        const Vector6d more = momentum(all_.bodies[i], change);
-        work.at_start += start_[i].dot(more), work.of_change += 0.5 * change.dot(more);
-    }
-    keep(work.share(0));
+    keep(work_of_change(all_.bodies, start_, all_.velocity).share(0));
 }
 
 /// What is wedged between surfaces that are all but parallel leaves many times as fast as these

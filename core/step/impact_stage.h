@@ -82,14 +82,13 @@ private:
         sweep(world, contacts, table.rows(), pass);
         if (contacts.give_back(world, impacts_, table.rows()))
             sweep(world, contacts, table.rows(), pass);
-        for (std::size_t i = 0; i < impacts_.colliding().size(); ++i) {
-            if (impacts_.is_left(i)) continue;
-            impacts_.each_row(i, [&](std::int32_t row) {
+        each_swept([&](std::size_t island) {
+            impacts_.each_row(island, [&](std::int32_t row) {
                 const Velocity<Real> change = velocity_in(table.rows().change, row);
                 impacts_.changes()[row] = {change.v.template cast<double>(),
                                            change.w.template cast<double>()};
             });
-        }
+        });
     }
 
     /// One phase.
