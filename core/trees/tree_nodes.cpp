@@ -223,7 +223,9 @@ void TreeNodes::find_rows(Node& node) {
     const Velocity<double> own = velocity_of(tables_.velocity, node.node),
                            other = velocity_beyond(node);
     const Velocity<double>&a = node.sign > 0 ? own : other, &b = node.sign > 0 ? other : own;
-    joint_axes<double>(node.now, node.geometry, a, b, h_, node.apart, node.meet);
+    // a line pulls each body at its own point: what it turns by in the substep is no arm of either
+    const double meet = node.geometry.length > 0 ? 0 : node.meet;
+    joint_axes<double>(node.now, node.geometry, a, b, h_, node.apart, meet);
     take_rows(node.elimination, node.now, node.geometry, node.sign, inverse_h_);
     if (!(node.geometry.line_share > 0) || !(node.lambda[0] < 0)) return;
     const auto turned = [this](const Vector3d& w, const Vector3d& arm) -> Vector3d {

@@ -140,9 +140,10 @@ public:
     /// Before any step: the mass of a body [kg], and the height from which it would fall to its
     /// speed [m]. That of the tree is the mean by mass: a light rod that trembles counts for
     /// little. Speeds are against what the tree hangs by; `velocity_of(joint)`: of the holder of
-    /// the tree that begins with it [m/s].
+    /// the tree that begins with it [m/s]; `h`: length of the substep, or of the part of it [s].
     template <class VelocityOf>
-    void forget_falls(VelocityOf velocity_of) {
+    void forget_falls(double h, VelocityOf velocity_of) {
+        open_of_fall_ = std::min(kOpenOfFall, kOpenOfFallASecond * h);
         for (std::size_t i = 0; i < falls_.size(); ++i)
             falls_[i].moment = 0, falls_[i].holder = velocity_of(joint_[i]);
     }
@@ -219,7 +220,8 @@ private:
     /// By which share of its fall a loaded tree may be open, one of whose bodies is heavier than
     /// all others together. What Newton's last step leaves of a joint's error has always the same
     /// sign: a load that goes down with it in each substep feeds or brakes what swings.
-    static constexpr double kOpenOfFall = 1e-5;
+    /// Of parts there may be thousands in what is one substep of others.
+    static constexpr double kOpenOfFall = 1e-5, kOpenOfFallASecond = 1e-3;  // −, [1/s]
     /// Tries that all axes at once have to leave fewer wrong, and how often a step is tried.
     static constexpr int kPatience = 4, kMostTries = 60;
 
@@ -247,7 +249,7 @@ private:
     }
     double fine(std::size_t tree, double tolerance) const {
         if (!is_loaded(tree)) return tolerance;
-        return std::min(tolerance, kOpenOfFall * falls_[tree].moment / falls_[tree].mass);
+        return std::min(tolerance, open_of_fall_ * falls_[tree].moment / falls_[tree].mass);
     }
 
     template <class IsDone>
@@ -271,6 +273,7 @@ private:
     std::vector<Pieces> pieces_;                      ///< [tree]
     std::vector<double> violation_, before_, first_;  ///< [tree]
     std::vector<Falls> falls_;                        ///< [tree]
+    double open_of_fall_ = kOpenOfFall;               ///< in this substep
 };
 
 }  // namespace plumb

@@ -145,8 +145,9 @@ template <int W>
 void TreeSolver<W>::note_falls(const World& world) {
     constexpr double high = std::numeric_limits<double>::infinity();
     const double gravity = world.settings.gravity.norm();
-    progress_.forget_falls(
-        [&](std::uint32_t joint) { return holder_velocity(world, world.joints.joints[joint]); });
+    progress_.forget_falls(h_, [&](std::uint32_t joint) {
+        return holder_velocity(world, world.joints.joints[joint]);
+    });
     each_body([&](std::uint32_t node, std::uint32_t body, const Vector3d& v) {
         const double squared = (v - progress_.holder_velocity(node)).squaredNorm();
         const double height = gravity > 0 ? 0.5 * squared / gravity : high;

@@ -5,6 +5,7 @@
 #include "support/pendulum.h"
 #include "support/random.h"
 #include "support/scenes.h"
+#include "support/swings.h"
 #include "ties/joint_state.h"
 
 #include <algorithm>
@@ -18,13 +19,6 @@ class Swings : public InEachPrecision {};
 INSTANTIATE_TEST_SUITE_P(, Swings, each_precision(), precision_name);
 
 constexpr std::uint32_t kSubsteps[] = {1, 2, 3, 4, 5, 8, 10, 20, 40};
-
-Scene still_scene(Precision precision) {
-    Scene s;
-    s.settings.precision = precision;
-    s.settings.forbid = {"contacts"};
-    return s;
-}
 
 Rotation hinge_across_the_plane() { return rotation_between(Vector::UnitX(), Vector::UnitZ()); }
 
@@ -155,22 +149,6 @@ TEST_P(Swings, RandomTreesStayTogetherOrSaySo) {
     EXPECT_EQ(open, 0) << "of 1000";
 }
 
-/// Mean energy above the lowest in the last tenth of a minute against that in the first.
-/// `coarse`: how often the steps told that a tree was faster than its parts.
-double energy_left(const Scene& s, double lowest, std::uint32_t* coarse = nullptr) {
-    Simulation simulation(s, colliders(), "reference");
-    double first = 0, last = 0;
-    int of_first = 0, of_last = 0;
-    while (simulation.time() < 60) {
-        const StepReport report = simulation.step();
-        if (coarse) *coarse += report.coarse_trees;
-        const double energy = total_energy(simulation) - lowest;
-        if (simulation.time() < 6) first += energy, ++of_first;
-        if (simulation.time() > 54) last += energy, ++of_last;
-    }
-    return (last / of_last) / (first / of_first);
-}
-
 /// A rod, two rods, or a light rod with a ball, on joints of one kind, let go at 30°.
 Scene pendulum(Precision precision, JointKind kind, int bodies, bool ball) {
     constexpr double kAngle = 0.5235987756;
@@ -202,15 +180,6 @@ Scene ball_on_a_rope(Precision precision, double angle) {
     joint.body_a = 0, joint.anchor = at, joint.anchor_b = Vector(Vector::Zero());
     s.joints.push_back(joint);
     return s;
-}
-
-double lowest_energy(const Scene& s) {
-    Simulation simulation(s, colliders(), "reference");
-    double sum = 0;
-    for (std::size_t i = 0; i < simulation.world().bodies.size(); ++i)
-        sum -=
-            simulation.world().bodies.mass[i] * 9.81 * simulation.world().bodies.position[i].norm();
-    return sum;
 }
 
 TEST_P(Swings, KeepTheirEnergyForAMinute) {
@@ -350,56 +319,6 @@ TEST_P(Swings, SmallOnesUnderALoadKeepTheirEnergy) {
         SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << rods << " rods, "
                                         << s.settings.dt << " s x " << s.settings.substeps);
         EXPECT_NEAR(energy_left(s, lowest_energy(s)), 1, 0.02);
-    }
-}
-
-/// One to four bodies on rods without mass, each held beside its centre of mass.
-void add_rods(Scene& s, Random& random) {
-    const std::uint32_t count = 1 + random.below(4);
-    Vector held = Vector::Zero();
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const double size = random.number(0.03, 0.1);
-        const Vector point = held + random.number(0.1, 0.4) * random.direction();
-        BodySpec& body = add_body(s, box(size, random.number(0.5, 1) * size, size),
-                                  point + random.number(0, 1.5) * size * random.direction());
-        body.mass = random.number(0.2, 5);
-        body.placement.rotation = random.rotation();
-        JointSpec joint;
-        joint.kind = JointKind::distance;
-        joint.body_a = i, joint.body_b = i > 0 ? i - 1 : kNoIndex;
-        joint.anchor = point, joint.anchor_b = held;
-        s.joints.push_back(joint);
-        held = body.placement.position;
-    }
-}
-
-/// What hangs on them whips round where its centre comes near to the line of its rod.
-TEST_P(Swings, WhatWhipsRoundOnRodsKeepsItsEnergy) {
-    Random random(23);
-    for (int draw = 0; draw < 30; ++draw) {
-        Scene s = still_scene(GetParam());
-        add_rods(s, random);
-        if (draw % 3 == 1) use_fine_steps(s.settings);
-        if (draw % 3 == 2)
-            s.settings.dt = random.number(0.002, 0.01), s.settings.substeps = 1 + random.below(20);
-        Simulation simulation(s, colliders(), "reference");
-        const double before = total_energy(simulation);
-        double fastest = 0;
-        while (simulation.time() < 10) {
-            ASSERT_TRUE(simulation.step().finite);
-            fastest = std::max(fastest, kinetic_energy(simulation.world()));
-        }
-        // velocities are up to half a substep behind places, of what divides its substep less
-        const double half = 0.5 * s.settings.dt / s.settings.substeps;
-        double late = 0;
-        for (std::size_t i = 0; i < simulation.world().bodies.size(); ++i)
-            late += half * 9.81 * simulation.world().bodies.mass[i] *
-                    simulation.world().bodies.velocity[i].y();
-        const double gained = total_energy(simulation) - before;
-        SCOPED_TRACE(testing::Message() << "draw " << draw << ", " << s.joints.size() << " rods, "
-                                        << s.settings.dt << " s x " << s.settings.substeps);
-        EXPECT_GT(std::max(gained, gained - late), -0.01 * fastest);
-        EXPECT_LT(std::min(gained, gained - late), 0.01 * fastest);
     }
 }
 
