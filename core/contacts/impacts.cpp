@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "contacts/impacts.h"
 
+#include "constraints/connector.h"
 #include "contacts/contact_work.h"
 #include "world/body_momentum.h"
 
@@ -37,7 +38,7 @@ void Impacts::reserve(const World& world, const std::vector<BodyPair>& pairs) {
     islands_.reserve(bodies);
     colliding_.reserve(bodies);
     left_.reserve(bodies);
-    shares_.reserve(bodies);
+    driven_.reserve(bodies), shares_.reserve(bodies);
     changes_.resize(bodies);
     start_.reserve(world.bodies.size());
     fast_.reserve(world.bodies.size());
@@ -100,7 +101,7 @@ bool Impacts::find(const World& world, const std::vector<BodyPair>& pairs, doubl
         each_pair(island, [&](std::size_t pair) { hit_[pair] = 1; });
         colliding_.push_back(island);
     }
-    left_.assign(colliding_.size(), 0);
+    left_.assign(colliding_.size(), 0), driven_.assign(colliding_.size(), 0);
     choose_start(world);
     return true;
 }
@@ -129,23 +130,26 @@ void Impacts::choose_start(const World& world) {
     }
 }
 
-bool Impacts::is_driven(const World& world, std::size_t island) const {
-    const auto moves = [&](std::int32_t row) {
-        return row >= world.dynamic_count && row != world.zero_row();
+void Impacts::add_work(const World& world, std::size_t island, std::size_t contact,
+                       const Vector3d& impulse) {
+    const Bodies& b = world.bodies;
+    const Contact& c = world.contacts.found[contact];
+    const auto add = [&](std::uint32_t body, double sign) {
+        if (b.motion[body] != Motion::kinematic) return;
+        const Vector3d arm = world.contacts.point[contact] - b.position[body];
+        const Vector3d u = velocity_at<double>({start_[body], b.angular_velocity_now[body]}, arm);
+        add_work(island, sign * impulse.dot(u));
     };
-    const auto first = islands_.pairs().begin();
-    return std::any_of(
-        first + colliding_[island].first_pair, first + colliding_[island].last_pair,
-        [&](std::uint32_t i) { return moves(near_[i].row_a) || moves(near_[i].row_b); });
+    add(c.a, -1), add(c.b, 1);
 }
 
 /// The greatest share of the changes, at most 1, with which the island has no more energy than
-/// before. What moves by itself may add energy.
+/// before and than was done to it.
 double Impacts::bounded_share(const World& world, std::size_t which) const {
-    if (is_driven(world, which)) return 1;
     const ContactIsland& island = colliding_[which];
     const Bodies& bodies = world.bodies;
     ContactWork work;
+    work.at_start = -driven_[which];
     for (std::uint32_t i = island.first_body; i < island.last_body; ++i) {
         const std::int32_t row = islands_.bodies()[i];
         const std::uint32_t body = world.body_of_row[row];

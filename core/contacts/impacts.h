@@ -8,8 +8,8 @@
 /// (compression), then each contact that collides gives back e times its impulse (restitution), and
 /// iterations let friction, and contacts that approach anew, follow. Each single update of
 /// compression loses energy, and giving back at most what was taken cannot gain any but by what
-/// iterations leave: where an island has more energy at the end than before, its impulses are
-/// scaled down to where it has not.
+/// iterations leave: where an island has more energy at the end than before, and than what moves by
+/// itself has given it, its impulses are scaled down to where it has not.
 #pragma once
 
 #include "schedule/contact_islands.h"
@@ -53,9 +53,6 @@ public:
     void leave(std::size_t island);
     bool is_left(std::size_t island) const { return left_[island] != 0; }
 
-    /// Whether what moves by itself touches it.
-    bool is_driven(const World& world, std::size_t island) const;
-
     /// Velocities from which collisions begin, [body] [m/s]. A pair for itself has half of what
     /// forces do in the substep, in the middle of which it collides: so it keeps its energy. Among
     /// others that would take what rests out of its rest.
@@ -72,6 +69,13 @@ public:
     /// By row, for the bodies of all of them.
     std::vector<Change>& changes() { return changes_; }
 
+    /// Adds what a body that moves by itself has done to an island [J].
+    void add_work(std::size_t island, double of_driver) { driven_[island] += of_driver; }
+    /// The same, by an impulse of one of its contacts on the contact's body a [N s]; nothing where
+    /// neither of its bodies moves by itself.
+    void add_work(const World& world, std::size_t island, std::size_t contact,
+                  const Vector3d& impulse);
+
     /// Bounds the changes of each island by its energy, and adds them to the bodies' velocities;
     /// those that carry their momentum turn over h [s] as it then asks.
     void take(World& world, double h);
@@ -79,12 +83,11 @@ public:
     /// The share of an island's changes, and so of its impulses, that was taken.
     double share(std::size_t island) const { return shares_[island]; }
 
-    /// Calls visit(pair, share) for the pairs that were swept.
+    /// Calls visit(island, pair) for the pairs that were swept.
     template <class Visit>
     void each_swept(Visit visit) const {
         for (std::size_t i = 0; i < colliding_.size(); ++i)
-            if (!left_[i])
-                each_pair(colliding_[i], [&](std::size_t pair) { visit(pair, shares_[i]); });
+            if (!left_[i]) each_pair(colliding_[i], [&](std::size_t pair) { visit(i, pair); });
     }
 
 private:
@@ -111,6 +114,7 @@ private:
     ContactIslands islands_;            // of near_
     std::vector<ContactIsland> colliding_;
     std::vector<std::uint8_t> left_;  // [colliding_] to others
+    std::vector<double> driven_;      // [colliding_] the work of what moves by itself [J]
     std::vector<double> shares_;      // [colliding_] of the changes that were taken
     std::vector<std::uint8_t> fast_;  // [body]
     std::vector<std::uint8_t> hit_;   // [pair] whether it is swept

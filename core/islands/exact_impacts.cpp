@@ -2,7 +2,6 @@
 #include "islands/exact_impacts.h"
 
 #include "contacts/contact_measures.h"
-#include "islands/own_motion.h"
 #include "islands/work_of_change.h"
 
 #include <algorithm>
@@ -27,10 +26,12 @@ void ExactImpacts::solve(World& world, Impacts& impacts, std::size_t island, dou
     ask(world, impacts, h);
     settle();
     keep(compressed_);
+    const double of_compression = work_of_drivers();
     if (give_back(world)) {
         settle();
-        if (!impacts.is_driven(world, island)) bound_energy();
+        bound_energy(of_compression);
     }
+    impacts.add_work(island, work_of_drivers());
 
     const ContactIslands& islands = impacts.islands();
     const auto first = islands.bodies().begin() + impacts.colliding()[island].first_body;
@@ -76,13 +77,14 @@ void ExactImpacts::fill(const World& world, const Impacts& impacts, std::size_t 
 /// What may approach does so until its gap is closed.
 void ExactImpacts::ask(const World& world, const Impacts& impacts, double h) {
     const Bodies& b = world.bodies;
-    speed_ = 0;
+    speed_ = 0, drivers_.clear();
     double mass = 0;
     for (const SolvedBody& body : columns_.bodies) mass += body.mass;
     for (std::size_t k = 0; k < columns_.points.size(); ++k) {
         const std::uint32_t contact = columns_.contacts[k];
         IslandPoint& p = columns_.points[k];
         const OwnMotion own(world, p, contact, impacts.start(), b.angular_velocity_now);
+        if (!own.is_none()) drivers_.push_back({k, own});
         p.wanted.setZero();
         p.wanted[0] = -std::max(0.0, world.contacts.gap[contact]) / h;
         own.take_from(p);
@@ -113,13 +115,21 @@ void ExactImpacts::settle() {
     solver_.sweep_until(all(), speed_, kMostSweeps);
 }
 
+/// What moves by itself has done to the island [J].
+double ExactImpacts::work_of_drivers() const {
+    double work = 0;
+    for (const Driver& driver : drivers_) work += driver.own.work(columns_.points[driver.point]);
+    return work;
+}
+
 /// Where friction turns slip about, restitution of several contacts at once can give more energy
-/// than there was: then only a share of it is given.
-void ExactImpacts::bound_energy() {
+/// than there was: then only a share of it is given. `of_compression`: work of drivers [J].
+void ExactImpacts::bound_energy(double of_compression) {
     const std::span<const SolvedBody> bodies = columns_.bodies;
     ContactWork work = work_of_change(bodies, compressed_.velocity, columns_.velocity);
-    const double taken =
-        kinetic_energy(bodies, columns_.start) - kinetic_energy(bodies, compressed_.velocity);
+    work.at_start -= work_of_drivers() - of_compression;
+    const double taken = kinetic_energy(bodies, columns_.start) + of_compression -
+                         kinetic_energy(bodies, compressed_.velocity);
     work.granted = std::numeric_limits<double>::infinity();
     const double share = work.share(std::max(0.0, taken));
     if (!(share < 1)) return;

@@ -12,6 +12,7 @@
 #include "islands/island_columns.h"
 #include "islands/island_solver.h"
 #include "islands/island_system.h"
+#include "islands/own_motion.h"
 #include "world/world.h"
 
 #include <vector>
@@ -41,7 +42,8 @@ private:
     void ask(const World& world, const Impacts& impacts, double h);
     bool give_back(World& world);
     void settle();
-    void bound_energy();
+    double work_of_drivers() const;
+    void bound_energy(double of_compression);
 
     struct State {
         std::vector<Vector6d> velocity;  // [body]
@@ -58,6 +60,11 @@ private:
     IslandSystem::Spare spare_;
     IslandSolver solver_;
     double speed_ = 0;  // at which its contacts approach [m/s]
+    struct Driver {
+        std::size_t point;
+        OwnMotion own;
+    };
+    std::vector<Driver> drivers_;  // what touches it and moves by itself
     State before_, compressed_;
     struct Given {
         std::size_t point;

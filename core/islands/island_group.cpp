@@ -127,16 +127,16 @@ void IslandGroup::find_nature(const World& world, ExactIsland& island, const Con
 /// on.
 void IslandGroup::note_loose(const World& world, const ExactIsland& island,
                              const ContactIsland& from, const std::vector<BodyPair>& pairs) {
-    const bool is_loose = from.first_tie == from.last_tie && !island.is_driven;
+    const bool is_tied = from.first_tie != from.last_tie;
     const std::uint32_t n = island.body_count();
-    if (!is_loose || n == 1 || n > kMostExactlyHit) return;
+    if (is_tied || n == 1 || n > kMostExactlyHit) return;
     const auto first = choice_.islands().pairs().begin() + from.first_pair,
                last = choice_.islands().pairs().begin() + from.last_pair;
     const bool bounces = std::any_of(first, last, [&](std::uint32_t i) {
         const Contact& c = world.contacts.found[pairs[i].first];
         return world.surface_pair(c.a, c.b).restitution > 0;
     });
-    if (!bounces && island.effort == IslandEffort::full) return;
+    if (!bounces && (island.is_driven || island.effort == IslandEffort::full)) return;
     std::for_each(first, last, [&](std::uint32_t i) { loose_.push_back(pairs[i]); });
 }
 

@@ -28,6 +28,16 @@ struct OwnMotion {
         if (p.b == kImmovable) add(c.b, p.arm_b, -1);
     }
 
+    bool is_none() const { return moving.isZero(0) && turning.isZero(0); }
+
+    /// What it does to the island by the impulses of a point [J].
+    double work(const IslandPoint& p) const {
+        double work = -(p.frame.transpose() * moving).dot(p.impulse.head<3>());
+        if (p.cone.turns())
+            work -= p.length * (p.frame.transpose() * turning).dot(p.impulse.tail<3>());
+        return work;
+    }
+
     /// Leaves of what is wanted at a point the part of the island's bodies.
     void take_from(IslandPoint& p) const {
         p.wanted.head<3>() -= p.frame.transpose() * moving;

@@ -167,12 +167,12 @@ public:
     }
     void end_impacts(World& world) { impacts_.end(world, batches_); }
 
-    /// Adds what the contacts of impacts bore, before their end.
-    void add_impacts(const Impacts& impacts, ContactSums& sums) {
-        impacts.each_swept([&](std::size_t pair, double share) {
+    /// What the contacts of impacts bore, before their end: calls visit(island, contact, impulse).
+    template <class Visit>
+    void each_impact(const Impacts& impacts, Visit visit) {
+        impacts.each_swept([&](std::size_t island, std::size_t pair) {
             each_place(pair, [&](const ContactPlace& at) {
-                const RowImpulse p = impulse_of(batches_.arrays(), at.row, at.lane);
-                sums.add(at.contact, share * p.normal, share * p.friction());
+                visit(island, at.contact, impulse_of(batches_.arrays(), at.row, at.lane));
             });
         });
     }

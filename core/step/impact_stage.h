@@ -57,13 +57,30 @@ public:
         sweep_all(world, contacts, table, h);
         for (std::size_t i = 0; i < impacts_.colliding().size(); ++i)
             if (impacts_.is_left(i)) exact_.solve(world, impacts_, i, h);
+        if (world.kinematic_count > 0) add_work_of_drivers(world, contacts);
         impacts_.take(world, h);
-        if (sums) contacts.add_impacts(impacts_, *sums);
+        if (sums) add_to(*sums, contacts);
         contacts.end_impacts(world);
         exact_.end(world, impacts_, sums);
     }
 
 private:
+    void add_work_of_drivers(const World& world, Contacts& contacts) {
+        contacts.each_impact(
+            impacts_, [&](std::size_t island, std::size_t contact, const RowImpulse& p) {
+                const Vector3d normal = to_eigen(world.contacts.found[contact].normal);
+                impacts_.add_work(world, island, contact, p.normal * normal + p.friction());
+            });
+    }
+
+    void add_to(ContactSums& sums, Contacts& contacts) {
+        contacts.each_impact(impacts_,
+                             [&](std::size_t island, std::size_t contact, const RowImpulse& p) {
+                                 const double share = impacts_.share(island);
+                                 sums.add(contact, share * p.normal, share * p.friction());
+                             });
+    }
+
     /// What has no rows is solved exactly.
     void leave_apart() {
         for (std::size_t i = 0; i < impacts_.colliding().size(); ++i) {
@@ -156,8 +173,7 @@ private:
 
     bool is_solvable(const World& world, std::size_t island) const {
         const ContactIsland& from = impacts_.colliding()[island];
-        return from.last_body - from.first_body <= most_exact_ && world.joints.size() == 0 &&
-               !impacts_.is_driven(world, island);
+        return from.last_body - from.first_body <= most_exact_ && world.joints.size() == 0;
     }
 
     Workers& workers_;
