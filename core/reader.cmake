@@ -7,8 +7,8 @@ add_library(plumb_reader STATIC
   reader/bodies.cpp reader/chain.cpp reader/couplings.cpp reader/height_fields.cpp
   reader/joint_drives.cpp reader/joint_kinds.cpp reader/joints.cpp reader/materials.cpp reader/mobile.cpp reader/names.cpp
   reader/node.cpp reader/obj.cpp reader/parse.cpp reader/polyhedra.cpp reader/reader.cpp reader/repeat.cpp
-  reader/file_text.cpp reader/read_decompose.cpp reader/read_torus.cpp reader/robots.cpp reader/stl.cpp reader/urdf.cpp reader/urdf_file.cpp reader/urdf_joints.cpp reader/urdf_loads.cpp
-  reader/urdf_shapes.cpp reader/urdf_tree.cpp
+  reader/file_text.cpp reader/read_decompose.cpp reader/read_torus.cpp reader/read_robots.cpp reader/stl.cpp reader/robots/add_robot.cpp reader/robots/formats.cpp reader/robots/joints.cpp reader/robots/loads.cpp
+  reader/robots/shapes.cpp reader/robots/tree.cpp reader/robots/urdf.cpp
   reader/attachments.cpp reader/ball.cpp reader/deformable_shapes.cpp reader/deformables.cpp reader/element_files.cpp reader/lattice.cpp
   reader/links.cpp reader/gmsh.cpp reader/plain_shapes.cpp reader/tetgen.cpp reader/tube.cpp
   reader/rotation.cpp reader/schema.cpp reader/settings.cpp reader/shapes.cpp reader/table.cpp reader/types.cpp)

@@ -5,7 +5,8 @@
 #include "reader/drafts.h"
 #include "reader/file_text.h"
 #include "reader/parse.h"
-#include "reader/urdf.h"
+#include "reader/robots/formats.h"
+#include "reader/robots/robot.h"
 
 namespace plumb::reader {
 
@@ -86,7 +87,7 @@ Scene parse_scene(std::string_view text, const std::filesystem::path& origin) {
 }
 
 Scene read_scene(const std::filesystem::path& file) {
-    if (file.extension() == ".urdf") return read_urdf(file);
+    if (reader::is_robot(file)) return read_robot(file);
     return parse_scene(reader::text_of_file(file), file);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// A robot from a URDF file: its bodies are where its masses are, its motors hold it up, and
 /// without them its joints keep together as it falls.
-#include "reader/urdf.h"
+#include "reader/robots/robot.h"
 #include "support/random.h"
 #include "support/scenes.h"
 #include "ties/joint_state.h"
@@ -20,8 +20,8 @@ INSTANTIATE_TEST_SUITE_P(
     where_name);
 
 /// Bent legs, and the motors' limits those of the file.
-UrdfOptions standing() {
-    UrdfOptions options;
+RobotOptions standing() {
+    RobotOptions options;
     options.hold = true;
     for (const std::string leg : {"front_left", "front_right", "hind_left", "hind_right"})
         options.positions[leg + "_swing"] = 0.7, options.positions[leg + "_knee"] = -1.4;
@@ -29,7 +29,7 @@ UrdfOptions standing() {
 }
 
 TEST_P(RobotLaws, BodiesAreAtTheirCentresOfMass) {
-    const Scene s = read_urdf(kQuadruped);
+    const Scene s = read_robot(kQuadruped);
     const Simulation simulation(s, colliders(), collider());
     const Bodies& b = simulation.world().bodies;
     // The trunk with the head, 0.3 m before and 0.04 m above it.
@@ -43,7 +43,7 @@ TEST_P(RobotLaws, BodiesAreAtTheirCentresOfMass) {
 /// Each knee carries a quarter of the trunk and sags by less than a hundredth of a radian. What
 /// stands does not slide.
 TEST_P(RobotLaws, HeldJointsKeepItStanding) {
-    Scene s = read_urdf(kQuadruped, standing());
+    Scene s = read_robot(kQuadruped, standing());
     s.settings.precision = std::get<1>(GetParam());
     Simulation simulation(s, colliders(), collider());
     const double height = simulation.world().bodies.position[0].y();
@@ -60,7 +60,7 @@ TEST_P(RobotLaws, HeldJointsKeepItStanding) {
 /// Motors of a twentieth of the strength, 3 N m, cannot: a quarter of the weight, 53 N, on the
 /// lever of a knee, 0.15 m, is 8 N m.
 TEST_P(RobotLaws, WeakMotorsLetItDown) {
-    Scene s = read_urdf(kQuadruped, standing());
+    Scene s = read_robot(kQuadruped, standing());
     s.settings.precision = std::get<1>(GetParam());
     for (JointSpec& joint : s.joints)
         for (JointAxisSpec& axis : joint.axes) axis.motor.greatest /= 20;
@@ -79,9 +79,9 @@ TEST_P(RobotLaws, JointsHoldAsItLandsOnItsFeet) {
         const double dt = draw == 0 ? 0.005 : random.number(0.002, 0.01);
         const std::uint32_t substeps = draw == 0 ? 1 : 1 + random.below(4);
         const double speed = std::min(2.8, 0.008 * substeps / dt);
-        UrdfOptions options = standing();
+        RobotOptions options = standing();
         options.placement.position.y() = random.number(0.3, 0.9) * speed * speed / (2 * 9.81);
-        Scene s = read_urdf(kQuadruped, options);
+        Scene s = read_robot(kQuadruped, options);
         s.settings.precision = std::get<1>(GetParam());
         s.settings.dt = dt, s.settings.substeps = substeps;
         SCOPED_TRACE(testing::Message() << "from " << options.placement.position.y() << " m, "
@@ -103,11 +103,11 @@ TEST_P(RobotLaws, JointsHoldAsItLandsOnItsFeet) {
 TEST_P(RobotLaws, LimpJointsHoldAsItTumbles) {
     Random random(22);
     for (int draw = 0; draw < 8; ++draw) {
-        UrdfOptions options = standing();
+        RobotOptions options = standing();
         options.hold = false;
         options.placement.position.y() = random.number(0.3, 1.2);
         options.placement.rotation = random.rotation();
-        Scene s = read_urdf(kQuadruped, options);
+        Scene s = read_robot(kQuadruped, options);
         s.settings.precision = std::get<1>(GetParam());
         s.settings.dt = draw == 0 ? 0.005 : random.number(0.003, 0.007);
         s.settings.substeps = draw == 0 ? 1 : 1 + random.below(2);
@@ -138,10 +138,10 @@ std::vector<double> coordinates(const World& world) {
 /// Legs that swing from a trunk which is held on its side, as a file for itself is read: of second
 /// order in the step where no limit is reached and nothing rubs.
 TEST_P(RobotLaws, SwingingLegsConvergeBySecondOrder) {
-    UrdfOptions options = standing();
+    RobotOptions options = standing();
     options.hold = options.self_collision = false;
     options.base = RobotBase::fixed;
-    Scene s = read_urdf(kQuadruped, options);
+    Scene s = read_robot(kQuadruped, options);
     s.settings.precision = std::get<1>(GetParam());
     s.settings.gravity = {0, 0, -9.81};
     for (JointSpec& joint : s.joints) joint.axes[kTurnX] = {};

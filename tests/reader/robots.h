@@ -9,7 +9,7 @@
 #include <string>
 
 #include "reader/reader.h"
-#include "reader/urdf.h"
+#include "reader/robots/robot.h"
 
 namespace plumb::test {
 
@@ -30,14 +30,14 @@ protected:
     }
 
     /// The scene of a robot's elements alone: no ground, and not lifted.
-    Scene scene_of(const std::string& elements, const UrdfOptions& options = {}) const {
+    Scene scene_of(const std::string& elements, const RobotOptions& options = {}) const {
         Scene scene;
         add_robot(scene, write("robot.urdf", robot(elements)), options);
         return scene;
     }
 
     /// What adding a robot complains of, which must name the file.
-    std::string error_of_text(const std::string& text, const UrdfOptions& options = {}) const {
+    std::string error_of_text(const std::string& text, const RobotOptions& options = {}) const {
         const std::filesystem::path file = write("robot.urdf", text);
         try {
             Scene scene;
@@ -48,7 +48,7 @@ protected:
         }
         return "no error";
     }
-    std::string error_of(const std::string& elements, const UrdfOptions& options = {}) const {
+    std::string error_of(const std::string& elements, const RobotOptions& options = {}) const {
         return error_of_text(robot(elements), options);
     }
 

@@ -71,7 +71,7 @@ TEST_F(Robots, RefuseToMoveWhatHasNoMass) {
                  "link \"b\": its inertia is of no body");
     expect_words(error_of(moving("<link name='b'>" + inertial("1 1 1", "-1", "0 0 0") + "</link>")),
                  "link \"b\": its mass must be 0, or a number");
-    UrdfOptions options;
+    RobotOptions options;
     options.base = RobotBase::free;
     expect_words(error_of("<link name='w'/>" + link("a") + joint("continuous", "w", "a"), options),
                  "link \"w\", the root, has no mass, so it cannot be free");
@@ -81,14 +81,14 @@ TEST_F(Robots, RefusePositionsAndMotorsOfNoJoint) {
     const std::string arm = link("a") + link("b") + link("c") +
                             joint("revolute", "a", "b", kLimit) + joint("fixed", "b", "c");
     const auto starting = [&](const std::string& name, double position) {
-        UrdfOptions options;
+        RobotOptions options;
         options.positions[name] = position;
         return error_of(arm, options);
     };
     expect_words(starting("ba", 1), "there is no joint \"ba\"; did you mean \"ab\"?");
     expect_words(starting("bc", 1), "joint \"bc\" neither turns nor slides");
     expect_words(starting("ab", 2.5), "joint \"ab\" cannot start at 2.5");
-    UrdfOptions options;
+    RobotOptions options;
     options.motors["bc"] = {};
     expect_words(error_of(arm, options), "joint \"bc\" neither turns nor slides");
 }
@@ -102,7 +102,7 @@ TEST_F(Robots, RefuseMimicsOfNothing) {
     expect_words(error_of(links + joint("continuous", "a", "b", mimic("ac")) +
                           joint("continuous", "a", "c", mimic("ab"))),
                  "mimics itself");
-    UrdfOptions options;
+    RobotOptions options;
     options.positions["ab"] = 1;
     expect_words(
         error_of(links + joint("continuous", "a", "b", mimic("ac")) + joint("continuous", "a", "c"),

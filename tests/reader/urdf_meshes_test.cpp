@@ -35,7 +35,7 @@ TEST_F(Robots, MeshesOfMovingLinksAreHulls) {
 
 TEST_F(Robots, MeshesOfFixedLinksStayMeshes) {
     write("box.obj", kBox);
-    UrdfOptions options;
+    RobotOptions options;
     options.base = RobotBase::fixed;
     const Scene scene = scene_of(link("a", collision(mesh("box.obj"))), options);
     EXPECT_EQ(scene.geometries[0].kind, ShapeKind::mesh);
@@ -50,7 +50,7 @@ TEST_F(Robots, MirroredMeshesCanBeDecomposed) {
     two +=
         "f 12 11 10 9\nf 13 14 15 16\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\nf 12 9 13 16\n";
     write("two.obj", two);
-    UrdfOptions options;
+    RobotOptions options;
     options.decompose = true;
     const Scene scene =
         scene_of(link("a", collision(mesh("two.obj", "-1 1 1"), "<origin xyz='0 0 7'/>")), options);
@@ -82,7 +82,7 @@ TEST_F(Robots, MissingMeshesAreErrorsUnlessOptional) {
     const std::string gone =
         link("a", collision(mesh("package://p/gone.stl")) + collision("<sphere radius='1'/>"));
     expect_words(error_of(gone), "link \"a\": there is no mesh file \"package://p/gone.stl\"");
-    UrdfOptions options;
+    RobotOptions options;
     options.meshes_required = false;
     const Scene scene = scene_of(gone, options);
     EXPECT_EQ(scene.geometries[0].kind, ShapeKind::sphere);

@@ -60,7 +60,7 @@ TEST_F(Robots, SurviveDamage) {
     std::ifstream file(PLUMB_SAMPLES "/scenes/robots/quadruped.urdf");
     const std::string good((std::istreambuf_iterator<char>(file)), {});
     ASSERT_FALSE(good.empty());
-    UrdfOptions options;
+    RobotOptions options;
     options.hold = true;
     Random random(20240301);
     int robots = 0, errors = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Links and joints of URDF files against what is computed by hand. A URDF's (x, y, z) is the
 /// scene's (x, z, −y).
-#include "reader/urdf.h"
+#include "reader/robots/robot.h"
 
 #include <cmath>
 #include <numbers>
@@ -170,7 +170,7 @@ TEST_F(Robots, StartWhereTheirJointsAreSaidToBe) {
         joint("prismatic", "b", "c", kLimit + R"(<origin xyz="2 0 0"/><axis xyz="1 0 0"/>)") +
         joint("continuous", "c", "d",
               R"(<origin xyz="1 0 0" rpy="0 1.5707963267948966 0"/><axis xyz="0 0 1"/>)");
-    UrdfOptions options;
+    RobotOptions options;
     options.positions = {{"ab", 0.5}, {"bc", 0.25}, {"cd", 3.0}};
     options.placement.position = {0, 10, 0};
     const Scene scene = scene_of(arm, options);
@@ -202,7 +202,7 @@ TEST_F(Robots, MotorsAimAtWhatTheUrdfCounts) {
     const std::string arm = link("a") + link("b") + link("c") + link("d") +
                             joint("revolute", "a", "b", kLimit) +
                             joint("prismatic", "b", "c", kLimit) + joint("continuous", "c", "d");
-    UrdfOptions options;
+    RobotOptions options;
     options.positions = {{"ab", 0.5}, {"bc", 1}};
     options.hold = true;
     options.motors["ab"] = {MotorMode::position, 1.25, 7.0, 3, 0.5};
@@ -225,7 +225,7 @@ TEST_F(Robots, MotorsAimAtWhatTheUrdfCounts) {
 }
 
 TEST_F(Robots, MotorsAnswerAsTheHeavierSideOfTheirJointFeels) {
-    UrdfOptions options;
+    RobotOptions options;
     options.hold = true;
     const auto frequency = [&](const std::string& elements, JointAxis axis) {
         return scene_of(elements, options).joints[0].axes[axis].motor.frequency;
@@ -254,7 +254,7 @@ TEST_F(Robots, MimicsAreCoupled) {
         joint("prismatic", "a", "c",
               kLimit + R"(<axis xyz="1 0 0"/><mimic joint="ab" multiplier="2" offset="0.25"/>)") +
         joint("revolute", "a", "b", kLimit);
-    UrdfOptions options;
+    RobotOptions options;
     options.positions["ab"] = 0.5;
     options.hold = true;
     const Scene scene = scene_of(hand, options);
@@ -277,7 +277,7 @@ TEST_F(Robots, ARootWithoutMassIsTheWorld) {
     EXPECT_EQ(scene.joints[0].body_a, 0u);
     EXPECT_EQ(scene.joints[0].body_b, kNoIndex);
 
-    UrdfOptions options;
+    RobotOptions options;
     options.base = RobotBase::fixed;
     const Scene fixed = scene_of(
         link("a", collision(R"(<sphere radius="1"/>)")) + link("b") + joint("continuous", "a", "b"),
@@ -291,7 +291,7 @@ TEST_F(Robots, SelfCollisionCanBeOff) {
     const std::string arm = link("a") + link("b") + link("c") + joint("continuous", "a", "b") +
                             joint("continuous", "b", "c");
     EXPECT_TRUE(scene_of(arm).apart.empty());
-    UrdfOptions options;
+    RobotOptions options;
     options.self_collision = false;
     const std::vector<std::array<std::uint32_t, 2>> wanted = {{0, 2}};  // no joint ties
     EXPECT_EQ(scene_of(arm, options).apart, wanted);
@@ -308,7 +308,7 @@ TEST_F(Robots, LinksThatOverlapAtTheStartDoNotCollide) {
     EXPECT_TRUE(straight.remarks.empty());
 
     // Bent by 2 rad, a and c are 2 · 0.5 · cos(1) = 0.54 apart.
-    UrdfOptions options;
+    RobotOptions options;
     options.positions["ab"] = 2;
     const std::vector<std::array<std::uint32_t, 2>> wanted = {{0, 2}};
     const Scene bent = scene_of(arm, options);
@@ -336,7 +336,7 @@ TEST_F(Robots, LinksThatBeginInTheGroundDoNotCollideWithItWhereTheBaseIsFixed) {
         ground.geometries.push_back(shape);
         ground.bodies.push_back(body);
     }
-    UrdfOptions options;
+    RobotOptions options;
     options.base = RobotBase::fixed;
     Scene held = ground;
     add_robot(held, file, options);
@@ -364,7 +364,7 @@ TEST_F(Robots, VisualElementsAreNotRead) {
              R"(<visual><geometry><mesh filename="gone.dae"/></geometry><material/></visual>)"));
     EXPECT_TRUE(scene.geometries.empty());
     ASSERT_EQ(scene.remarks.size(), 1u);
-    expect_words(scene.remarks[0], "none of its links has a \"collision\" element");
+    expect_words(scene.remarks[0], "none of its links has a shape that collides");
 }
 
 TEST_F(Robots, StandOnTheGroundWhenReadAlone) {
@@ -388,7 +388,7 @@ TEST_F(Robots, StandOnTheGroundWhenReadAlone) {
 }
 
 TEST_F(Robots, AreTurnedByTheirPlacement) {
-    UrdfOptions options;
+    RobotOptions options;
     options.placement.rotation = Eigen::AngleAxisd(pi / 2, Eigen::Vector3d::UnitY());
     const Scene scene = scene_of(
         link("a") + link("b") + joint("continuous", "a", "b", R"(<origin xyz="1 0 0"/>)"), options);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: MIT
-/// The collision elements of a robot's links as shapes.
+/// What collides of a robot's links, as shapes; meshes are read from their files.
 #pragma once
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
-#include "reader/urdf_tree.h"
+#include "reader/robots/tree.h"
 
 namespace plumb::reader {
 
 struct CollisionOptions {
-    std::filesystem::path folder;  ///< of the URDF file, from where meshes are looked for
+    std::filesystem::path folder;  ///< of the robot's file, from where meshes are looked for
     bool meshes_required = true;   ///< else those that cannot be had are left out, with a remark
     bool decompose = false;        ///< several hulls for a mesh instead of one
 };

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-/// Robots from URDF files (by urdfdom).
+/// Robots from their files, of which URDF is read (robots/formats.h).
 ///
-/// Links become bodies and joints joints; links that a fixed joint ties are one body. Masses are
-/// those of the "inertial" elements, shapes those of the "collision" elements; what looks alone
-/// serves is not read, and limits of velocity of 0 are not kept. A URDF's z axis points up; in the
-/// scene it points along y. Links of a robot whose base is fixed do not collide with fixed bodies
-/// that they begin in. What was left out or changed is told in Scene::remarks.
+/// Links become bodies and joints joints; links that a fixed joint ties are one body. Shapes are
+/// those that collide (a URDF's "collision" elements); what looks alone serves is not read. A
+/// robot's z axis points up; in the scene it points along y. Links of a robot whose base is fixed
+/// do not collide with fixed bodies that they begin in. What was left out or changed is told in
+/// Scene::remarks.
 #pragma once
 
 #include <cstdint>
@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "reader/robots/description.h"
 #include "scene/error.h"
 #include "scene/scene.h"
 
@@ -27,17 +28,17 @@ enum class RobotBase : std::uint32_t {
     free
 };
 
-/// What drives one of a robot's joints; targets are counted as the URDF counts.
+/// What drives one of a robot's joints; targets are counted as its file counts.
 struct RobotMotor {
     MotorMode mode = MotorMode::position;
     double target = 0;               ///< [rad], [m]; [rad/s], [m/s]
-    std::optional<double> greatest;  ///< [N m], [N]; else the URDF's limit of effort
+    std::optional<double> greatest;  ///< [N m], [N]; else the joint's limit of effort
     double frequency = 5;            ///< of a position motor: of the heavier side of the joint,
                                      ///< all other joints stiff [Hz]
     double damping_ratio = 1;
 };
 
-struct UrdfOptions {
+struct RobotOptions {
     std::string name;     ///< "NAME/LINK" is a body, "NAME/JOINT" a joint; empty: the robot's own
     Placement placement;  ///< of the root link; turned by nothing, its z axis points along y
     RobotBase base = RobotBase::by_mass;
@@ -64,11 +65,15 @@ struct Robot {
 /// Adds a robot to a scene. Throws SceneError, with the file and the name of the link or joint.
 ///
 /// A joint's coordinate is counted from where it starts, for a joint's frames coincide then: the
-/// URDF's limits and the motors' targets are shifted accordingly.
-Robot add_robot(Scene& scene, const std::filesystem::path& file, const UrdfOptions& options);
+/// file's limits and the motors' targets are shifted accordingly.
+Robot add_robot(Scene& scene, const std::filesystem::path& file, const RobotOptions& options);
+/// The same of one that is no file, or of no format known here. `file`: its folder is where meshes
+/// are looked for, its name stands in errors and remarks.
+Robot add_robot(Scene& scene, RobotDescription description, const std::filesystem::path& file,
+                const RobotOptions& options);
 
 /// A scene of one robot, whose lowest point stands on the ground, a plane at y = 0. The position of
 /// the options is added to that. Steps of 5 ms, with a leapfrog start.
-Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options = {});
+Scene read_robot(const std::filesystem::path& file, const RobotOptions& options = {});
 
 }  // namespace plumb

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// "robots": URDF files, each at a place of the scene.
 #include "reader/drafts.h"
-#include "reader/urdf.h"
+#include "reader/robots/robot.h"
 
 namespace plumb::reader {
 
@@ -10,7 +10,7 @@ namespace {
 struct RobotDraft {
     SceneDraft* scene;
     std::string file;
-    UrdfOptions options;
+    RobotOptions options;
 };
 
 enum class Meshes { required, optional };

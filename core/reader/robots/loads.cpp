@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/urdf_loads.h"
+#include "reader/robots/loads.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,7 +58,7 @@ double response_of(const PlacedMass& b, const Vector3d& p, const Vector3d& a, bo
 
 /// Whether a group hangs on nothing.
 bool is_free(const LinkGroup& group) {
-    return !group.joint || group.joint->type == urdf::Joint::FLOATING;
+    return !group.joint || group.joint->kind == RobotJointKind::floating;
 }
 
 }  // namespace
@@ -77,10 +77,10 @@ std::vector<double> frequency_factors(const std::vector<LinkGroup>& groups,
     std::vector<std::size_t> root(groups.size());
     for (std::size_t i = 0; i < groups.size(); ++i) {
         root[i] = is_free(groups[i]) ? i : root[groups[i].parent];
-        if (is_free(groups[i]) || !has_coordinate(*groups[i].joint)) continue;
+        if (is_free(groups[i]) || !groups[i].joint->has_coordinate()) continue;
         const Vector3d p = groups[i].world.position;
         const Vector3d a = groups[i].world.rotation * axis_of(*groups[i].joint);
-        const bool slides = is_prismatic(*groups[i].joint);
+        const bool slides = groups[i].joint->is_slider();
         const auto inertia = [&](const Load& load) {
             return slides ? load.mass : load.about(p, a);
         };

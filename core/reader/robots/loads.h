@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-#include "reader/urdf_tree.h"
+#include "reader/robots/tree.h"
 
 namespace plumb::reader {
 

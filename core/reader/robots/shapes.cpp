@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "reader/urdf_shapes.h"
+#include "reader/robots/shapes.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
 #include <system_error>
 
@@ -21,36 +20,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The axis of Plumb's cylinders, y, to that of a URDF's, z.
-Eigen::Quaterniond y_to_z() {
-    return Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
-}
-
 /// A mesh that cannot be had: missing, or of a format that is not read.
 class NoMesh : public BadRobot {
     using BadRobot::BadRobot;
 };
-
-double size(double value, const char* what) {
-    if (!(value >= kLength.low && value <= kLength.high))
-        throw BadRobot(std::string(what) + " must be " + in_words(kLength, "a number"));
-    return value;
-}
-
-Geometry shape_of(const urdf::Box& b) {
-    Eigen::Vector3d half;
-    for (int i = 0; i < 3; ++i) half[i] = size(to_eigen(b.dim)[i] / 2, "half the size of a box");
-    return box(half);
-}
-
-Geometry shape_of(const urdf::Sphere& s) {
-    return sphere(size(s.radius, "the radius of a sphere"));
-}
-
-Geometry shape_of(const urdf::Cylinder& c) {
-    const double radius = size(c.radius, "the radius of a cylinder");
-    return cylinder(radius, size(c.length / 2, "half the length of a cylinder"));
-}
 
 bool is_file(const fs::path& path) {
     std::error_code error;
@@ -100,15 +73,15 @@ TriangleMesh load_mesh(const fs::path& file, const std::string& uri) {
 }
 
 /// The mesh as its file has it, scaled. A mirrored one is turned inside out again.
-Geometry triangles(const urdf::Mesh& mesh, const fs::path& folder) {
-    TriangleMesh loaded = load_mesh(mesh_file(mesh.filename, folder), mesh.filename);
-    const Eigen::Vector3d scale = to_eigen(mesh.scale);
+Geometry triangles(const RobotMesh& mesh, const fs::path& folder) {
+    TriangleMesh loaded = load_mesh(mesh_file(mesh.uri, folder), mesh.uri);
+    const Eigen::Vector3d& scale = mesh.scale;
     if (!(scale.cwiseAbs().minCoeff() >= kScale.low && scale.cwiseAbs().maxCoeff() <= kScale.high))
-        throw BadRobot("the scale of the mesh \"" + mesh.filename + "\" is 0, or far from 1");
+        throw BadRobot("the scale of the mesh \"" + mesh.uri + "\" is 0, or far from 1");
     for (Eigen::Vector3d& p : loaded.vertices) {
         p = p.cwiseProduct(scale);
         if (!(p.cwiseAbs().maxCoeff() <= kLength.high))
-            throw BadRobot("a vertex of the mesh \"" + mesh.filename + "\" is too far away");
+            throw BadRobot("a vertex of the mesh \"" + mesh.uri + "\" is too far away");
     }
     if (scale.prod() < 0) {
         for (auto& t : loaded.triangles) std::swap(t[1], t[2]);
@@ -120,35 +93,20 @@ Geometry triangles(const urdf::Mesh& mesh, const fs::path& folder) {
     return g;
 }
 
-Geometry mesh_shape(const urdf::Mesh& mesh, bool moves, const CollisionOptions& options) {
+Geometry mesh_shape(const RobotMesh& mesh, bool moves, const CollisionOptions& options) {
     Geometry g = triangles(mesh, options.folder);
     if (!moves) return g;
     try {
         return options.decompose ? decomposed(g, {}) : hull_geometry(g.vertices);
     } catch (const BadShape& error) {
-        throw BadRobot("the mesh \"" + mesh.filename + "\": " + error.what());
+        throw BadRobot("the mesh \"" + mesh.uri + "\": " + error.what());
     }
 }
 
-GeometryPart part(const urdf::Collision& collision, bool moves, const CollisionOptions& options) {
-    GeometryPart part{{}, to_placement(collision.origin)};
-    const urdf::Geometry& g = *collision.geometry;
-    switch (g.type) {
-        case urdf::Geometry::BOX:
-            part.geometry = shape_of(static_cast<const urdf::Box&>(g));
-            break;
-        case urdf::Geometry::SPHERE:
-            part.geometry = shape_of(static_cast<const urdf::Sphere&>(g));
-            break;
-        case urdf::Geometry::CYLINDER:
-            part.geometry = shape_of(static_cast<const urdf::Cylinder&>(g));
-            part.local.rotation = part.local.rotation * y_to_z();
-            break;
-        case urdf::Geometry::MESH:
-            part.geometry = mesh_shape(static_cast<const urdf::Mesh&>(g), moves, options);
-            break;
-    }
-    return part;
+GeometryPart part(const RobotShape& shape, bool moves, const CollisionOptions& options) {
+    const auto* mesh = std::get_if<RobotMesh>(&shape.geometry);
+    return {mesh ? mesh_shape(*mesh, moves, options) : std::get<Geometry>(shape.geometry),
+            shape.placement};
 }
 
 double lowest(const std::vector<Eigen::Vector3d>& points, const Placement& place) {
@@ -168,10 +126,10 @@ std::vector<GeometryPart> collision_parts(const LinkGroup& group, bool moves,
         parts.push_back(std::move(part));
     };
     for (const auto& [link, in_group] : group.links) {
-        for (const auto& collision : link->collision_array) {
+        for (const RobotShape& shape : link->shapes) {
             const std::string about = link_named(link->name) + ": ";
             try {
-                GeometryPart whole = part(*collision, moves, options);
+                GeometryPart whole = part(shape, moves, options);
                 if (whole.geometry.kind == ShapeKind::compound) {
                     for (GeometryPart& hull : whole.geometry.parts)
                         add(std::move(hull), in_group * whole.local);

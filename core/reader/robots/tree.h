@@ -6,45 +6,40 @@
 #include <string>
 #include <vector>
 
-#include "reader/urdf_file.h"
+#include "reader/robots/description.h"
 #include "scene/scene.h"
 
 namespace plumb::reader {
 
-Eigen::Vector3d to_eigen(const urdf::Vector3& v);
-Placement to_placement(const urdf::Pose& pose);
-
 /// A link and its place in the frame of the first link of its group.
 struct GroupedLink {
-    const urdf::Link* link;
+    const RobotLink* link;
     Placement in_group;
 };
 
 /// Links that move as one. The frame of the first is the group's.
 struct LinkGroup {
     std::vector<GroupedLink> links;
-    std::uint32_t parent = kNoIndex;     ///< group that `joint` ties this one to
-    const urdf::Joint* joint = nullptr;  ///< the root has none
-    Placement joint_in_parent;           ///< of the joint's frame in the parent's, at coordinate 0
-    Placement world;                     ///< at the start
+    std::uint32_t parent = kNoIndex;    ///< group that `joint` ties this one to
+    const RobotJoint* joint = nullptr;  ///< the root has none
+    Placement joint_in_parent;          ///< of the joint's frame in the parent's, at coordinate 0
+    Placement world;                    ///< at the start
 
     const std::string& name() const { return links.front().link->name; }
 };
 
-/// All groups, parents before children.
-std::vector<LinkGroup> link_groups(const urdf::ModelInterface& model);
+/// All groups, parents before children. `robot` outlives them. Throws BadRobot for what is no tree.
+std::vector<LinkGroup> link_groups(const RobotDescription& robot);
 
-/// Whether a joint has one coordinate: revolute, continuous and prismatic ones do.
-bool has_coordinate(const urdf::Joint& joint);
-bool is_prismatic(const urdf::Joint& joint);
-bool has_limits(const urdf::Joint& joint);
+/// Throws BadRobot, with the nearest spelling, where there is none of that name.
+const RobotJoint& known_joint(const RobotDescription& robot, const std::string& name);
 
 /// The unit axis of a joint, in its frame.
-Eigen::Vector3d axis_of(const urdf::Joint& joint);
+Eigen::Vector3d axis_of(const RobotJoint& joint);
 
 /// The coordinate at the start of every joint that has one [rad], [m]. Where `given` has none, it
 /// is 0, or the limit that is nearest to 0; a mimic's follows from its joint's. Throws BadRobot.
-std::map<std::string, double> start_positions(const urdf::ModelInterface& model,
+std::map<std::string, double> start_positions(const RobotDescription& robot,
                                               const std::map<std::string, double>& given,
                                               std::vector<std::string>& remarks);
 

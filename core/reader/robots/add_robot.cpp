@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/urdf.h"
+#include "reader/robots/robot.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,12 @@
 #include <set>
 
 #include "geometry/overlap.h"
+#include "reader/robots/formats.h"
+#include "reader/robots/joints.h"
+#include "reader/robots/loads.h"
+#include "reader/robots/shapes.h"
+#include "reader/robots/tree.h"
 #include "reader/types.h"
-#include "reader/urdf_joints.h"
-#include "reader/urdf_loads.h"
-#include "reader/urdf_shapes.h"
-#include "reader/urdf_tree.h"
 #include "scene/build.h"
 
 namespace plumb {
@@ -19,28 +20,30 @@ namespace plumb {
 namespace reader {
 namespace {
 
-/// A URDF's z axis, which points up, to the scene's y axis.
+/// A robot's z axis, which points up, to the scene's y axis.
 Eigen::Quaterniond z_to_y() {
     return Eigen::Quaterniond(Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
 }
 
 class RobotBuilder {
 public:
-    RobotBuilder(Scene& scene, const std::filesystem::path& file, const UrdfOptions& options)
+    RobotBuilder(Scene& scene, RobotDescription description, const std::filesystem::path& file,
+                 const RobotOptions& options)
         : scene_(scene),
           options_(options),
           file_name_(file.filename().string()),
-          model_(load_urdf(file)),
-          groups_(link_groups(*model_)) {
+          description_(std::move(description)),
+          groups_(link_groups(description_)),
+          remarks_(description_.remarks) {
         collision_ = {file.parent_path(), options.meshes_required, options.decompose};
         robot_.name = !options.name.empty()        ? options.name
-                      : !model_->getName().empty() ? model_->getName()
+                      : !description_.name.empty() ? description_.name
                                                    : file.stem().string();
     }
 
     Robot build() {
-        check_motors(*model_, options_);
-        starts_ = start_positions(*model_, options_.positions, remarks_);
+        check_motors(description_, options_);
+        starts_ = start_positions(description_, options_.positions, remarks_);
         place(groups_, options_.placement * Placement{Eigen::Vector3d::Zero(), z_to_y()}, starts_);
         const auto first_body = static_cast<std::uint32_t>(scene_.bodies.size());
         for (std::size_t i = 0; i < groups_.size(); ++i) add_body(groups_[i], i == 0);
@@ -121,7 +124,7 @@ private:
 
     void add_joint(std::size_t i, double frequency_factor) {
         const LinkGroup& group = groups_[i];
-        if (group.joint->type == urdf::Joint::FLOATING) return;
+        if (group.joint->kind == RobotJointKind::floating) return;
         const auto start = starts_.find(group.joint->name);
         JointSpec joint =
             joint_of(group, start == starts_.end() ? 0 : start->second, options_, remarks_);
@@ -134,12 +137,12 @@ private:
     }
 
     void add_couplings() {
-        for (const auto& [name, joint] : model_->joints_) {
-            if (!joint->mimic || !has_coordinate(*joint)) continue;
-            const urdf::Joint& other = *model_->joints_.at(joint->mimic->joint_name);
-            CouplingSpec coupling = coupling_of(*joint, other, starts_);
-            coupling.name = full(name);
-            coupling.joint_a = joints_.at(other.name), coupling.joint_b = joints_.at(name);
+        for (const RobotJoint& joint : description_.joints) {
+            if (!joint.mimic || !joint.has_coordinate()) continue;
+            const RobotJoint& other = *description_.find_joint(joint.mimic->joint);
+            CouplingSpec coupling = coupling_of(joint, other, starts_);
+            coupling.name = full(joint.name);
+            coupling.joint_a = joints_.at(other.name), coupling.joint_b = joints_.at(joint.name);
             scene_.couplings.push_back(std::move(coupling));
         }
     }
@@ -200,7 +203,7 @@ private:
         for (std::size_t i = first; i < scene_.bodies.size(); ++i)
             if (scene_.bodies[i].geometry != kNoIndex) return;
         remarks_.emplace_back(
-            "none of its links has a \"collision\" element, so it collides with nothing");
+            "none of its links has a shape that collides, so it collides with nothing");
     }
 
     bool are_overlapping(const BodySpec& a, const BodySpec& b) const {
@@ -210,16 +213,16 @@ private:
     }
 
     Scene& scene_;
-    const UrdfOptions& options_;
+    const RobotOptions& options_;
     std::string file_name_;
-    urdf::ModelInterfaceSharedPtr model_;
+    RobotDescription description_;
     std::vector<LinkGroup> groups_;
     CollisionOptions collision_;
     std::vector<std::string> remarks_;
     std::map<std::string, double> starts_;  // coordinates at the start, by joint [rad], [m]
     std::vector<std::optional<MovingMass>> masses_;  // [group], none where it is fixed
     std::vector<std::uint32_t> bodies_;              // [group], kNoIndex: the world
-    std::map<std::string, std::uint32_t> joints_;    // indices by the URDF's names
+    std::map<std::string, std::uint32_t> joints_;    // indices by the names of the file
     Robot robot_;
 };
 
@@ -241,15 +244,20 @@ double lowest_of_all(const Scene& scene) {
 }  // namespace
 }  // namespace reader
 
-Robot add_robot(Scene& scene, const std::filesystem::path& file, const UrdfOptions& options) {
+Robot add_robot(Scene& scene, RobotDescription description, const std::filesystem::path& file,
+                const RobotOptions& options) {
     try {
-        return reader::RobotBuilder(scene, file, options).build();
+        return reader::RobotBuilder(scene, std::move(description), file, options).build();
     } catch (const reader::BadRobot& error) {
         throw SceneError(file.string(), "", error.what());
     }
 }
 
-Scene read_urdf(const std::filesystem::path& file, const UrdfOptions& options) {
+Robot add_robot(Scene& scene, const std::filesystem::path& file, const RobotOptions& options) {
+    return add_robot(scene, reader::load_robot(file), file, options);
+}
+
+Scene read_robot(const std::filesystem::path& file, const RobotOptions& options) {
     Scene scene;
     scene.name = add_robot(scene, file, options).name;
     const double lowest = reader::lowest_of_all(scene);
