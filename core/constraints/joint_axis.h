@@ -7,14 +7,17 @@
 /// Along: q = e_k · (p_a − p_b) with e_k riding on b, so e = e_k, g_a = r_a × e, and on b the same
 /// impulse acts at the same point p_a, g_b = (p_a − x_b) × e. About: e = 0 and g_a = g_b = g, for a
 /// joint only feels how the bodies turn against each other. One free axis: the whole angle about
-/// it. Several: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual basis of the three
-/// axes x_b, y′, z_a). Cone and twist: R = swing · twist about x (§5 names neither).
+/// it. Two, with the third locked: R_bᵀ R_a is a turn about an axis of b and then one about an axis
+/// of a, each a whole angle. Three: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual
+/// basis of the three axes x_b, y′, z_a). Cone and twist: R = swing · twist about x (§5 names
+/// neither).
 #pragma once
 
 #include "math/rotation.h"
 #include "scene/joint.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plumb {
@@ -64,6 +67,21 @@ inline JointCoordinate coordinate_about(const JointPose& p, int k) {
         Vector3d::Zero(), axis, axis};
 }
 
+/// About axis k, where the turn about `locked` is the only one that is not free: the bodies turn
+/// about the axis of b that follows it, then about the remaining one of a. The first angle is that
+/// of the latter axis as b sees it, the second that of the former as a does.
+inline JointCoordinate coordinate_of_two(const JointPose& p, int locked, int k) {
+    const int next = (locked + 1) % 3, last = (locked + 2) % 3;
+    const bool first = k == next;
+    const Vector3d seen = first ? p.axes_a.col(last) : p.axes_b.col(next);
+    const Matrix3d& from = first ? p.axes_b : p.axes_a;
+    const Vector3d cosine = from.col(first ? last : next), sine = from.col(locked);
+    const double c = cosine.dot(seen), s = sine.dot(seen);
+    const Vector3d turn = seen.cross(Vector3d(c * sine - s * cosine)) *
+                          ((first ? 1 : -1) / std::max(c * c + s * s, 1e-9));
+    return {full_angle(s, c), Vector3d::Zero(), turn, turn};
+}
+
 /// α, β or γ (k = 0, 1, 2) of R_bᵀ R_a = R_x(α) R_y(β) R_z(γ).
 inline JointCoordinate coordinate_euler(const JointPose& p, int k) {
     const Matrix3d r = p.axes_b.transpose() * p.axes_a;
@@ -100,16 +118,19 @@ inline JointCoordinate coordinate_swing(const JointPose& p) {
     return {full_angle(sine, cosine), Vector3d::Zero(), turn, turn};
 }
 
-/// The coordinate of a joint along or about an axis that it leaves free. `free_turns`: how many
-/// rotations it leaves.
-inline JointCoordinate joint_coordinate(JointKind kind, int free_turns, const JointPose& p,
-                                        std::uint32_t axis) {
+/// The coordinate of a joint along or about an axis that it leaves free.
+inline JointCoordinate joint_coordinate(JointKind kind, const std::array<bool, kJointAxes>& locked,
+                                        const JointPose& p, std::uint32_t axis) {
     if (kind == JointKind::distance) return coordinate_distance(p);
     if (axis <= kAlongZ) return coordinate_along(p, p.axes_b.col(axis));
     if (kind == JointKind::cone_twist)
         return axis == kTurnX ? coordinate_twist(p) : coordinate_swing(p);
     const int k = static_cast<int>(axis - kTurnX);
-    return free_turns == 1 ? coordinate_about(p, k) : coordinate_euler(p, k);
+    int count = 0, which = 0;  // of the turns that are locked
+    for (int i = 0; i < 3; ++i)
+        if (locked[kTurnX + i]) ++count, which = i;
+    if (count == 2) return coordinate_about(p, k);
+    return count == 1 ? coordinate_of_two(p, which, k) : coordinate_euler(p, k);
 }
 
 }  // namespace plumb

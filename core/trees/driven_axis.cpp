@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include "trees/driven_axis.h"
 
+#include "math/rotation.h"
 #include "ties/drive_state.h"
+#include "ties/joint_state.h"
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace plumb {
 namespace {
@@ -38,9 +41,12 @@ void DrivenAxis::begin(const World& world, const SubstepTime& time) {
     const double mass = driven_mass(world, joint, joint_geometry(world, joint, time), q_);
     response_ = bare_ = mass > 0 ? 1 / mass : 0;
     drive_ = {};
-    for (std::uint32_t i = first_; i < last_; ++i)
-        drive_.add(drive_row(world, world.joints.drives[i], q_, mass, time));
-    h_ = time.h;
+    for (std::uint32_t i = first_; i < last_; ++i) {
+        rows_[i - first_] = drive_row(world, world.joints.drives[i], q_, mass, time);
+        drive_.add(rows_[i - first_]);
+    }
+    h_ = time.h, turned_ = 0;
+    find_limit(world);
     // what it bore before tells best on which piece it is
     constexpr double any = 1e30;
     answer_ = next_ = response_ > 0 ? answer_of(drive_, 0, impulse_, any) : AxisAnswer{};
@@ -52,8 +58,52 @@ double DrivenAxis::rate_of(const Velocity<double>& a, const Velocity<double>& b)
     return q_.along.dot(a.v - b.v) + q_.turn_a.dot(a.w) - q_.turn_b.dot(b.w);
 }
 
+/// Where one turn alone is free, its axis stays.
+void DrivenAxis::find_limit(const World& world) {
+    const JointDrive& leader = world.joints.drives[first_];
+    const Joint& joint = world.joints.joints[leader.joint];
+    limit_ = -1, kind_ = joint.kind, axis_ = leader.axis, locked_ = joint.locked;
+    if (!(response_ > 0) || (axis_ >= kTurnX && free_turns(joint) == 1)) return;
+    for (std::uint32_t i = first_; i < last_; ++i)
+        if (world.joints.drives[i].kind == DriveKind::limit)
+            limit_ = static_cast<int>(i - first_), pose_ = joint_pose(world.bodies, joint);
+}
+
+/// By how much the coordinate at the end of the substep differs from what its rate says.
+double DrivenAxis::turned(const Velocity<double>& a, const Velocity<double>& b) const {
+    JointPose end;
+    const auto move = [&](const Velocity<double>& of, const Vector3d& centre, const Vector3d& point,
+                          const Matrix3d& axes, Vector3d& new_point, Matrix3d& new_axes) {
+        const UnitQuaternion<double> turn = unit_exponential<double>(h_ * of.w);
+        new_point = centre + h_ * of.v + turn * Vector3d(point - centre);
+        for (int k = 0; k < 3; ++k) new_axes.col(k) = turn * Vector3d(axes.col(k));
+    };
+    move(a, pose_.centre_a, pose_.point_a, pose_.axes_a, end.point_a, end.axes_a);
+    move(b, pose_.centre_b, pose_.point_b, pose_.axes_b, end.point_b, end.axes_b);
+    end.centre_a = end.centre_b = Vector3d::Zero();
+    const double value = joint_coordinate(kind_, locked_, end, axis_).value;
+    const double more = value - q_.value - h_ * rate_of(a, b);
+    return axis_ < kTurnX ? more : std::remainder(more, 2 * std::numbers::pi);
+}
+
+/// Steps at the limit follow it.
+void DrivenAxis::move_limit(double turned) {
+    const DriveRow& limit = drive_.rows[limit_];
+    const double before = -limit.bias;
+    turned_ = turned;
+    drive_ = {};
+    for (std::uint32_t i = 0; i < last_ - first_; ++i) {
+        DriveRow row = rows_[i];
+        if (static_cast<int>(i) == limit_) row.bias += turned_ / h_;
+        drive_.add(row);
+    }
+    for (AxisAnswer* answer : {&answer_, &next_})
+        if (answer->is_step && answer->rate == before) answer->rate = -limit.bias;
+}
+
 void DrivenAxis::start_from(const Velocity<double>& a, const Velocity<double>& b) {
     start_ = rate_of(a, b);
+    if (turns()) move_limit(turned(a, b));
 }
 
 void DrivenAxis::look(const Velocity<double>& a, const Velocity<double>& b, bool same_piece) {

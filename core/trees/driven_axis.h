@@ -2,6 +2,10 @@
 /// One axis of a tree's joint with all that drives it, as a row of the Newton steps that solve the
 /// tree (trees/tree_solver.h). Where the force law of constraints/axis_drive.h is flat, the impulse
 /// is known and is no row.
+///
+/// A rate says where a coordinate comes to if the joint's axis keeps its direction. Where that
+/// turns within the substep, as that of a slider on what swings, limits are asked for by what the
+/// coordinate will be at the velocities that each Newton step begins from.
 #pragma once
 
 #include "constraints/axis_drive.h"
@@ -32,6 +36,8 @@ public:
     /// a and b.
     void look(const Velocity<double>& a, const Velocity<double>& b, bool same_piece);
     double off() const { return off_; }  ///< from it [m], [rad]
+    /// Whether limits have to be looked at anew at each place.
+    bool turns() const { return limit_ >= 0; }
     /// Whether that is another piece than the one that the last Newton step was for, and farther
     /// off than the tolerance.
     bool is_on_wrong_piece(double tolerance) const {
@@ -56,6 +62,9 @@ private:
     static double wish(const AxisAnswer& from, double impulse);
     double rate_of(const Velocity<double>& a, const Velocity<double>& b) const;
     void learn_response(double rate);
+    void find_limit(const World& world);
+    double turned(const Velocity<double>& a, const Velocity<double>& b) const;
+    void move_limit(double turned);
     /// What a flat piece still lacks.
     double missing(bool balance) const { return answer_.impulse - (balance ? 0 : impulse_); }
 
@@ -63,6 +72,13 @@ private:
     double h_ = 0;
     int looks_ = 0;  ///< in this substep
     AxisDrive drive_;
+    DriveRow rows_[AxisDrive::kMostRows];  ///< of which that is made
+    int limit_ = -1;                       ///< the limit's, where the axis turns
+    double turned_ = 0;  ///< what its turn adds to the coordinate in the substep [m], [rad]
+    JointKind kind_{};
+    std::array<bool, kJointAxes> locked_{};
+    std::uint32_t axis_ = 0;
+    JointPose pose_;  ///< at the start
     JointCoordinate q_;
     double bare_ = 0;      ///< K of the two bodies while the joint holds; 0 where nothing can move
     double response_ = 0;  ///< K with all that hangs on them, as far as it is known

@@ -164,7 +164,7 @@ double TreeNodes::evaluate(std::uint32_t index, AxisLook look) {
     double worst = violation_of(node);
     for (DrivenAxis& axis : node.axes) {
         axis.start_from(a, b);
-        if (look != AxisLook::before) axis.look(a, b, look == AxisLook::same_piece);
+        if (look != AxisLook::before || axis.turns()) axis.look(a, b, look == AxisLook::same_piece);
         worst = greater(worst, axis.off());
     }
     return worst;

@@ -105,6 +105,9 @@ TEST(JointCoordinates, ChangeAtTheirRates) {
         expect_rate([k](const JointPose& p) { return coordinate_along(p, p.axes_b.col(k)); }, 1);
         expect_rate([k](const JointPose& p) { return coordinate_euler(p, k); }, 2);
     }
+    for (const int locked : {0, 1, 2})
+        for (const int k : {(locked + 1) % 3, (locked + 2) % 3})
+            expect_rate([=](const JointPose& p) { return coordinate_of_two(p, locked, k); }, 7);
     expect_rate([](const JointPose& p) { return coordinate_distance(p); }, 3);
     expect_rate([](const JointPose& p) { return coordinate_twist(p); }, 4);
     expect_rate([](const JointPose& p) { return coordinate_swing(p); }, 5);
@@ -122,6 +125,26 @@ TEST(JointCoordinates, OfEulerAnglesAreThoseOfTheRotation) {
                               exponential_map({0, 0, angles.z()});
         pose.axes_a = pose.axes_b * r.toRotationMatrix();
         for (int k = 0; k < 3; ++k) EXPECT_NEAR(coordinate_euler(pose, k).value, angles[k], 1e-12);
+    }
+}
+
+/// A universal joint that turns right over leaves neither of its angles behind.
+TEST(JointCoordinates, OfTwoTurnsAreWholeAngles) {
+    Random random(8);
+    for (int i = 0; i < 100; ++i) {
+        const int locked = i % 3, next = (locked + 1) % 3, last = (locked + 2) % 3;
+        const double first = random.number(-3.1, 3.1), second = random.number(-3.1, 3.1);
+        JointPose pose{};
+        pose.axes_b = random_rotation(random).toRotationMatrix();
+        const Quaterniond r = exponential_map(first * Vector3d::Unit(next)) *
+                              exponential_map(second * Vector3d::Unit(last));
+        pose.axes_a = pose.axes_b * r.toRotationMatrix();
+        const JointCoordinate a = coordinate_of_two(pose, locked, next),
+                              b = coordinate_of_two(pose, locked, last);
+        EXPECT_NEAR(a.value, first, 1e-12);
+        EXPECT_NEAR(b.value, second, 1e-12);
+        EXPECT_LT((a.turn_a - pose.axes_b.col(next)).norm(), 1e-12);
+        EXPECT_LT((b.turn_a - pose.axes_a.col(last)).norm(), 1e-12);
     }
 }
 
