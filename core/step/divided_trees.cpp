@@ -52,6 +52,9 @@ constexpr double kDefect = 5e-6, kCoarse = 2e-4, kDefectOfHalf = 4;
 constexpr std::uint32_t kSnap = 8;
 constexpr double kSnapTime = 0.05;
 
+/// What is no farther past a limit was stopped there [m], [rad].
+constexpr double kPastLimit = 1e-7;
+
 /// What is left of a joint's error by its last Newton step has always the same sign, and feeds or
 /// brakes the swing: it must be small against the way of a part.
 constexpr double kFiner = 0.01;
@@ -150,6 +153,12 @@ bool brakes(const JointDrive& drive) {
            (drive.kind == DriveKind::spring && drive.spec.damping > 0);
 }
 
+/// Whether a drive never gives energy: what is within its limits, slips or is too fast is braked.
+bool gives_none(const JointDrive& drive) {
+    if (drive.kind == DriveKind::spring) return !(drive.spec.stiffness > 0);
+    return drive.kind != DriveKind::motor;
+}
+
 std::vector<std::uint32_t> joints_of(const JointForest& tree) {
     std::vector<std::uint32_t> joints;
     for (const ForestNode& node : tree.nodes)
@@ -219,7 +228,7 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
         Tree& tree = *(tree_at(joint.a) ? tree_at(joint.a) : tree_at(joint.b));
         tree_with[i] = &tree;
         tree.has_lines |= joint.length > 0;
-        tree.keeps_energy &= !gives_way;
+        tree.keeps_energy &= !gives_way, tree.gives_none &= !gives_way;
     }
     for (const JointCoupling& c : world.joints.couplings)
         for (const std::uint32_t joint : {c.joint_a, c.joint_b})
@@ -228,7 +237,8 @@ DividedTrees::DividedTrees(const World& world, const Plan& plan)
     for (std::uint32_t i = 0; i < world.joints.drives.size(); ++i) {
         const JointDrive& drive = world.joints.drives[i];
         if (Tree* tree = tree_with[drive.joint])
-            tree->drives.push_back(i), tree->keeps_energy = false;
+            tree->drives.push_back(i), tree->keeps_energy = false,
+                                       tree->gives_none &= gives_none(drive);
         if (brakes(drive)) damped[drive.joint] = 1;
     }
     for (Tree& tree : trees_)
@@ -325,18 +335,27 @@ void DividedTrees::take_velocities(Bodies& bodies, const Tree& tree) {
     if (tree.drifts) turn_back(bodies, tree.bodies, tree.pushed);
 }
 
-bool DividedTrees::is_defect_told(const SubstepTime& time, double fall, const Tree& tree) {
-    return tree.keeps_energy && fall == time.h;
+/// What is past a limit is pushed back, which gives energy.
+bool DividedTrees::is_past_limit(const World& world, const Tree& tree) {
+    return std::any_of(tree.drives.begin(), tree.drives.end(), [&](std::uint32_t i) {
+        const JointDrive& drive = world.joints.drives[i];
+        if (drive.kind != DriveKind::limit) return false;
+        const double q = joint_coordinate(world, drive.joint, drive.axis).value;
+        return std::max(drive.spec.lower - q, q - drive.spec.upper) > kPastLimit;
+    });
 }
 
-/// The energy_defect of a part that was just solved; 0 where it cannot be told.
+/// The energy_defect of a part that was just solved, of which only a gain is one where joints take
+/// energy; 0 where it cannot be told.
 double DividedTrees::defect_of(const World& world, const SubstepTime& time, double fall,
                                const Tree& tree) {
-    if (!is_defect_told(time, fall, tree)) return 0;
+    if (fall != time.h || !tree.gives_none) return 0;
+    if (!tree.keeps_energy && is_past_limit(world, tree)) return 0;
     const double unclosed = kFiner * world.settings.joint_tolerance * tree.joints.size();
     const TreeHold& hold = tree.holder.hold();
-    return energy_defect(world, tree.bodies, time, fall, unclosed, hold,
-                         turning_work(world, tree.bodies, tree.pushed, hold));
+    const double defect = energy_defect(world, tree.bodies, time, fall, unclosed, hold,
+                                        turning_work(world, tree.bodies, tree.pushed, hold));
+    return tree.keeps_energy ? std::abs(defect) : std::max(0.0, defect);
 }
 
 /// What is not solved keeps such a share of its changes that it gains no more energy than it may.
@@ -378,7 +397,8 @@ bool DividedTrees::try_part(World& world, const Plan& plan, const SubstepTime& t
     }
     tree.solver.load_impulses(world.joints);
     tree.solver.begin(world, time);
-    const TreeSolver<1>::Effort effort{.closes = is_defect_told(time, fall, tree), .follows = last};
+    const bool closes = tree.keeps_energy && fall == time.h;
+    const TreeSolver<1>::Effort effort{.closes = closes, .follows = last};
     tree.solver.solve(effort);
     if (!tree.motion.gyroscopic.empty()) turn_as_free(b, time.h, effort, tree);
     take_velocities(b, tree);

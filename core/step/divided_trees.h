@@ -66,6 +66,7 @@ private:
         bool has_lines = false;    ///< of distance joints
         bool is_damped = false;    ///< all its joints take energy from what moves
         bool keeps_energy = true;  ///< none gives or takes any
+        bool gives_none = true;    ///< none gives any: limits and friction take it
         bool is_free = false;      ///< and nothing touches them in this step
         bool was_open = false;     ///< in this substep, undivided
         bool is_coarse = false;    ///< in this substep: it was faster than its parts can follow
@@ -81,7 +82,7 @@ private:
     static std::uint32_t wanted_parts(const World& world, const Tree& tree, double h);
     void advance(World& world, const Plan& plan, double h, Tree& tree) const;
     static void take_velocities(Bodies& bodies, const Tree& tree);
-    static bool is_defect_told(const SubstepTime& time, double fall, const Tree& tree);
+    static bool is_past_limit(const World& world, const Tree& tree);
     static double defect_of(const World& world, const SubstepTime& time, double fall,
                             const Tree& tree);
     void bound_gain(World& world, double h, Tree& tree) const;

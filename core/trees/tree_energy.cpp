@@ -39,8 +39,9 @@ double energy_defect(const World& world, const std::vector<std::uint32_t>& bodie
         moving += now + then;
         known += b.mass[i] * weight * (weight * fall * fall + unclosed);
     }
-    return moving + known > 0 ? std::max(0.0, std::abs(defect - work) - known) / (moving + known)
-                              : 0;
+    if (!(moving + known > 0)) return 0;
+    const double unknown = std::max(0.0, std::abs(defect - work) - known);
+    return std::copysign(unknown, defect - work) / (moving + known);
 }
 
 }  // namespace plumb

@@ -24,7 +24,8 @@ struct TreeHold {
 double turning_work(const World& world, const std::vector<std::uint32_t>& bodies,
                     const std::vector<Vector3d>& pushed, const TreeHold& hold);
 
-/// What a part gained or lost that no force accounts for, against what moves [J/J]; `fall`: for how
+/// What a part gained, or, less than 0, lost that no force accounts for, against what moves [J/J];
+/// `fall`: for how
 /// long gravity pushed [s]; `unclosed`: by how much joints may be open, whose pull does work on
 /// that [m]; `work`: of the holder [J]. Velocities are those of the middles of parts of one length.
 double energy_defect(const World& world, const std::vector<std::uint32_t>& bodies,
