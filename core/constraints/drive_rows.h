@@ -42,17 +42,18 @@ inline DriveRow spring_row(const AxisMotion& axis, double rest, double speed, do
     return {offset / slope - speed, 1 / (part * h * slope), -any, any};
 }
 
-/// The nearer of two limits: it may be reached in this substep and no more; what is beyond it goes
-/// by the share s, at no more than `recovery` [m/s], [rad/s].
-inline DriveRow limit_row(double q, double lower, double upper, double s, double recovery,
-                          double h) {
+/// The limit that is nearer to where q goes at its rate: it may be reached in this substep and no
+/// more; what is beyond it goes by the share s, at no more than `recovery` [m/s], [rad/s].
+inline DriveRow limit_row(double q, double rate, double lower, double upper, double s,
+                          double recovery, double h) {
     constexpr double any = std::numeric_limits<double>::infinity();
     const auto closing = [&](double gap) {  // speed towards the limit that is left
         return gap >= 0 ? gap / h : -std::min(-gap * s / h, recovery);
     };
     if (lower == upper)
         return {q >= lower ? -closing(lower - q) : closing(q - lower), 0, -any, any};
-    if (q - lower < upper - q) return {closing(q - lower), 0, 0, any};
+    const double next = std::clamp(q, lower, upper) + h * rate;
+    if (next - lower < upper - next) return {closing(q - lower), 0, 0, any};
     return {-closing(upper - q), 0, -any, 0};
 }
 

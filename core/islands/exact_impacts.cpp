@@ -2,6 +2,7 @@
 #include "islands/exact_impacts.h"
 
 #include "contacts/contact_measures.h"
+#include "contacts/contact_work.h"
 #include "islands/work_of_change.h"
 
 #include <algorithm>
@@ -11,7 +12,7 @@ namespace plumb {
 namespace {
 
 /// No contact of a collision that can be solved bears more than so many times all momentum.
-constexpr double kHardestBlow = 10;
+constexpr double kHardestBlow = 10, kAllButAll = 0.9;
 
 /// Sweeps there and back, which are enough for most; and what the solution of the others may miss
 /// of that speed. Where friction leads it about in circles it misses more, and many sweeps do
@@ -27,7 +28,9 @@ void ExactImpacts::solve(World& world, Impacts& impacts, std::size_t island, dou
     settle();
     keep(compressed_);
     const double of_compression = work_of_drivers();
-    if (give_back(world)) {
+    if (is_jammed_) {
+        hold_back(world.settings);
+    } else if (give_back(world)) {
         settle();
         bound_energy(of_compression);
     }
@@ -77,7 +80,7 @@ void ExactImpacts::fill(const World& world, const Impacts& impacts, std::size_t 
 /// What may approach does so until its gap is closed.
 void ExactImpacts::ask(const World& world, const Impacts& impacts, double h) {
     const Bodies& b = world.bodies;
-    speed_ = 0, drivers_.clear();
+    speed_ = 0, is_jammed_ = false, drivers_.clear();
     double mass = 0;
     for (const SolvedBody& body : columns_.bodies) mass += body.mass;
     for (std::size_t k = 0; k < columns_.points.size(); ++k) {
@@ -110,9 +113,32 @@ void ExactImpacts::take(const State& state) {
 void ExactImpacts::settle() {
     if (solver_.sweep_until(all(), speed_, kFewSweeps)) return;
     keep(before_);
-    if (solver_.solve(all(), system_, speed_).residual <= kMayMiss * speed_) return;
+    const double residual = solver_.solve(all(), system_, speed_).residual;
+    is_jammed_ = !drivers_.empty() && bears_most();
+    if (!is_jammed_ && residual <= kMayMiss * speed_) return;
     take(before_);
-    solver_.sweep_until(all(), speed_, kMostSweeps);
+    if (!is_jammed_) solver_.sweep_until(all(), speed_, kMostSweeps);
+}
+
+/// Whether a contact bears all that it may: then drivers ask for what cannot be.
+bool ExactImpacts::bears_most() const {
+    return std::any_of(columns_.points.begin(), columns_.points.end(), [](const IslandPoint& p) {
+        return p.impulse[0] > kAllButAll * p.cone.most;
+    });
+}
+
+/// What is jammed is not flung out, nor does it bounce.
+void ExactImpacts::hold_back(const Settings& settings) {
+    const double share = share_without_flinging(settings, [&](auto visit) {
+        for (const Driver& driver : drivers_) visit(driver.own.moving, Vector3d::Zero());
+        for (std::size_t i = 0; i < columns_.bodies.size(); ++i)
+            visit(columns_.start[i].head<3>(),
+                  (columns_.velocity[i] - columns_.start[i]).head<3>());
+    });
+    for (std::size_t i = 0; i < columns_.bodies.size(); ++i)
+        columns_.velocity[i] =
+            columns_.start[i] + share * (columns_.velocity[i] - columns_.start[i]);
+    for (IslandPoint& p : columns_.points) p.impulse *= share;
 }
 
 /// What moves by itself has done to the island [J].

@@ -42,6 +42,8 @@ private:
     void ask(const World& world, const Impacts& impacts, double h);
     bool give_back(World& world);
     void settle();
+    bool bears_most() const;
+    void hold_back(const Settings& settings);
     double work_of_drivers() const;
     void bound_energy(double of_compression);
 
@@ -65,6 +67,7 @@ private:
         OwnMotion own;
     };
     std::vector<Driver> drivers_;  // what touches it and moves by itself
+    bool is_jammed_ = false;       // between them and what stays
     State before_, compressed_;
     struct Given {
         std::size_t point;

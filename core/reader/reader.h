@@ -22,7 +22,7 @@ inline constexpr std::size_t kMaxBodies = 1'000'000;
 /// Most points that its deformables may have together.
 inline constexpr std::size_t kMaxParticles = 1'000'000;
 
-/// Reads a scene's file, or a robot's, whose name ends in .urdf (urdf.h).
+/// Reads a scene's file, or a robot's, whose name ends in .urdf (robots/robot.h).
 Scene read_scene(const std::filesystem::path& file);
 
 /// Reads a scene from text. `origin` names the text in errors, and its folder is where meshes are

@@ -25,7 +25,7 @@ inline DriveRow drive_row(const World& world, const JointDrive& drive, const Joi
     const AxisMotion axis{q.value, joint_rate_before(b, joint, q), mass, joint.crowd};
     switch (drive.kind) {
         case DriveKind::limit:
-            return limit_row(q.value, spec.lower, spec.upper, world.settings.stiffness,
+            return limit_row(q.value, axis.rate, spec.lower, spec.upper, world.settings.stiffness,
                              world.settings.recovery_speed, time.h);
         case DriveKind::motor:
             if (spec.motor.mode == MotorMode::velocity)

@@ -45,7 +45,7 @@ void DrivenAxis::begin(const World& world, const SubstepTime& time) {
         rows_[i - first_] = drive_row(world, world.joints.drives[i], q_, mass, time);
         drive_.add(rows_[i - first_]);
     }
-    h_ = time.h, turned_ = 0;
+    h_ = time.h;
     find_limit(world);
     // what it bore before tells best on which piece it is
     constexpr double any = 1e30;
@@ -58,12 +58,12 @@ double DrivenAxis::rate_of(const Velocity<double>& a, const Velocity<double>& b)
     return q_.along.dot(a.v - b.v) + q_.turn_a.dot(a.w) - q_.turn_b.dot(b.w);
 }
 
-/// Where one turn alone is free, its axis stays.
+/// Where one turn alone is free, its axis stays; angles of three jump.
 void DrivenAxis::find_limit(const World& world) {
     const JointDrive& leader = world.joints.drives[first_];
     const Joint& joint = world.joints.joints[leader.joint];
     limit_ = -1, kind_ = joint.kind, axis_ = leader.axis, locked_ = joint.locked;
-    if (!(response_ > 0) || (axis_ >= kTurnX && free_turns(joint) == 1)) return;
+    if (!(response_ > 0) || (axis_ >= kTurnX && free_turns(joint) != 2)) return;
     for (std::uint32_t i = first_; i < last_; ++i)
         if (world.joints.drives[i].kind == DriveKind::limit)
             limit_ = static_cast<int>(i - first_), pose_ = joint_pose(world.bodies, joint);
@@ -90,11 +90,10 @@ double DrivenAxis::turned(const Velocity<double>& a, const Velocity<double>& b) 
 void DrivenAxis::move_limit(double turned) {
     const DriveRow& limit = drive_.rows[limit_];
     const double before = -limit.bias;
-    turned_ = turned;
     drive_ = {};
     for (std::uint32_t i = 0; i < last_ - first_; ++i) {
         DriveRow row = rows_[i];
-        if (static_cast<int>(i) == limit_) row.bias += turned_ / h_;
+        if (static_cast<int>(i) == limit_) row.bias += turned / h_;
         drive_.add(row);
     }
     for (AxisAnswer* answer : {&answer_, &next_})

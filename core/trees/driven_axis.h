@@ -24,9 +24,9 @@ public:
     /// Drives [first, last) of JointTable::drives, which act on one axis of one joint.
     DrivenAxis(const JointTable& joints, std::uint32_t first, std::uint32_t last);
 
-    /// Coordinate and rows at the start of a substep of length h [s].
     /// What the last substep left as the guess of the next.
     void load_impulse(const JointTable& joints);
+    /// Coordinate and rows at the start of a substep of length h [s].
     void begin(const World& world, const SubstepTime& time);
     void forget() { impulse_ = 0; }
 
@@ -74,7 +74,6 @@ private:
     AxisDrive drive_;
     DriveRow rows_[AxisDrive::kMostRows];  ///< of which that is made
     int limit_ = -1;                       ///< the limit's, where the axis turns
-    double turned_ = 0;  ///< what its turn adds to the coordinate in the substep [m], [rad]
     JointKind kind_{};
     std::array<bool, kJointAxes> locked_{};
     std::uint32_t axis_ = 0;

@@ -88,7 +88,7 @@ TEST(AxisDrive, SharesItsImpulseAmongItsRows) {
 TEST(AxisDrive, ALimitOutbidsAGreatestSpeed) {
     AxisDrive axis;
     axis.add(speed_row(-0.1, 1));                 // no faster than 1 to the lower side
-    axis.add(limit_row(5, -1, 1, 1, 100, 0.01));  // far beyond the upper limit: back at 100
+    axis.add(limit_row(5, 0, -1, 1, 1, 100, 0.01));  // far beyond the upper limit: back at 100
     const AxisAnswer answer = answer_of(axis, 0, 0, 1);
     EXPECT_TRUE(answer.is_step);
     EXPECT_DOUBLE_EQ(answer.rate, -100);

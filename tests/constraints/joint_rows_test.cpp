@@ -129,7 +129,7 @@ TEST(JointCoordinates, OfEulerAnglesAreThoseOfTheRotation) {
 }
 
 /// A universal joint that turns right over leaves neither of its angles behind.
-TEST(JointCoordinates, OfTwoTurnsAreWholeAngles) {
+TEST(JointCoordinates, OfTwoTurnsGoFromMinusPiToPi) {
     Random random(8);
     for (int i = 0; i < 100; ++i) {
         const int locked = i % 3, next = (locked + 1) % 3, last = (locked + 2) % 3;

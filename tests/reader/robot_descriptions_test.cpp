@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace plumb::test {
 namespace {
 
@@ -85,6 +87,24 @@ TEST(RobotDescriptions, ThatAreNoTreesAreRefused) {
     expect(robot, "link \"hand\" hangs twice on one joint");
     robot = post_with_an_arm(), robot.links[0].joints.clear();
     expect(robot, "the root, \"post\", does not reach it");
+}
+
+TEST(RobotDescriptions, WithPartsThatCannotBeAreRefused) {
+    const auto expect = [](const RobotDescription& robot, const std::string& words) {
+        EXPECT_NE(error_of(robot).find(words), std::string::npos) << error_of(robot);
+    };
+    RobotDescription robot = post_with_an_arm();
+    robot.links[2].name = "arm";
+    expect(robot, "there are two of the name link \"arm\"");
+    robot = post_with_an_arm(), robot.joints[1].name = "elbow";
+    expect(robot, "there are two of the name joint \"elbow\"");
+    robot = post_with_an_arm(), robot.links[1].shapes[0].geometry = sphere(-1);
+    expect(robot, "link \"arm\": the radius of a sphere must be a number");
+    robot = post_with_an_arm(), robot.links[1].shapes[0].geometry = Geometry{};
+    std::get<Geometry>(robot.links[1].shapes[0].geometry).kind = ShapeKind::plane;
+    expect(robot, "link \"arm\": its shapes may be spheres");
+    robot = post_with_an_arm(), robot.joints[0].limits = RobotLimits{NAN, 1};
+    expect(robot, "joint \"elbow\": its lower limit is above the upper one");
 }
 
 TEST(RobotDescriptions, MotorsHaveTheNearestName) {

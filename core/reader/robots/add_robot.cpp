@@ -124,6 +124,7 @@ private:
 
     void add_joint(std::size_t i, double frequency_factor) {
         const LinkGroup& group = groups_[i];
+        note_left_out(*group.joint);
         if (group.joint->kind == RobotJointKind::floating) return;
         const auto start = starts_.find(group.joint->name);
         JointSpec joint =
@@ -134,6 +135,16 @@ private:
         joints_[group.joint->name] = static_cast<std::uint32_t>(scene_.joints.size());
         robot_.joints.emplace_back(joint.name, joints_[group.joint->name]);
         scene_.joints.push_back(std::move(joint));
+    }
+
+    /// A joint without one coordinate has nothing that these could act on.
+    void note_left_out(const RobotJoint& joint) {
+        if (joint.has_coordinate()) return;
+        if (joint.limits || joint.greatest_effort || joint.greatest_speed || joint.mimic ||
+            joint.damping != 0 || joint.friction != 0)
+            remarks_.push_back(joint_named(joint.name) + " is " +
+                               (joint.kind == RobotJointKind::planar ? "planar" : "floating") +
+                               ": its limits, damping and friction are left out");
     }
 
     void add_couplings() {

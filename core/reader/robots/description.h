@@ -28,7 +28,7 @@ struct RobotMesh {
     Eigen::Vector3d scale = Eigen::Vector3d::Ones();
 };
 
-/// What collides.
+/// What collides: a sphere, a box, a cylinder about y, a hull, or a mesh.
 struct RobotShape {
     Placement placement;
     std::variant<Geometry, RobotMesh> geometry;
@@ -76,7 +76,7 @@ struct RobotDescription {
     std::vector<RobotLink> links;
     std::vector<RobotJoint> joints;    ///< in the order of their names
     std::uint32_t root = 0;            ///< the link that hangs on none
-    std::vector<std::string> remarks;  ///< what was left out or changed
+    std::vector<std::string> remarks;  ///< what its reader left out or changed
 
     /// None where there is no such joint.
     const RobotJoint* find_joint(const std::string& joint) const {

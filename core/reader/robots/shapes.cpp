@@ -25,6 +25,30 @@ class NoMesh : public BadRobot {
     using BadRobot::BadRobot;
 };
 
+void check_size(double value, const char* what) {
+    if (!(value >= kLength.low && value <= kLength.high))
+        throw BadRobot(std::string(what) + " must be " + in_words(kLength, "a number"));
+}
+
+/// Throws unless a link may have such a shape.
+void check_shape(const Geometry& g) {
+    switch (g.kind) {
+        case ShapeKind::sphere:
+            return check_size(g.radius, "the radius of a sphere");
+        case ShapeKind::box:
+            for (int i = 0; i < 3; ++i) check_size(g.half_extents[i], "half the size of a box");
+            return;
+        case ShapeKind::cylinder:
+            check_size(g.radius, "the radius of a cylinder");
+            return check_size(g.half_height, "half the length of a cylinder");
+        case ShapeKind::hull:
+            return;
+        default:
+            throw BadRobot(
+                "its shapes may be spheres, boxes, cylinders, hulls and files of meshes");
+    }
+}
+
 bool is_file(const fs::path& path) {
     std::error_code error;
     return fs::is_regular_file(path, error);
@@ -105,6 +129,7 @@ Geometry mesh_shape(const RobotMesh& mesh, bool moves, const CollisionOptions& o
 
 GeometryPart part(const RobotShape& shape, bool moves, const CollisionOptions& options) {
     const auto* mesh = std::get_if<RobotMesh>(&shape.geometry);
+    if (!mesh) check_shape(std::get<Geometry>(shape.geometry));
     return {mesh ? mesh_shape(*mesh, moves, options) : std::get<Geometry>(shape.geometry),
             shape.placement};
 }

@@ -67,7 +67,7 @@ private:
 };
 
 void check_limits(const RobotJoint& joint) {
-    if (joint.limits->lower > joint.limits->upper)
+    if (!(joint.limits->lower <= joint.limits->upper))
         throw BadRobot(joint_named(joint.name) + ": its lower limit is above the upper one");
 }
 
@@ -114,6 +114,14 @@ void check_tree(const RobotDescription& robot) {
     if (links > kMostLinks)
         throw BadRobot("it has more than " + std::to_string(kMostLinks) + " links");
     if (robot.root >= links) throw BadRobot("it has no root link");
+    std::set<std::string> names;
+    for (const RobotLink& link : robot.links)
+        if (!names.insert(link.name).second)
+            throw BadRobot("there are two of the name " + link_named(link.name));
+    names.clear();
+    for (const RobotJoint& joint : robot.joints)
+        if (!names.insert(joint.name).second)
+            throw BadRobot("there are two of the name " + joint_named(joint.name));
     std::vector<const RobotJoint*> parent(links, nullptr);
     for (const RobotJoint& joint : robot.joints) {
         if (joint.child >= links) throw BadRobot(joint_named(joint.name) + " has no child link");

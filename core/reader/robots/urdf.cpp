@@ -15,7 +15,6 @@
 #include <vector>
 
 #include "reader/file_text.h"
-#include "reader/types.h"
 #include "scene/build.h"
 
 namespace plumb::reader {
@@ -139,27 +138,6 @@ RobotInertia inertia_of(const urdf::Inertial& i) {
     return inertia;
 }
 
-double size(double value, const char* what) {
-    if (!(value >= kLength.low && value <= kLength.high))
-        throw BadRobot(std::string(what) + " must be " + in_words(kLength, "a number"));
-    return value;
-}
-
-Geometry shape_of(const urdf::Box& b) {
-    Eigen::Vector3d half;
-    for (int i = 0; i < 3; ++i) half[i] = size(to_eigen(b.dim)[i] / 2, "half the size of a box");
-    return box(half);
-}
-
-Geometry shape_of(const urdf::Sphere& s) {
-    return sphere(size(s.radius, "the radius of a sphere"));
-}
-
-Geometry shape_of(const urdf::Cylinder& c) {
-    const double radius = size(c.radius, "the radius of a cylinder");
-    return cylinder(radius, size(c.length / 2, "half the length of a cylinder"));
-}
-
 /// The axis of Plumb's cylinders, y, to that of a URDF's, z.
 Eigen::Quaterniond y_to_z() {
     return Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi / 2, Eigen::Vector3d::UnitX()));
@@ -170,15 +148,17 @@ RobotShape shape_of(const urdf::Collision& collision) {
     const urdf::Geometry& g = *collision.geometry;
     switch (g.type) {
         case urdf::Geometry::BOX:
-            shape.geometry = shape_of(static_cast<const urdf::Box&>(g));
+            shape.geometry = box(0.5 * to_eigen(static_cast<const urdf::Box&>(g).dim));
             break;
         case urdf::Geometry::SPHERE:
-            shape.geometry = shape_of(static_cast<const urdf::Sphere&>(g));
+            shape.geometry = sphere(static_cast<const urdf::Sphere&>(g).radius);
             break;
-        case urdf::Geometry::CYLINDER:
-            shape.geometry = shape_of(static_cast<const urdf::Cylinder&>(g));
+        case urdf::Geometry::CYLINDER: {
+            const auto& c = static_cast<const urdf::Cylinder&>(g);
+            shape.geometry = cylinder(c.radius, c.length / 2);
             shape.placement.rotation = shape.placement.rotation * y_to_z();
             break;
+        }
         case urdf::Geometry::MESH: {
             const auto& mesh = static_cast<const urdf::Mesh&>(g);
             shape.geometry = RobotMesh{mesh.filename, to_eigen(mesh.scale)};
@@ -191,11 +171,7 @@ RobotShape shape_of(const urdf::Collision& collision) {
 RobotLink link_of(const urdf::Link& from) {
     RobotLink link{from.name, {}, {}, {}};
     if (from.inertial) link.inertia = inertia_of(*from.inertial);
-    for (const auto& collision : from.collision_array) try {
-            link.shapes.push_back(shape_of(*collision));
-        } catch (const BadRobot& error) {
-            throw BadRobot(link_named(from.name) + ": " + error.what());
-        }
+    for (const auto& collision : from.collision_array) link.shapes.push_back(shape_of(*collision));
     return link;
 }
 
@@ -215,17 +191,11 @@ RobotJointKind kind_of(const urdf::Joint& joint) {
     }
 }
 
-RobotJoint joint_of(const urdf::Joint& from, std::vector<std::string>& remarks) {
+RobotJoint joint_of(const urdf::Joint& from) {
     RobotJoint joint;
     joint.name = from.name, joint.kind = kind_of(from);
     joint.in_parent = to_placement(from.parent_to_joint_origin_transform);
     joint.axis = to_eigen(from.axis);
-    if (!joint.has_coordinate()) {
-        if (joint.kind == RobotJointKind::planar && (from.limits || from.dynamics))
-            remarks.push_back(joint_named(from.name) +
-                              " is planar: its limits, damping and friction are left out");
-        return joint;
-    }
     if (from.limits) {
         if (from.type != urdf::Joint::CONTINUOUS)
             joint.limits = RobotLimits{from.limits->lower, from.limits->upper};
@@ -250,7 +220,7 @@ RobotDescription description_of(const urdf::ModelInterface& model) {
     }
     for (const auto& [name, joint] : model.joints_) {
         joints[name] = static_cast<std::uint32_t>(robot.joints.size());
-        robot.joints.push_back(joint_of(*joint, robot.remarks));
+        robot.joints.push_back(joint_of(*joint));
         robot.joints.back().child = links.at(joint->child_link_name);
     }
     for (const auto& [name, link] : model.links_)
