@@ -153,5 +153,32 @@ TEST(Pulley, AcceleratesAsAtwoodsMachine) {
     EXPECT_NEAR(simulation.world().bodies.position[1].y(), -0.5 + sunk, 0.005 * sunk);
 }
 
+/// A range that is shorter than the way of a substep has two ends all the same.
+TEST(JointLimits, OfAShortRangeStopWhatIsFast) {
+    for (const bool on_a_body : {false, true})
+        for (const double lower : {-0.005, 0.0})
+            for (const double speed : {5.0, -5.0, 1.0}) {
+                Scene s;
+                s.settings.gravity.setZero();
+                s.settings.forbid = {"contacts"};
+                add_body(s, box(0.1, 0.1, 0.1), Vector::Zero()).velocity = {speed, 0, 0};
+                JointSpec joint;
+                joint.kind = JointKind::slider, joint.body_a = 0;
+                joint.axes[kAlongX].lower = lower, joint.axes[kAlongX].upper = 0.005;
+                if (on_a_body) {
+                    add_body(s, box(0.1, 0.1, 0.1), Vector::Zero()).mass = 1e6;
+                    joint.body_b = 1;
+                }
+                s.joints.push_back(joint);
+                Simulation simulation(s, colliders(), "reference");
+                for (int i = 0; i < 20; ++i) {
+                    simulation.step();
+                    const double q = joint_position(simulation, 0, kAlongX);
+                    EXPECT_LT(q, 0.005 + 1e-6) << speed << " m/s, from " << lower;
+                    EXPECT_GT(q, lower - 1e-6) << speed << " m/s, from " << lower;
+                }
+            }
+}
+
 }  // namespace
 }  // namespace plumb::test

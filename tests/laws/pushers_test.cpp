@@ -77,6 +77,29 @@ TEST_P(Pushers, GiveNoMoreThanTheirWork) {
     }
 }
 
+/// What is pressed against a wall has nowhere to go: no impulses would do, and those that
+/// iterations come to are not to throw anything.
+TEST_P(Pushers, FlingNothingOutThatTheyCrush) {
+    Random random(63);
+    for (int draw = 0; draw < 12; ++draw) {
+        const double speed = random.number(0.3, 6);
+        Scene s =
+            heap(random, 4 + random.below(10), std::pow(10, random.number(0, 3)), Vector::Zero());
+        if (draw % 2 == 0) s.materials[0].restitution = 0;
+        add_body(s, box(0.5, 3, 3), {1.5, 0, 0}, Motion::fixed);
+        add_body(s, box(0.1, 1, 1), {-0.25, 0, 0}, Motion::kinematic).velocity = {speed, 0, 0};
+        draw_settings(s.settings, random, draw / 2);
+        Simulation simulation(s, colliders(), collider());
+        double fastest = 0;
+        while (simulation.time() < 1 / speed) {
+            ASSERT_TRUE(simulation.step().finite);
+            const std::vector<Vector>& v = simulation.world().bodies.velocity;
+            for (const Vector& of : v) fastest = std::max(fastest, of.norm());
+        }
+        EXPECT_LT(fastest, 100 * speed) << "draw " << draw << ", " << s.bodies.size() << " bodies";
+    }
+}
+
 /// What is hit leaves at (1 + e) times the speed of what hits it.
 TEST_P(Pushers, ThrowABallByItsLaw) {
     Random random(62);
