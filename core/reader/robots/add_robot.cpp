@@ -33,8 +33,7 @@ public:
           options_(options),
           file_name_(file.filename().string()),
           description_(std::move(description)),
-          groups_(link_groups(description_)),
-          remarks_(description_.remarks) {
+          groups_(link_groups(description_)) {
         collision_ = {file.parent_path(), options.meshes_required, options.decompose};
         robot_.name = !options.name.empty()        ? options.name
                       : !description_.name.empty() ? description_.name

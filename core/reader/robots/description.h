@@ -74,9 +74,8 @@ struct RobotJoint {
 struct RobotDescription {
     std::string name;  ///< may be empty
     std::vector<RobotLink> links;
-    std::vector<RobotJoint> joints;    ///< in the order of their names
-    std::uint32_t root = 0;            ///< the link that hangs on none
-    std::vector<std::string> remarks;  ///< what its reader left out or changed
+    std::vector<RobotJoint> joints;
+    std::uint32_t root = 0;  ///< the link that hangs on none
 
     /// None where there is no such joint.
     const RobotJoint* find_joint(const std::string& joint) const {
