@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// The simplex holds up to four points w = a − b of the difference of the cores; v is its point
-/// nearest to the origin, found by trying all sub-simplices (at most fifteen small linear systems,
-/// exact for each).
+/// nearest to the origin, found by trying all sub-simplices with the vertex that came last (at most
+/// eight small linear systems, exact for each): the others were tried before it came.
 #include "manifold/gjk.h"
 
 #include "manifold/support.h"
@@ -52,32 +52,34 @@ bool affine_weights(const Simplex& s, const int* chosen, int n, double* weight) 
     return weight[0] > 0 && weight[1] > 0 && weight[2] > 0 && weight[3] > 0;
 }
 
-/// Shrinks the simplex to the vertices that carry the nearest point, and returns that point.
-Vec3 nearest_point(Simplex& s) {
-    Vec3 best{};
-    double best_squared = 1e300, best_weight[4] = {};
-    int best_chosen[4] = {}, best_count = 0;
-    for (unsigned subset = 1; subset < (1u << s.count); ++subset) {
+/// Whether the last vertex leads nearer to the origin than v, the nearest point of the others. Then
+/// v is moved there, and the simplex shrinks to the vertices that carry it; else it loses that one.
+bool come_nearer(Simplex& s, Vec3& v) {
+    const unsigned last = 1u << (s.count - 1);
+    Vec3 best = v;
+    double best_squared = dot(v, v), best_weight[4];
+    int best_chosen[4], best_count = 0;
+    for (unsigned subset = last; subset < 2 * last; ++subset) {
         int chosen[4], n = 0;
         for (int i = 0; i < s.count; ++i)
             if (subset & (1u << i)) chosen[n++] = i;
         double weight[4];
         if (!affine_weights(s, chosen, n, weight)) continue;
-        Vec3 v{};
-        for (int i = 0; i < n; ++i) v = v + weight[i] * s.vertex[chosen[i]].w;
-        if (dot(v, v) >= best_squared) continue;
-        best = v, best_squared = dot(v, v), best_count = n;
+        Vec3 point{};
+        for (int i = 0; i < n; ++i) point = point + weight[i] * s.vertex[chosen[i]].w;
+        if (!(dot(point, point) < best_squared)) continue;
+        best = point, best_squared = dot(point, point), best_count = n;
         std::copy(chosen, chosen + n, best_chosen);
         std::copy(weight, weight + n, best_weight);
     }
-    Simplex kept;
+    if (best_count == 0) return --s.count, false;
     for (int i = 0; i < best_count; ++i) {
-        kept.vertex[i] = s.vertex[best_chosen[i]];
-        kept.weight[i] = best_weight[i];
+        s.vertex[i] = s.vertex[best_chosen[i]];  // none comes from before its place
+        s.weight[i] = best_weight[i];
     }
-    kept.count = best_count;
-    s = kept;
-    return best;
+    s.count = best_count;
+    v = best;
+    return true;
 }
 
 Vec3 middle(const Part& part) {
@@ -136,22 +138,16 @@ bool closest(Witness& witness, const Part& a, const Part& b, const Change& chang
     Vec3 v = dot(change.way, change.way) > 0 ? change.way : middle(a) - middle(b);
     if (dot(v, v) < tiny * tiny) v = {0, 1, 0};
     s.vertex[0] = support(a, b, v, change);
-    s.count = 1;
-    v = nearest_point(s);
+    s.weight[0] = 1, s.count = 1;
+    v = s.vertex[0].w;
     for (int i = 0; i < 64; ++i) {
         const double vv = dot(v, v);
         if (vv < tiny * tiny) return false;
         const Vertex next = support(a, b, v, change);
         if (Shortest{v, {}, {}, size}.is_found(next)) break;
         if (s.count == 4) return false;
-        const Simplex before = s;
         s.vertex[s.count++] = next;
-        const Vec3 shorter = nearest_point(s);
-        if (!(dot(shorter, shorter) < vv)) {
-            s = before;
-            break;
-        }
-        v = shorter;
+        if (!come_nearer(s, v)) break;
     }
     Shortest found{v, {}, {}, size};
     for (int i = 0; i < s.count; ++i) {
