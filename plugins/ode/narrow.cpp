@@ -6,6 +6,7 @@
 /// triangle.
 #include "ode/narrow.h"
 
+#include "manifold/boxes_apart.h"
 #include "manifold/gjk.h"
 #include "manifold/least_overlap.h"
 #include "manifold/mesh_pair.h"
@@ -149,6 +150,7 @@ bool ask_any(Witness& witness, const Part& a, const Part& b) {
 /// axis of a face parts those.
 void collide_boxes(Output out, const Part& a, const Part& b) {
     const double margin = pair_margin(a, b);
+    if (faces_part_boxes(a, b, margin)) return;
     Witness witness;
     if (ask_boxes(witness, a, b, 0)) {
         validate_normal(witness, a, b);
