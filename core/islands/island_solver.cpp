@@ -143,10 +143,8 @@ IslandReport IslandSolver::solve(const Island& island, IslandSystem& system, dou
     const bool stirs = report.residual > kStirs * speed && island.bodies.size() > kHeap;
     enough_ = (stirs ? kSolved : report.residual > kMoves * speed ? kStop : kSettled) * speed;
     most_factorisations_ = most_products / std::max<std::uint64_t>(1, system.block_products());
-    const bool may_stand = effort == IslandEffort::full && report.residual > kFar * speed &&
-                           most_shift() < kFast * speed;
-    if (!may_stand || !stands(report, speed)) improve(report, speed);
-    if (effort == IslandEffort::full) sweep_on(report, speed);
+    if (!stands_or_slides(report, speed)) improve(report, speed);
+    if (effort == IslandEffort::full) sweep_on(report, kSolved * speed);
     if (report.residual > speed) {
         take_back_impulses();
         sweep_anew(island, [] {});
@@ -174,6 +172,17 @@ void IslandSolver::restore_state() {
         island_.points[k].impulse = kept_impulse_[k];
     for (std::size_t k = 0; k < kept_row_impulse_.size(); ++k)
         island_.rows[k].impulse = kept_row_impulse_[k];
+}
+
+/// Whether the island stands, or sweeps find how it slides: friction that slips is all but known,
+/// and rounds may swing to and fro with it until they have taken all that they may.
+bool IslandSolver::stands_or_slides(IslandReport& report, double speed) {
+    if (effort_ != IslandEffort::full) return false;
+    const bool slides = most_shift() >= kFast * speed;
+    if (!slides && !(report.residual > kFar * speed)) return false;
+    if (!slides && stands(report, speed)) return true;
+    if (island_.rows.empty()) sweep_on(report, enough_);
+    return report.residual <= enough_;
 }
 
 /// Whether the island stands. Then it solves a convex problem, without de Saxcé's shift: rounds
@@ -242,9 +251,9 @@ bool IslandSolver::minimise(IslandNewton<N>& newton, double softness, double bef
 
 /// What rounds do not find: a ball that rolls off a wall slips along it as fast as it leaves, and
 /// its shift swings to and fro for ever. Sweeps find that, or all is as it was.
-void IslandSolver::sweep_on(IslandReport& report, double speed) {
+void IslandSolver::sweep_on(IslandReport& report, double enough) {
     double before = kInfinity;
-    while (report.residual > kSolved * speed && report.residual < kLeadsOn * before) {
+    while (report.residual > enough && report.residual < kLeadsOn * before) {
         before = report.residual;
         keep_state();
         for (int i = 0; i < kSweepsOn; ++i) sweep_both_ways();

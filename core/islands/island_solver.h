@@ -93,9 +93,10 @@ private:
     void keep_row_impulses(const Island& island);
     void keep_state();
     void restore_state();
+    bool stands_or_slides(IslandReport& report, double speed);
     bool stands(IslandReport& report, double speed);
     void improve(IslandReport& report, double speed);
-    void sweep_on(IslandReport& report, double speed);
+    void sweep_on(IslandReport& report, double enough);
     double most_shift() const;
     template <int N>
     [[gnu::flatten]] double residual_of_points() const;
