@@ -183,8 +183,9 @@ double IslandNewton<N>::find_downhill() {
     for (std::size_t b = 0; b < downhill_.size(); ++b)
         downhill_[b] = -momentum(island_.bodies[b], change_[b]);
     for (std::size_t k = 0; k < work_.size(); ++k) {
-        const PointWork& w = work_[k];
-        const ContactVector<N> more = nearest_on_cone(w.z, w.cone).impulse - w.impulse;
+        PointWork& w = work_[k];
+        w.at = nearest_on_cone(w.z, w.cone);
+        const ContactVector<N> more = w.at.impulse - w.impulse;
         add_impulse(island_.points[k], more, downhill_);
     }
     for (std::size_t k = 0; k < row_work_.size(); ++k) {
@@ -211,8 +212,7 @@ void IslandNewton<N>::assemble(IslandSystem& system) const {
         const IslandPoint& p = island_.points[k];
         const PointWork& w = work_[k];
         if (k == 0 || !blocks.is_of(p)) blocks.begin(p);
-        const ConePoint<N> at = nearest_on_cone(w.z, w.cone);
-        if (at.pushes) blocks.add(p, PointStiffness(p, w.stiffness, w.z, at));
+        if (w.at.pushes) blocks.add(p, PointStiffness(p, w.stiffness, w.z, w.at));
         if (k + 1 == work_.size() || !blocks.is_of(island_.points[k + 1])) blocks.add_to(system);
     }
     for (std::size_t k = 0; k < row_work_.size(); ++k) {

@@ -31,8 +31,7 @@ public:
         for (std::size_t k = 0; k < work_.size(); ++k) {
             IslandPoint& p = island_.points[k];
             const PointWork& w = work_[k];
-            const ContactVector<N> more =
-                nearest_on_cone(w.z, w.cone).impulse - p.impulse.template head<N>();
+            const ContactVector<N> more = w.at.impulse - p.impulse.template head<N>();
             p.impulse.template head<N>() += more;
             push(p, more);
         }
@@ -49,6 +48,7 @@ private:
         ContactVector<N> direction;  ///< of u, along which the line is searched
         ContactVector<N> impulse;    ///< λ₀
         ContactCone cone;
+        ConePoint<N> at;  ///< of the cone, nearest to z
     };
     /// Of a row, what a search along a line needs, side by side.
     struct RowWork {
