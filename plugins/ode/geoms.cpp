@@ -53,6 +53,7 @@ void place(dGeomID geom, const Part& part, Vec3 centre) {
     const dMatrix3 rows = {x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0};
     const Vec3 p = to_outer(f, centre);
     dGeomSetPosition(geom, p.x, p.y, p.z);
+    if (part.shape.kind == ShapeKind::sphere) return;  // looks the same however it is turned
     dGeomSetRotation(geom, rows);
 }
 
