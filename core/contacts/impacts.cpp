@@ -75,12 +75,15 @@ double Impacts::find_hits(const World& world, const std::vector<BodyPair>& pairs
 }
 
 void Impacts::find_near(const World& world, const std::vector<BodyPair>& pairs, double reach) {
+    const auto is_within = [&](const BodyPair& pair) {
+        if (reach >= kOutOfReach) return true;
+        for (std::uint32_t k = pair.first; k < pair.first + pair.count; ++k)
+            if (gap_in_substep(world.contacts, k) <= reach) return true;
+        return false;
+    };
     near_.clear(), place_.clear();
     for (std::size_t p = 0; p < pairs.size(); ++p) {
-        double gap = kOutOfReach;
-        for (std::uint32_t k = pairs[p].first; k < pairs[p].first + pairs[p].count; ++k)
-            gap = std::min(gap, gap_in_substep(world.contacts, k));
-        if (gap > reach && !hit_[p]) continue;
+        if (!hit_[p] && !is_within(pairs[p])) continue;
         near_.push_back(pairs[p]);
         place_.push_back(static_cast<std::uint32_t>(p));
     }
