@@ -359,22 +359,26 @@ void IslandSolver::sweep(bool forwards) {
                   [&](IslandPoint& p) { turns_ ? sweep<6>(p) : sweep<3>(p); });
 }
 
-/// The normal first, then the rest within its bounds.
+/// The normal first, then the rest within its bounds. What is open and stays so bears nothing, and
+/// there is much of that.
 template <int N>
 void IslandSolver::sweep(IslandPoint& p) {
     const auto lack_now = [&]() -> ContactVector<N> {
         return p.wanted.template head<N>() - velocity_of<N>(p, island_.velocity);
     };
     auto impulse = p.impulse.template head<N>();
+    const auto add = [&](const ContactVector<N>& more) {
+        if (more.isZero(0)) return;
+        impulse += more;
+        push(p, more);
+    };
     ContactVector<N> more = ContactVector<N>::Zero();
     more[0] = std::clamp(p.mass_normal * lack_now()[0], -impulse[0], p.cone.most - impulse[0]);
-    impulse[0] += more[0];
-    push(p, more);
+    add(more);
+    if (impulse.isZero(0)) return;
     ContactVector<N> lack = lack_now();
     lack[0] = 0;
-    more = lawful_step(ContactVector<N>(impulse), lack, p.mass, p.cone) - impulse;
-    impulse += more;
-    push(p, more);
+    add(lawful_step(ContactVector<N>(impulse), lack, p.mass, p.cone) - impulse);
 }
 
 }  // namespace plumb
