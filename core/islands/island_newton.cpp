@@ -71,6 +71,7 @@ class PairBlocks {
 public:
     void begin(const IslandPoint& p) {
         a_ = p.a, b_ = p.b;
+        is_empty_ = true;
         along_.setZero();
         upper_a_.setZero(), upper_b_.setZero();
         about_a_.setZero(), about_b_.setZero(), about_both_.setZero();
@@ -78,6 +79,7 @@ public:
     bool is_of(const IslandPoint& p) const { return p.a == a_ && p.b == b_; }
 
     void add(const IslandPoint& p, const PointStiffness& k) {
+        is_empty_ = false;
         along_ += k.along;
         const auto upper = [&](const Vector3d& arm) -> Matrix3d {
             return k.mixed - times_skew(k.along, arm);
@@ -98,6 +100,7 @@ public:
     }
 
     void add_to(IslandSystem& system) const {
+        if (is_empty_) return;
         const auto block = [&](const Matrix3d& left, const Matrix3d& right, const Matrix3d& about) {
             Matrix6d m;
             m << along_, right, left.transpose(), about;
@@ -111,6 +114,7 @@ public:
 
 private:
     std::uint32_t a_ = kImmovable, b_ = kImmovable;
+    bool is_empty_ = true;  // none of the points pushes
     Matrix3d along_, upper_a_, upper_b_, about_a_, about_b_, about_both_;
 };
 
@@ -186,7 +190,7 @@ double IslandNewton<N>::find_downhill() {
         PointWork& w = work_[k];
         w.at = nearest_on_cone(w.z, w.cone);
         const ContactVector<N> more = w.at.impulse - w.impulse;
-        add_impulse(island_.points[k], more, downhill_);
+        if (!more.isZero(0)) add_impulse(island_.points[k], more, downhill_);
     }
     for (std::size_t k = 0; k < row_work_.size(); ++k) {
         const RowWork& w = row_work_[k];
