@@ -11,10 +11,14 @@
 /// of a, each from −π to π. Three: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual
 /// basis of the three axes x_b, y′, z_a). Cone and twist: R = swing · twist about x (§5 names
 /// neither).
+///
+/// The same pose has many angles: whole turns more or less, and of three angles also α + π, π − β,
+/// γ + π. Where there are limits, those count that are the least outside of them: a joint that may
+/// turn from 0 to 3 about an axis and has turned by 3.3 is 0.3 too far, not 2.98 short of 0.
 #pragma once
 
 #include "math/rotation.h"
-#include "scene/joint.h"
+#include "world/joints.h"
 
 #include <algorithm>
 #include <array>
@@ -50,9 +54,10 @@ inline JointCoordinate coordinate_distance(const JointPose& p) {
     return q;
 }
 
+inline constexpr double kHalfTurn = 3.141592653589793;  ///< [rad]
+
 /// The angle from −π to π of a sine and a cosine.
 inline double full_angle(double sine, double cosine) {
-    constexpr double kHalfTurn = 3.141592653589793;
     const double first = angle_of(std::abs(sine), std::abs(cosine));
     const double upper = cosine < 0 ? kHalfTurn - first : first;
     return sine < 0 ? -upper : upper;
@@ -82,13 +87,38 @@ inline JointCoordinate coordinate_of_two(const JointPose& p, int locked, int k) 
     return {full_angle(s, c), Vector3d::Zero(), turn, turn};
 }
 
+/// Of an angle and what is whole turns beside it: the one that is the least outside of a range.
+inline double angle_within(const TurnRange& range, double angle) {
+    if (!std::isfinite(range.lower) || !std::isfinite(range.upper)) return angle;
+    const double middle = 0.5 * (range.lower + range.upper);
+    return angle + 2 * kHalfTurn * std::round((middle - angle) / (2 * kHalfTurn));
+}
+
+using EulerAngles = std::array<double, 3>;  ///< α, β, γ
+using TurnRanges = std::array<TurnRange, 3>;
+
+/// Each angle where it is the least outside of its range; by how much they are so altogether [rad].
+inline double bring_within(const TurnRanges& ranges, EulerAngles& angles) {
+    double outside = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const TurnRange& range = ranges[k];
+        double& q = angles[k];
+        q = angle_within(range, q);
+        outside += std::max({0.0, range.lower - q, q - range.upper});
+    }
+    return outside;
+}
+
 /// α, β or γ (k = 0, 1, 2) of R_bᵀ R_a = R_x(α) R_y(β) R_z(γ).
-inline JointCoordinate coordinate_euler(const JointPose& p, int k) {
+inline JointCoordinate coordinate_euler(const JointPose& p, int k, const TurnRanges& ranges = {}) {
     const Matrix3d r = p.axes_b.transpose() * p.axes_a;
     const double sine = std::clamp(r(0, 2), -1.0, 1.0);
     const double cosine = std::sqrt(r(0, 0) * r(0, 0) + r(0, 1) * r(0, 1));
-    const double angle[3] = {full_angle(-r(1, 2), r(2, 2)), full_angle(sine, cosine),
-                             full_angle(-r(0, 1), r(0, 0))};
+    EulerAngles angles = {full_angle(-r(1, 2), r(2, 2)), full_angle(sine, cosine),
+                          full_angle(-r(0, 1), r(0, 0))};
+    EulerAngles over = {angles[0] + kHalfTurn, kHalfTurn - angles[1], angles[2] + kHalfTurn};
+    const double outside = bring_within(ranges, angles);
+    const bool is_over = bring_within(ranges, over) < outside;
     const Vector3d first = p.axes_b.col(0), last = p.axes_a.col(2);
     const Vector3d middle = last.cross(first).normalized();
     // Where first and last fall together the outer two angles are one, and only their sum counts.
@@ -96,7 +126,9 @@ inline JointCoordinate coordinate_euler(const JointPose& p, int k) {
     Vector3d dual = axes[(k + 1) % 3].cross(axes[(k + 2) % 3]);
     const double volume = axes[k].dot(dual);
     dual = volume > 1e-3 ? Vector3d(dual / volume) : axes[k];
-    return {angle[k], Vector3d::Zero(), dual, dual};
+    if (!is_over) return {angles[k], Vector3d::Zero(), dual, dual};
+    if (k == 1) dual = -dual;
+    return {over[k], Vector3d::Zero(), dual, dual};
 }
 
 /// The twist about the x axes of a cone-and-twist, from −π to π.
@@ -118,19 +150,25 @@ inline JointCoordinate coordinate_swing(const JointPose& p) {
     return {full_angle(sine, cosine), Vector3d::Zero(), turn, turn};
 }
 
-/// The coordinate of a joint along or about an axis that it leaves free.
-inline JointCoordinate joint_coordinate(JointKind kind, const std::array<bool, kJointAxes>& locked,
-                                        const JointPose& p, std::uint32_t axis) {
-    if (kind == JointKind::distance) return coordinate_distance(p);
+/// The coordinate of a joint along or about an axis that it leaves free; of a single turn without
+/// whole ones.
+inline JointCoordinate joint_coordinate(const Joint& joint, const JointPose& p,
+                                        std::uint32_t axis) {
+    if (joint.kind == JointKind::distance) return coordinate_distance(p);
     if (axis <= kAlongZ) return coordinate_along(p, p.axes_b.col(axis));
-    if (kind == JointKind::cone_twist)
-        return axis == kTurnX ? coordinate_twist(p) : coordinate_swing(p);
     const int k = static_cast<int>(axis - kTurnX);
+    const auto within = [&](JointCoordinate q) {
+        q.value = angle_within(joint.ranges[axis - kTurnX], q.value);
+        return q;
+    };
+    if (joint.kind == JointKind::cone_twist)
+        return k == 0 ? within(coordinate_twist(p)) : coordinate_swing(p);
     int count = 0, which = 0;  // of the turns that are locked
     for (int i = 0; i < 3; ++i)
-        if (locked[kTurnX + i]) ++count, which = i;
+        if (joint.locked[kTurnX + i]) ++count, which = i;
     if (count == 2) return coordinate_about(p, k);
-    return count == 1 ? coordinate_of_two(p, which, k) : coordinate_euler(p, k);
+    return count == 1 ? within(coordinate_of_two(p, which, k))
+                      : coordinate_euler(p, k, joint.ranges);
 }
 
 }  // namespace plumb

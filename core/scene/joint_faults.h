@@ -65,6 +65,18 @@ private:
         expect(!(spec_.lower > spec_.upper), "limits", "the lower limit is above the upper one");
         expect(spec_.lower < any && spec_.upper > -any, "limits",
                "limits must be numbers, or infinite to their own side");
+        const bool wide = spec_.upper - spec_.lower > 2 * kGreatestSwing;
+        expect(!(wide && std::isfinite(spec_.upper - spec_.lower) && is_one_of_several_turns()),
+               "limits",
+               "the angles of several free turns are known but for whole turns, so limits more "
+               "than a whole turn apart never hold; leave them out");
+    }
+
+    bool is_one_of_several_turns() const {
+        if (axis_ < kTurnX || joint_.kind == JointKind::distance) return false;
+        const JointAxes locked = locked_axes(joint_);
+        return !(locked[kTurnX] || locked[kTurnY]) || !(locked[kTurnY] || locked[kTurnZ]) ||
+               !(locked[kTurnZ] || locked[kTurnX]);
     }
 
     void check_strengths() {

@@ -77,7 +77,7 @@ JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::u
 JointCoordinate joint_coordinate(const World& world, std::uint32_t index, std::uint32_t axis,
                                  const JointPose& pose) {
     const Joint& joint = world.joints.joints[index];
-    JointCoordinate q = joint_coordinate(joint.kind, joint.locked, pose, axis);
+    JointCoordinate q = joint_coordinate(joint, pose, axis);
     if (axis == single_turn(joint))
         q.value += kWholeTurn * std::round((world.joints.turn[index] - q.value) / kWholeTurn);
     return q;

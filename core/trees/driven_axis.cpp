@@ -7,13 +7,18 @@
 
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 namespace plumb {
 namespace {
 
 /// An impulse beyond its bounds by less than this share of it is within them.
 constexpr double kImpulseRounding = 1e-9;
+
+/// What an angle and its rate differ by within a substep, at the most [rad].
+constexpr double kFarthestTurn = 1;
+
+/// The most that an angle changes by per angle that a body turns by, where it is looked ahead.
+constexpr double kSteepest = 4;
 
 /// No axis is taken to be heavier than its two bodies by more than this.
 constexpr double kLeastShare = 1e-6;
@@ -58,12 +63,16 @@ double DrivenAxis::rate_of(const Velocity<double>& a, const Velocity<double>& b)
     return q_.along.dot(a.v - b.v) + q_.turn_a.dot(a.w) - q_.turn_b.dot(b.w);
 }
 
-/// Where one turn alone is free, its axis stays; angles of three jump.
+/// Where one turn alone is free, its axis stays. Where angles can hardly be told, as a cone's twist
+/// once it has swung right over or any of three angles about axes, their rates change too fast to
+/// be followed.
 void DrivenAxis::find_limit(const World& world) {
     const JointDrive& leader = world.joints.drives[first_];
     const Joint& joint = world.joints.joints[leader.joint];
-    limit_ = -1, kind_ = joint.kind, axis_ = leader.axis, locked_ = joint.locked;
-    if (!(response_ > 0) || (axis_ >= kTurnX && free_turns(joint) != 2)) return;
+    limit_ = -1, joint_ = &joint, axis_ = leader.axis;
+    const bool looks_ahead = axis_ < kTurnX || free_turns(joint) == 2 ||
+                             (joint.kind == JointKind::cone_twist && q_.turn_a.norm() < kSteepest);
+    if (!(response_ > 0) || !looks_ahead) return;
     for (std::uint32_t i = first_; i < last_; ++i)
         if (world.joints.drives[i].kind == DriveKind::limit)
             limit_ = static_cast<int>(i - first_), pose_ = joint_pose(world.bodies, joint);
@@ -81,9 +90,10 @@ double DrivenAxis::turned(const Velocity<double>& a, const Velocity<double>& b) 
     move(a, pose_.centre_a, pose_.point_a, pose_.axes_a, end.point_a, end.axes_a);
     move(b, pose_.centre_b, pose_.point_b, pose_.axes_b, end.point_b, end.axes_b);
     end.centre_a = end.centre_b = Vector3d::Zero();
-    const double value = joint_coordinate(kind_, locked_, end, axis_).value;
-    const double more = value - q_.value - h_ * rate_of(a, b);
-    return axis_ < kTurnX ? more : std::remainder(more, 2 * std::numbers::pi);
+    const double more = joint_coordinate(*joint_, end, axis_).value - q_.value - h_ * rate_of(a, b);
+    if (axis_ < kTurnX) return more;
+    const double less = std::remainder(more, 2 * kHalfTurn);
+    return std::abs(less) < kFarthestTurn ? less : 0;
 }
 
 /// Steps at the limit follow it.

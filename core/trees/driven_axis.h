@@ -74,8 +74,7 @@ private:
     AxisDrive drive_;
     DriveRow rows_[AxisDrive::kMostRows];  ///< of which that is made
     int limit_ = -1;                       ///< the limit's, where the axis turns
-    JointKind kind_{};
-    std::array<bool, kJointAxes> locked_{};
+    const Joint* joint_ = nullptr;
     std::uint32_t axis_ = 0;
     JointPose pose_;  ///< at the start
     JointCoordinate q_;

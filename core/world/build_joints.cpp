@@ -52,6 +52,8 @@ public:
         joint.kind = spec_.kind;
         joint.a = spec_.body_a, joint.b = spec_.body_b;
         joint.locked = locked_axes(spec_);
+        for (std::size_t k = 0; k < 3; ++k)
+            joint.ranges[k] = {spec_.axes[kTurnX + k].lower, spec_.axes[kTurnX + k].upper};
         joint.frame_a = in_body(joint.a, spec_.anchor);
         joint.frame_b = in_body(joint.b, spec_.anchor_b.value_or(spec_.anchor));
         check_lever(joint, joint.a, joint.frame_a.position);

@@ -14,6 +14,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace plumb {
@@ -21,6 +22,12 @@ namespace plumb {
 /// Two directions that a rotational row keeps perpendicular, each in its body's frame.
 struct PerpendicularPair {
     Vector3d u = Vector3d::Zero(), w = Vector3d::Zero();
+};
+
+/// Between which limits a joint's turn about an axis stays [rad].
+struct TurnRange {
+    double lower = -std::numeric_limits<double>::infinity();
+    double upper = std::numeric_limits<double>::infinity();
 };
 
 /// Into how many parts a tree of joints divides its substeps; kept by the first joint of the tree.
@@ -41,6 +48,7 @@ struct Joint {
     Placement frame_a, frame_b;  ///< joint frame → body; → world where b is kNoIndex
     std::array<bool, kJointAxes> locked{};
     std::array<PerpendicularPair, 3> turns{};        ///< of the locked rotations about x y z
+    std::array<TurnRange, 3> ranges{};               ///< of the free ones
     double length = 0;                               ///< that a distance joint keeps [m]
     double compliance = 0, angular_compliance = 0;   ///< [m/N], [rad/(N m)]
     double breaking_force = 0, breaking_torque = 0;  ///< [N], [N m]

@@ -128,6 +128,53 @@ TEST(JointCoordinates, OfEulerAnglesAreThoseOfTheRotation) {
     }
 }
 
+/// Limits hold where they were drawn, also beyond half a turn and where the middle angle passes
+/// 90°.
+TEST(JointCoordinates, OfLimitedTurnsAreThoseWithinTheirLimits) {
+    Random random(9);
+    for (int i = 0; i < 300; ++i) {
+        Joint ball;
+        Vector3d angles;
+        for (int k = 0; k < 3; ++k) {
+            const double middle = random.number(-4, 4);
+            ball.ranges[k] = {middle - 1.2, middle + 1.2};
+            angles[k] = middle + random.number(-1.2, 1.2);
+        }
+        if (std::abs(std::cos(angles.y())) < 0.05) continue;
+        JointPose pose{};
+        pose.axes_b = random_rotation(random).toRotationMatrix();
+        const auto turn_by = [&](const Vector3d& by) {
+            const Quaterniond r = exponential_map({by.x(), 0, 0}) *
+                                  exponential_map({0, by.y(), 0}) * exponential_map({0, 0, by.z()});
+            pose.axes_a = pose.axes_b * r.toRotationMatrix();
+        };
+        for (int k = 0; k < 3; ++k) {
+            turn_by(angles);
+            const JointCoordinate q = joint_coordinate(ball, pose, kTurnX + k);
+            EXPECT_NEAR(q.value, angles[k], 1e-10);
+            // the rate of one angle alone is that angle's
+            turn_by(angles + kTiny * Vector3d::Unit(k));
+            const Matrix3d before = pose.axes_a;
+            turn_by(angles - kTiny * Vector3d::Unit(k));
+            const Matrix3d step = (before - pose.axes_a) * before.transpose() / (2 * kTiny);
+            const Vector3d w(step(2, 1), step(0, 2), step(1, 0));
+            for (int other = 0; other < 3; ++other) {
+                turn_by(angles);
+                const JointCoordinate p = joint_coordinate(ball, pose, kTurnX + other);
+                EXPECT_NEAR(p.turn_a.dot(w), other == k ? 1 : 0, 1e-4);
+            }
+        }
+        Joint universal;
+        universal.kind = JointKind::universal, universal.locked[kTurnZ] = true;
+        Joint cone;
+        cone.kind = JointKind::cone_twist;
+        for (Joint* joint : {&universal, &cone}) joint->ranges[0] = ball.ranges[0];
+        turn_by({angles.x(), 0, 0});
+        EXPECT_NEAR(joint_coordinate(universal, pose, kTurnX).value, angles.x(), 1e-10);
+        EXPECT_NEAR(joint_coordinate(cone, pose, kTurnX).value, angles.x(), 1e-10);
+    }
+}
+
 /// A universal joint that turns right over leaves neither of its angles behind.
 TEST(JointCoordinates, OfTwoTurnsGoFromMinusPiToPi) {
     Random random(8);

@@ -2,10 +2,10 @@
 /// What swings on joints: chains under any load, trees of all kinds, and pendulums over a minute.
 /// The step is drawn, or one of the two usual ones: 10 ms with 5 + 5 iterations, and 1/60 s with 20
 /// substeps of 1 + 1.
+#include "support/swings.h"
 #include "support/pendulum.h"
 #include "support/random.h"
 #include "support/scenes.h"
-#include "support/swings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,6 +144,55 @@ TEST_P(Swings, RandomTreesStayTogetherOrSaySo) {
     }
     EXPECT_LE(unsolved, 4) << "of 1000";
     EXPECT_EQ(open, 0) << "of 1000";
+}
+
+/// A tree of up to eight bodies on cones and twists, thrown about.
+Scene tree_on_cones(Precision precision, Random& random) {
+    Scene s = still_scene(precision);
+    s.settings.joints = JointMethod::tree;
+    const std::uint32_t count = 1 + random.below(8);
+    const double scale = std::pow(10, random.number(-0.7, 0.7));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const std::uint32_t parent = i > 0 ? random.below(i) : kNoIndex;
+        const Vector from = i > 0 ? s.bodies[parent].placement.position : Vector::Zero();
+        const Vector to = from + scale * Vector(random.number(-0.15, 0.15), -0.2, 0.05);
+        BodySpec& body = add_body(s, box(0.02 * scale, 0.08 * scale, 0.03 * scale), to);
+        body.mass = random.below(3) == 0 ? std::pow(10, random.number(0, 2)) : 1;
+        body.angular_velocity = random.vector(random.number(0, 10) / std::sqrt(scale));
+        JointSpec joint;
+        joint.kind = JointKind::cone_twist;
+        joint.body_a = i, joint.body_b = parent;
+        joint.anchor = 0.5 * (from + to), joint.frame = random.rotation();
+        joint.axes[kTurnX].lower = -random.number(0.05, 1.2);
+        joint.axes[kTurnX].upper = random.number(0.05, 1.2);
+        joint.axes[kTurnY].lower = 0, joint.axes[kTurnY].upper = random.number(0.05, 2);
+        s.joints.push_back(joint);
+    }
+    return s;
+}
+
+TEST_P(Swings, ConesAndTwistsHoldWhatWhirls) {
+    Random random(12);
+    for (int draw = 0; draw < 40; ++draw) {
+        Scene s = tree_on_cones(GetParam(), random);
+        if (draw % 3 == 1) use_fine_steps(s.settings);
+        if (draw % 3 == 2) {
+            s.settings.substeps = kSubsteps[random.below(9)];
+            s.settings.dt = random.number(0.002, 0.02);
+        }
+        SCOPED_TRACE(testing::Message()
+                     << "tree " << draw << ", " << s.settings.dt << " s x " << s.settings.substeps);
+        Simulation simulation(s, colliders(), "reference");
+        double passed = 0;
+        while (simulation.time() < 1) {
+            const StepReport report = simulation.step();
+            ASSERT_TRUE(report.finite);
+            if (report.unsolved_trees + report.coarse_trees + report.gaping.joints > 0) continue;
+            for (const double error : joint_turn_errors(simulation.world()))
+                passed = std::max(passed, error);
+        }
+        EXPECT_LT(passed, 2e-4);
+    }
 }
 
 /// A rod, two rods, or a light rod with a ball, on joints of one kind, let go at 30°.

@@ -105,6 +105,10 @@ TEST(JointFaults, AreToldWhereTheyAre) {
     };
     hinge("limits", [](A& a) { a.lower = 1, a.upper = 0; });
     hinge("limits", [](A& a) { a.lower = kInfinite; });
+    const auto never_holds = [](A& a) { a.lower = -4, a.upper = 3; };
+    expect_bad_axis(JointKind::universal, kTurnY, "limits", never_holds);
+    expect_bad_axis(JointKind::ball, kTurnZ, "limits", never_holds);
+    expect_bad_axis(JointKind::cone_twist, kTurnX, "limits", never_holds);
     hinge("spring/stiffness", [](A& a) { a.stiffness = -1; });
     hinge("spring/damping", [](A& a) { a.damping = kInfinite; });
     hinge("friction", [](A& a) { a.friction = -1; });
