@@ -3,6 +3,7 @@
 /// The step is drawn, or one of the two usual ones: 10 ms with 5 + 5 iterations, and 1/60 s with 20
 /// substeps of 1 + 1.
 #include "support/swings.h"
+#include "support/draw_settings.h"
 #include "support/pendulum.h"
 #include "support/random.h"
 #include "support/scenes.h"
@@ -176,10 +177,7 @@ TEST_P(Swings, ConesAndTwistsHoldWhatWhirls) {
     for (int draw = 0; draw < 40; ++draw) {
         Scene s = tree_on_cones(GetParam(), random);
         if (draw % 3 == 1) use_fine_steps(s.settings);
-        if (draw % 3 == 2) {
-            s.settings.substeps = kSubsteps[random.below(9)];
-            s.settings.dt = random.number(0.002, 0.02);
-        }
+        if (draw % 3 == 2) draw_steps(s.settings, random, {0.002, 0.02, 40, 1, 10});
         SCOPED_TRACE(testing::Message()
                      << "tree " << draw << ", " << s.settings.dt << " s x " << s.settings.substeps);
         Simulation simulation(s, colliders(), "reference");
