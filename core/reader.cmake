@@ -4,14 +4,19 @@ find_package(tinyobjloader REQUIRED CONFIG)
 find_package(urdfdom REQUIRED CONFIG)
 
 add_library(plumb_reader STATIC
-  reader/bodies.cpp reader/chain.cpp reader/couplings.cpp reader/height_fields.cpp
-  reader/joint_drives.cpp reader/joint_kinds.cpp reader/joints.cpp reader/materials.cpp reader/mobile.cpp reader/names.cpp
-  reader/node.cpp reader/obj.cpp reader/parse.cpp reader/polyhedra.cpp reader/reader.cpp reader/repeat.cpp
-  reader/file_text.cpp reader/read_decompose.cpp reader/read_torus.cpp reader/read_robots.cpp reader/stl.cpp reader/robots/add_robot.cpp reader/robots/formats.cpp reader/robots/joints.cpp reader/robots/loads.cpp
+  reader/bodies.cpp reader/chain.cpp reader/materials.cpp reader/mobile.cpp reader/names.cpp reader/read_robots.cpp
+  reader/reader.cpp reader/repeat.cpp reader/rotation.cpp reader/schema.cpp reader/settings.cpp
+  reader/deformables/attachments.cpp reader/deformables/ball.cpp reader/deformables/deformable_shapes.cpp
+  reader/deformables/deformables.cpp reader/deformables/element_files.cpp reader/deformables/lattice.cpp
+  reader/deformables/links.cpp reader/deformables/plain_shapes.cpp reader/deformables/tube.cpp
+  reader/joints/couplings.cpp reader/joints/joint_drives.cpp reader/joints/joint_kinds.cpp reader/joints/joints.cpp
+  reader/json/node.cpp reader/json/parse.cpp reader/json/table.cpp reader/json/types.cpp
+  reader/meshes/file_text.cpp reader/meshes/gmsh.cpp reader/meshes/obj.cpp reader/meshes/stl.cpp
+  reader/meshes/tetgen.cpp
+  reader/robots/add_robot.cpp reader/robots/formats.cpp reader/robots/joints.cpp reader/robots/loads.cpp
   reader/robots/shapes.cpp reader/robots/tree.cpp reader/robots/urdf.cpp
-  reader/attachments.cpp reader/ball.cpp reader/deformable_shapes.cpp reader/deformables.cpp reader/element_files.cpp reader/lattice.cpp
-  reader/links.cpp reader/gmsh.cpp reader/plain_shapes.cpp reader/tetgen.cpp reader/tube.cpp
-  reader/rotation.cpp reader/schema.cpp reader/settings.cpp reader/shapes.cpp reader/table.cpp reader/types.cpp)
+  reader/shapes/height_fields.cpp reader/shapes/polyhedra.cpp reader/shapes/read_decompose.cpp
+  reader/shapes/read_torus.cpp reader/shapes/shapes.cpp)
 add_library(plumb::reader ALIAS plumb_reader)
 set_target_properties(plumb_reader PROPERTIES EXPORT_NAME reader)
 target_link_libraries(plumb_reader

@@ -2,7 +2,7 @@
 /// Deformables in a line each, for programs that make their own scenes (scene/build.h has bodies).
 #pragma once
 
-#include "reader/deformable_shapes.h"
+#include "reader/deformables/deformable_shapes.h"
 #include "scene/scene.h"
 
 #include <utility>

@@ -40,7 +40,7 @@ const Table<ChainDraft>& chain_table() {
     return table;
 }
 
-const Table<ChainDraft>& entry_table() {
+const Table<ChainDraft>& chain_entry_table() {
     static const Table<ChainDraft> table = {special<ChainDraft>(
         "chain", reference_to("chain"),
         [](ChainDraft& c, const Node& node) { read_object(c, node, chain_table()); },
@@ -76,7 +76,7 @@ void check_lengths(const ChainDraft& chain, double length, const Node& node) {
 
 void read_chain(SceneDraft& draft, const Node& node) {
     ChainDraft chain{&draft, {}};
-    read_object(chain, node, entry_table());
+    read_object(chain, node, chain_entry_table());
     const Node keys = node.at("chain");
     const Eigen::Vector3d step = (chain.to - chain.from) / chain.links;
     check_lengths(chain, step.norm(), keys);
@@ -101,7 +101,7 @@ void read_chain(SceneDraft& draft, const Node& node) {
 
 void add_chain_definitions(SchemaJson& definitions) {
     definitions["chain"] = object_schema(chain_table());
-    definitions["chain_entry"] = object_schema(entry_table());
+    definitions["chain_entry"] = object_schema(chain_entry_table());
 }
 
 }  // namespace plumb::reader

@@ -8,8 +8,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "reader/json/table.h"
 #include "reader/reader.h"
-#include "reader/table.h"
 
 namespace plumb::reader {
 

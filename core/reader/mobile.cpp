@@ -51,7 +51,7 @@ const Table<MobileDraft>& mobile_table() {
     return table;
 }
 
-const Table<MobileDraft>& entry_table() {
+const Table<MobileDraft>& mobile_entry_table() {
     static const Table<MobileDraft> table = {special<MobileDraft>(
         "mobile", reference_to("mobile"),
         [](MobileDraft& m, const Node& node) { read_object(m, node, mobile_table()); },
@@ -92,7 +92,7 @@ void add_rod(SceneDraft& draft, const BodySpec& rod, std::uint32_t parent,
 
 void read_mobile(SceneDraft& draft, const Node& node) {
     MobileDraft mobile{&draft, {}};
-    read_object(mobile, node, entry_table());
+    read_object(mobile, node, mobile_entry_table());
     const Node keys = node.at("mobile");
     const auto shape = static_cast<std::uint32_t>(draft.scene.geometries.size());
     const auto root = static_cast<std::uint32_t>(draft.scene.bodies.size());
@@ -123,7 +123,7 @@ void read_mobile(SceneDraft& draft, const Node& node) {
 
 void add_mobile_definitions(SchemaJson& definitions) {
     definitions["mobile"] = object_schema(mobile_table());
-    definitions["mobile_entry"] = object_schema(entry_table());
+    definitions["mobile_entry"] = object_schema(mobile_entry_table());
 }
 
 }  // namespace plumb::reader

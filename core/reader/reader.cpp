@@ -3,8 +3,8 @@
 #include "reader/reader.h"
 
 #include "reader/drafts.h"
-#include "reader/file_text.h"
-#include "reader/parse.h"
+#include "reader/json/parse.h"
+#include "reader/meshes/file_text.h"
 #include "reader/robots/formats.h"
 #include "reader/robots/robot.h"
 

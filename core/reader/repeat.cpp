@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "reader/lists.h"
+#include "reader/json/lists.h"
 
 namespace plumb::reader {
 

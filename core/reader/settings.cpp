@@ -6,7 +6,7 @@
 #include <string>
 
 #include "reader/drafts.h"
-#include "reader/parse.h"
+#include "reader/json/parse.h"
 
 namespace plumb::reader {
 

@@ -59,9 +59,10 @@ inline std::optional<DeformableFault> poisson_fault(const DeformableSpec& spec) 
     const double ratio = spec.elasticity.poissons_ratio;
     const bool solid = spec.kind == DeformableKind::solid;
     if (ratio > -1 && ratio < (solid ? 0.5 : 1)) return std::nullopt;
-    return DeformableFault{"/poisson", std::string("must be above -1 and below ") +
-                                           (solid ? "0.5 in a solid" : "1") + ", but is " +
-                                           std::to_string(ratio)};
+    char text[80];
+    std::snprintf(text, sizeof text, "must be above -1 and below %s, but is %g",
+                  solid ? "0.5 in a solid" : "1", ratio);
+    return DeformableFault{"/poisson", text};
 }
 
 inline std::optional<DeformableFault> numbers_fault(const DeformableSpec& spec,

@@ -4,7 +4,7 @@
 /// heap for it to fly apart. What the lid has left behind comes to rest as it would without it.
 /// PLUMB_PRESSED_BODIES says how many (60).
 #include "geometry/mass_properties.h"
-#include "reader/polyhedra.h"
+#include "reader/shapes/polyhedra.h"
 #include "support/binned_heap.h"
 #include "support/environment.h"
 

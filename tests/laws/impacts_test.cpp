@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 /// Impacts of bodies that touch one another: energy, momentum, and what stays where e = 0. The step
 /// is drawn, or one of the two usual ones.
-#include "reader/polyhedra.h"
+#include "reader/shapes/polyhedra.h"
 #include "support/random.h"
 #include "support/scenes.h"
 

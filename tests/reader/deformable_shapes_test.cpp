@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Shapes of deformables against the formulas of their areas and volumes.
-#include "reader/deformable_shapes.h"
+#include "reader/deformables/deformable_shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/obj.h"
+#include "reader/meshes/obj.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/stl.h"
+#include "reader/meshes/stl.h"
 
 #include <bit>
 #include <limits>

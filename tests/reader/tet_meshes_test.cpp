@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reader/tet_meshes.h"
+#include "reader/meshes/tet_meshes.h"
 
 #include "geometry/bad_shape.h"
 #include "math/random.h"
@@ -257,6 +257,25 @@ TEST_F(TetMeshes, ThatComeApartAtSeamsAreMergedWithARemark) {
     EXPECT_EQ(scene.remarks, (std::vector<std::string>{
                                  "deformable \"pear\": 8 points of \"mesh.obj\" lay where others "
                                  "did and became one with them"}));
+}
+
+TEST_F(TetMeshes, ThatArePartlyInsideOutAreTurnedOverWithARemark) {
+    file("mesh.msh", kOld);
+    EXPECT_EQ(
+        scene_with("solid", R"({"file": "mesh.msh"})").remarks,
+        (std::vector<std::string>{
+            "deformable \"pear\": tetrahedra of \"mesh.msh\" that were inside out were turned "
+            "over: 1 of 2, the first is number 1, counted from 0"}));
+    // all the other way about is only another program's order
+    for (const char* corners : {"1 2 3 4", "2 1 3 4"}) {
+        file("mesh.ele", std::string("1 4\n1 ") + corners + "\n");
+        file("mesh.node", "4 3 0 0\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n");
+        const Scene scene = scene_with("solid", R"({"file": "mesh.node"})");
+        EXPECT_TRUE(scene.remarks.empty());
+        EXPECT_GT(deformable_faults::relative_extent(scene.deformables[0].points,
+                                                     scene.deformables[0].tetrahedra[0]),
+                  0);
+    }
 }
 
 TEST_F(TetMeshes, ThatAreDamagedAreMeshesOrErrors) {

@@ -2,7 +2,7 @@
 /// Arches of loose stones, and what statics says of them.
 #pragma once
 
-#include "reader/polyhedra.h"
+#include "reader/shapes/polyhedra.h"
 #include "support/scenes.h"
 
 #include <vector>

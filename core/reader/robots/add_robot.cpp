@@ -7,12 +7,12 @@
 #include <set>
 
 #include "geometry/overlap.h"
+#include "reader/json/types.h"
 #include "reader/robots/formats.h"
 #include "reader/robots/joints.h"
 #include "reader/robots/loads.h"
 #include "reader/robots/shapes.h"
 #include "reader/robots/tree.h"
-#include "reader/types.h"
 #include "scene/build.h"
 
 namespace plumb {

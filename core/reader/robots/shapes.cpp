@@ -9,9 +9,9 @@
 
 #include "geometry/bad_shape.h"
 #include "geometry/decompose.h"
-#include "reader/obj.h"
-#include "reader/polyhedra.h"
-#include "reader/stl.h"
+#include "reader/meshes/obj.h"
+#include "reader/meshes/stl.h"
+#include "reader/shapes/polyhedra.h"
 #include "scene/build.h"
 
 namespace plumb::reader {

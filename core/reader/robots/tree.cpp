@@ -6,7 +6,7 @@
 #include <set>
 
 #include "math/principal.h"
-#include "reader/types.h"
+#include "reader/json/types.h"
 #include "scene/nearest.h"
 
 namespace plumb::reader {

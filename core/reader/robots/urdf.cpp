@@ -14,7 +14,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reader/file_text.h"
+#include "reader/meshes/file_text.h"
 #include "scene/build.h"
 
 namespace plumb::reader {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 /// Loose stones that statics says must stand.
-#include "reader/polyhedra.h"
+#include "reader/shapes/polyhedra.h"
 #include "study/cases/list.h"
 #include "study/cases/parts.h"
 #include "study/contact_forces.h"
