@@ -16,11 +16,9 @@ set(PLUMB_CORE_SOURCES
   solve/island_residuals.cpp solve/joint_residual.cpp solve/patch_tree.cpp
   trees/driven_axis.cpp trees/holder_path.cpp trees/joint_closing.cpp trees/tree_energy.cpp trees/tree_holder.cpp trees/tree_nodes.cpp
   trees/tree_path.cpp trees/tree_piece.cpp trees/tree_solver.cpp
-  islands/driven_islands.cpp islands/exact_impacts.cpp islands/island.cpp islands/island_choice.cpp
-  islands/island_closing.cpp islands/island_columns.cpp islands/island_demands.cpp islands/island_energy.cpp
-  islands/island_group.cpp islands/island_loan.cpp islands/island_newton.cpp islands/island_obstacles.cpp
-  islands/island_residual.cpp islands/island_solver.cpp islands/island_substep.cpp islands/island_system.cpp
-  islands/large_islands.cpp
+  islands/driven_islands.cpp islands/exact_impacts.cpp islands/island_choice.cpp islands/island_closing.cpp islands/island_columns.cpp islands/island_demands.cpp
+  islands/island_energy.cpp islands/island_group.cpp islands/island_loan.cpp islands/island_newton.cpp islands/island_obstacles.cpp
+  islands/island_residual.cpp islands/island_solver.cpp islands/island_substep.cpp islands/island_system.cpp islands/large_islands.cpp
   step/air.cpp step/break_joints.cpp step/divided_trees.cpp step/fast_joints.cpp step/integrate.cpp step/move_particles.cpp step/move_scripted.cpp
   step/remember_velocities.cpp step/row_solver.cpp step/sleeping.cpp step/step.cpp step/stretched_links.cpp step/tear.cpp step/whirled_trees.cpp
   measure/contact_comparison.cpp measure/contact_patch.cpp measure/deformation.cpp measure/measure.cpp measure/mesh_resolution.cpp

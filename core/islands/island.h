@@ -8,7 +8,6 @@
 /// (constraints/contact_cone.h).
 #pragma once
 
-#include "constraints/connector.h"
 #include "constraints/contact_cone.h"
 #include "ties/solved_body.h"
 #include "ties/tie_row.h"
@@ -32,14 +31,10 @@ struct IslandPoint {
     double mass;            ///< least effective mass in any direction [kg]
     double mass_normal;     ///< effective mass along the normal [kg]
     double length;          ///< ℓ, from the least effective inertia: mass ℓ² [m]
-    Vector6d answer;        ///< velocities that an impulse of 1 along the normal makes here [1/kg]
     ContactCone cone;
     Vector6d wanted;   ///< velocities that the substep asks of the island's bodies [m/s]
     Vector6d impulse;  ///< [N s]
 };
-
-/// Of a point between bodies of these inverse masses, whose frame and arms stand.
-void find_masses(IslandPoint& p, const InverseMass<double>& of_a, const InverseMass<double>& of_b);
 
 /// What a solver reads and improves. Velocities are (v, ω) and follow the impulses.
 struct Island {
@@ -49,36 +44,24 @@ struct Island {
     std::span<TieRow> rows;
 };
 
-/// How a point of a moves against that of b where bodies move by `v`, world frame [m/s], [rad/s].
-struct PointMotion {
-    Vector3d along = Vector3d::Zero(), about = Vector3d::Zero();
-
-    PointMotion(const IslandPoint& p, std::span<const Vector6d> v) {
-        if (p.a != kImmovable) {
-            about += v[p.a].tail<3>();
-            along += v[p.a].head<3>() + cross<double>(v[p.a].tail<3>(), p.arm_a);
-        }
-        if (p.b != kImmovable) {
-            about -= v[p.b].tail<3>();
-            along -= v[p.b].head<3>() + cross<double>(v[p.b].tail<3>(), p.arm_b);
-        }
-    }
-};
-
-/// The same about the axes of the point; velocities of turning are 0 where nothing resists it, and
-/// left out with N = 3.
-template <int N>
-inline ContactVector<N> velocity_of(const IslandPoint& p, const PointMotion& motion) {
-    ContactVector<N> all = ContactVector<N>::Zero();
-    all.template head<3>() = p.frame.transpose() * motion.along;
-    if constexpr (N == 6)
-        if (p.cone.turns())
-            all.template tail<3>() = p.length * (p.frame.transpose() * motion.about);
-    return all;
-}
+/// Velocities at a point, of bodies that move by `v`; those of turning are 0 where nothing resists
+/// it, and left out with N = 3.
 template <int N = 6>
 inline ContactVector<N> velocity_of(const IslandPoint& p, std::span<const Vector6d> v) {
-    return velocity_of<N>(p, PointMotion(p, v));
+    Vector3d u = Vector3d::Zero(), w = u;
+    if (p.a != kImmovable) {
+        w += v[p.a].tail<3>();
+        u += v[p.a].head<3>() + cross<double>(v[p.a].tail<3>(), p.arm_a);
+    }
+    if (p.b != kImmovable) {
+        w -= v[p.b].tail<3>();
+        u -= v[p.b].head<3>() + cross<double>(v[p.b].tail<3>(), p.arm_b);
+    }
+    ContactVector<N> all = ContactVector<N>::Zero();
+    all.template head<3>() = p.frame.transpose() * u;
+    if constexpr (N == 6)
+        if (p.cone.turns()) all.template tail<3>() = p.length * (p.frame.transpose() * w);
+    return all;
 }
 
 /// What friction bears at a point, on a, in the world's frame [N s].

@@ -9,9 +9,16 @@
 #include "ties/joint_geometry.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plumb {
 namespace {
+
+/// A bound on the greatest eigenvalue: the greatest sum of a row.
+double largest(const Symmetric3<double>& k) {
+    const double xy = std::abs(k.xy), xz = std::abs(k.xz), yz = std::abs(k.yz);
+    return std::max({k.xx + xy + xz, k.yy + xy + yz, k.zz + xz + yz});
+}
 
 bool does_stick(const IslandPoint& p) {
     return plumb::does_stick(p.impulse[0], p.impulse.segment<2>(1).squaredNorm(), p.cone.friction);
@@ -72,11 +79,15 @@ void IslandColumns::take_geometry(const World& world) {
 void IslandColumns::take_geometry(const World& world, IslandPoint& p, std::uint32_t contact) const {
     const Contact& c = world.contacts.found[contact];
     const SurfacePair& surface = world.surface_pair(c.a, c.b);
-    const Vector3d at = world.contacts.point[contact];
+    const Vector3d n = p.frame.col(0), at = world.contacts.point[contact];
     p.arm_a = at - world.bodies.position[c.a];
     p.arm_b = at - world.bodies.position[c.b];
+    const InverseMass<double> of_a = inverse_mass(world.bodies, c.a),
+                              of_b = inverse_mass(world.bodies, c.b);
+    p.mass = 1 / largest(point_response(of_a, p.arm_a) + point_response(of_b, p.arm_b));
+    p.mass_normal = 1 / (response(of_a, p.arm_a, n, n) + response(of_b, p.arm_b, n, n));
     const double before = p.length;
-    find_masses(p, inverse_mass(world.bodies, c.a), inverse_mass(world.bodies, c.b));
+    p.length = std::sqrt(1 / (largest(of_a.inertia + of_b.inertia) * p.mass));
     p.impulse.tail<3>() *= before / p.length;  // the torque stays
     p.cone = {};
     if (has_friction) p.cone.friction = surface.friction;

@@ -363,23 +363,22 @@ void IslandSolver::sweep(bool forwards) {
 /// there is much of that.
 template <int N>
 void IslandSolver::sweep(IslandPoint& p) {
+    const auto lack_now = [&]() -> ContactVector<N> {
+        return p.wanted.template head<N>() - velocity_of<N>(p, island_.velocity);
+    };
     auto impulse = p.impulse.template head<N>();
-    const PointMotion motion(p, island_.velocity);
-    const double approach = p.wanted[0] - p.frame.col(0).dot(motion.along);
-    if (approach <= 0 && impulse.isZero(0)) return;
-
-    ContactVector<N> next = impulse;
-    next[0] = std::clamp(impulse[0] + p.mass_normal * approach, 0.0, p.cone.most);
-    if (!next.isZero(0)) {
-        ContactVector<N> lack = p.wanted.template head<N>() - velocity_of<N>(p, motion);
-        lack -= (next[0] - impulse[0]) * p.answer.template head<N>();
-        lack[0] = 0;
-        next = lawful_step(next, lack, p.mass, p.cone);
-    }
-    const ContactVector<N> more = next - impulse;
-    if (more.isZero(0)) return;
-    impulse = next;
-    push(p, more);
+    const auto add = [&](const ContactVector<N>& more) {
+        if (more.isZero(0)) return;
+        impulse += more;
+        push(p, more);
+    };
+    ContactVector<N> more = ContactVector<N>::Zero();
+    more[0] = std::clamp(p.mass_normal * lack_now()[0], -impulse[0], p.cone.most - impulse[0]);
+    add(more);
+    if (impulse.isZero(0)) return;
+    ContactVector<N> lack = lack_now();
+    lack[0] = 0;
+    add(lawful_step(ContactVector<N>(impulse), lack, p.mass, p.cone) - impulse);
 }
 
 }  // namespace plumb
