@@ -8,13 +8,14 @@
 /// impulse acts at the same point p_a, g_b = (p_a − x_b) × e. About: e = 0 and g_a = g_b = g, for a
 /// joint only feels how the bodies turn against each other. One free axis: the whole angle about
 /// it. Two, with the third locked: R_bᵀ R_a is a turn about an axis of b and then one about an axis
-/// of a, each from −π to π. Three: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual
+/// of a. Three: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual
 /// basis of the three axes x_b, y′, z_a). Cone and twist: R = swing · twist about x (§5 names
 /// neither).
 ///
 /// The same pose has many angles: whole turns more or less, and of three angles also α + π, π − β,
-/// γ + π. Where there are limits, those count that are the least outside of them: a joint that may
-/// turn from 0 to 3 about an axis and has turned by 3.3 is 0.3 too far, not 2.98 short of 0.
+/// γ + π. They go from −π to π; but between limits those count that are the least outside of them:
+/// a joint that may turn from 0 to 3 about an axis and has turned by 3.3 is 0.3 too far, not 2.98
+/// short of 0. One limit alone tells nothing, for each angle is beyond it but for whole turns.
 #pragma once
 
 #include "math/rotation.h"
@@ -87,9 +88,13 @@ inline JointCoordinate coordinate_of_two(const JointPose& p, int locked, int k) 
     return {full_angle(s, c), Vector3d::Zero(), turn, turn};
 }
 
+inline bool has_both(const TurnRange& range) {
+    return std::isfinite(range.lower) && std::isfinite(range.upper);
+}
+
 /// Of an angle and what is whole turns beside it: the one that is the least outside of a range.
 inline double angle_within(const TurnRange& range, double angle) {
-    if (!std::isfinite(range.lower) || !std::isfinite(range.upper)) return angle;
+    if (!has_both(range)) return angle;
     const double middle = 0.5 * (range.lower + range.upper);
     return angle + 2 * kHalfTurn * std::round((middle - angle) / (2 * kHalfTurn));
 }
@@ -97,11 +102,13 @@ inline double angle_within(const TurnRange& range, double angle) {
 using EulerAngles = std::array<double, 3>;  ///< α, β, γ
 using TurnRanges = std::array<TurnRange, 3>;
 
-/// Each angle where it is the least outside of its range; by how much they are so altogether [rad].
+/// Each angle where it is the least outside of its range, if that has two ends; by how much they
+/// are so altogether [rad].
 inline double bring_within(const TurnRanges& ranges, EulerAngles& angles) {
     double outside = 0;
     for (std::size_t k = 0; k < 3; ++k) {
         const TurnRange& range = ranges[k];
+        if (!has_both(range)) continue;
         double& q = angles[k];
         q = angle_within(range, q);
         outside += std::max({0.0, range.lower - q, q - range.upper});
@@ -116,7 +123,9 @@ inline JointCoordinate coordinate_euler(const JointPose& p, int k, const TurnRan
     const double cosine = std::sqrt(r(0, 0) * r(0, 0) + r(0, 1) * r(0, 1));
     EulerAngles angles = {full_angle(-r(1, 2), r(2, 2)), full_angle(sine, cosine),
                           full_angle(-r(0, 1), r(0, 0))};
-    EulerAngles over = {angles[0] + kHalfTurn, kHalfTurn - angles[1], angles[2] + kHalfTurn};
+    const auto wrapped = [](double q) { return angle_within({-kHalfTurn, kHalfTurn}, q); };
+    EulerAngles over = {wrapped(angles[0] + kHalfTurn), wrapped(kHalfTurn - angles[1]),
+                        wrapped(angles[2] + kHalfTurn)};
     const double outside = bring_within(ranges, angles);
     const bool is_over = bring_within(ranges, over) < outside;
     const Vector3d first = p.axes_b.col(0), last = p.axes_a.col(2);

@@ -53,7 +53,7 @@ constexpr double kLightShare = 30;
 /// Sweeps of an island that is swept, there and back.
 constexpr int kSweeps = 20;
 
-/// The same of what rounds did not solve, again and again while they leave less than a share of it.
+/// The same before or after rounds, again and again while they leave less than a share of it.
 constexpr int kSweepsOn = 5;
 constexpr double kLeadsOn = 0.5;
 
@@ -174,8 +174,9 @@ void IslandSolver::restore_state() {
         island_.rows[k].impulse = kept_row_impulse_[k];
 }
 
-/// Whether the island stands, or sweeps find how it slides: friction that slips is all but known,
-/// and rounds may swing to and fro with it until they have taken all that they may.
+/// Whether the island stands, or sweeps find how it slides, if nothing ties it: friction that slips
+/// is all but known, and rounds may swing to and fro with it until they have taken all that they
+/// may.
 bool IslandSolver::stands_or_slides(IslandReport& report, double speed) {
     if (effort_ != IslandEffort::full) return false;
     const bool slides = most_shift() >= kFast * speed;
@@ -249,8 +250,9 @@ bool IslandSolver::minimise(IslandNewton<N>& newton, double softness, double bef
     return true;
 }
 
-/// What rounds do not find: a ball that rolls off a wall slips along it as fast as it leaves, and
-/// its shift swings to and fro for ever. Sweeps find that, or all is as it was.
+/// What rounds do not find, or should not look for: a ball that rolls off a wall slips along it as
+/// fast as it leaves, and its shift swings to and fro for ever. Sweeps find that, or all is as it
+/// was.
 void IslandSolver::sweep_on(IslandReport& report, double enough) {
     double before = kInfinity;
     while (report.residual > enough && report.residual < kLeadsOn * before) {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -65,11 +66,11 @@ private:
         expect(!(spec_.lower > spec_.upper), "limits", "the lower limit is above the upper one");
         expect(spec_.lower < any && spec_.upper > -any, "limits",
                "limits must be numbers, or infinite to their own side");
-        const bool wide = spec_.upper - spec_.lower > 2 * kGreatestSwing;
+        const bool wide = spec_.upper - spec_.lower >= 2 * std::numbers::pi;
         expect(!(wide && std::isfinite(spec_.upper - spec_.lower) && is_one_of_several_turns()),
                "limits",
-               "the angles of several free turns are known but for whole turns, so limits more "
-               "than a whole turn apart never hold; leave them out");
+               "the angles of several free turns are known but for whole turns, so limits a whole "
+               "turn apart or more never hold; leave them out");
     }
 
     bool is_one_of_several_turns() const {

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace plumb {
 namespace {
 
@@ -173,6 +175,23 @@ TEST(JointCoordinates, OfLimitedTurnsAreThoseWithinTheirLimits) {
         EXPECT_NEAR(joint_coordinate(universal, pose, kTurnX).value, angles.x(), 1e-10);
         EXPECT_NEAR(joint_coordinate(cone, pose, kTurnX).value, angles.x(), 1e-10);
     }
+}
+
+/// One limit alone tells nothing of which angles a pose has: the middle one, which a spring may
+/// hold, does not jump by half a turn with the first.
+TEST(JointCoordinates, OneLimitAloneChoosesNoAngles) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    for (const TurnRange& range : {TurnRange{-0.5, kNone}, TurnRange{-kNone, 0.5}})
+        for (const double angle : {-3.1, -2.0, 0.3, 2.0, 3.1}) {
+            Joint ball;
+            ball.ranges[0] = range;
+            JointPose pose{};
+            pose.axes_b.setIdentity();
+            pose.axes_a = exponential_map({angle, 0, 0}).toRotationMatrix();
+            EXPECT_NEAR(joint_coordinate(ball, pose, kTurnX).value, angle, 1e-10);
+            EXPECT_NEAR(joint_coordinate(ball, pose, kTurnY).value, 0, 1e-10);
+            EXPECT_NEAR(joint_coordinate(ball, pose, kTurnZ).value, 0, 1e-10);
+        }
 }
 
 /// A universal joint that turns right over leaves neither of its angles behind.

@@ -259,6 +259,17 @@ void check_mesh(const Draft& draft, const Node& node) {
     if (node.has("points") && !node.has(wanted)) node.fail("\"" + wanted + "\" are missing");
 }
 
+Eigen::Vector3d middle_of(const Elements& elements, std::size_t tetrahedron) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const std::uint32_t i : elements.tetrahedra[tetrahedron]) sum += elements.points[i];
+    return sum / 4;
+}
+
+std::string place_of(const Eigen::Vector3d& p) {
+    return "(" + short_number(p.x()) + ", " + short_number(p.y()) + ", " + short_number(p.z()) +
+           ")";
+}
+
 void read_mesh_shape(Draft& draft, const Node& node) {
     MeshKeys mesh;
     read_object(mesh, node, mesh_table());
@@ -275,8 +286,8 @@ void read_mesh_shape(Draft& draft, const Node& node) {
         if (!file.inverted.empty())
             remark("tetrahedra of \"" + mesh.file + "\" that were inside out were turned over: " +
                    std::to_string(file.inverted.size()) + " of " +
-                   std::to_string(file.elements.tetrahedra.size()) + ", the first is number " +
-                   std::to_string(file.inverted.front()) + ", counted from 0");
+                   std::to_string(file.elements.tetrahedra.size()) + ", the first about " +
+                   place_of(middle_of(file.elements, file.inverted.front())));
         mesh.elements = std::move(file.elements);
     }
     require_room(*draft.scene, static_cast<double>(mesh.elements.points.size()), node);
