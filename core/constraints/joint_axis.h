@@ -8,9 +8,8 @@
 /// impulse acts at the same point p_a, g_b = (p_a − x_b) × e. About: e = 0 and g_a = g_b = g, for a
 /// joint only feels how the bodies turn against each other. One free axis: the whole angle about
 /// it. Two, with the third locked: R_bᵀ R_a is a turn about an axis of b and then one about an axis
-/// of a. Three: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual
-/// basis of the three axes x_b, y′, z_a). Cone and twist: R = swing · twist about x (§5 names
-/// neither).
+/// of a. Three: R_bᵀ R_a = R_x(α) R_y(β) R_z(γ), whose rates are ω · (the dual basis of the three
+/// axes x_b, y′, z_a). Cone and twist: R = swing · twist about x (§5 names neither).
 ///
 /// The same pose has many angles: whole turns more or less, and of three angles also α + π, π − β,
 /// γ + π. They go from −π to π; but between limits those count that are the least outside of them:

@@ -2,13 +2,14 @@
 /// The words of a mesh's text file, with the line that each stands in.
 #pragma once
 
-#include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "geometry/bad_shape.h"
+#include "reader/meshes/words.h"
 
 namespace plumb::reader {
 
@@ -62,14 +63,12 @@ private:
 
     template <class T>
     T number(const std::string& wanted, const std::string& kind) {
-        std::string_view text = word(wanted);
-        if (text.starts_with('+')) text.remove_prefix(1);
-        T value = 0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size())
+        const std::string_view text = without_plus(word(wanted));
+        const std::optional<T> value = number_of<T>(text);
+        if (!value)
             fail("there must be " + kind + wanted + ", not \"" + std::string(text.substr(0, 40)) +
                  "\"");
-        return value;
+        return *value;
     }
 
     std::string text_;
